@@ -5,40 +5,40 @@
 
 namespace bdpt {
 
-/// Arbitrary output variables (AOVs), which are measured beside radiance. Those of surfaces belong
-/// to the first surface that a camera ray meets, averaged over the rays of the image, and do not
-/// depend on the integrator.
+/// Arbitrary output variables (AOVs), measured beside radiance. Surface AOVs describe the first
+/// surface that a camera ray hits, averaged over the rays of a pixel, and are independent of the
+/// integrator.
 enum class Aov : std::uint8_t {
     /// Linear base colour in [0, 1]; rays that leave the scene count as black.
     albedo,
-    /// Unit shading normal in world space, on the side of the camera; rays that leave count as 0.
+    /// Unit shading normal in world space, facing the camera; rays that leave count as 0.
     normal,
-    /// Distance along the camera's axis [m], of rays that meet a surface; infinite without any.
+    /// Distance along the camera's axis [m], averaged over rays that hit a surface; infinite if
+    /// none does.
     depth,
-    /// In world space [m], of rays that meet a surface; 0 without any.
+    /// Position in world space [m], averaged over rays that hit a surface; 0 if none does.
     position,
-    /// Samples of the pixel.
+    /// Number of samples of the pixel.
     sample_count,
-    /// The variance of the pixel's value [nit^2], estimated from its two half images; infinite when
-    /// one is empty.
+    /// Variance of the pixel's value [nit^2], estimated from its two half images; infinite if one
+    /// is empty.
     variance,
-    /// Share of rays that meet a surface; with `shadow` the opacity of that is added.
+    /// Fraction of rays that hit a surface; with `shadow`, the opacity of the shadow is added.
     alpha,
-    /// Opacity of the scene's black shadow on a level ground (`FilmOptions::ground_height`), which
-    /// rays meet that meet no surface: their share, times the share of the ground's direct light
-    /// that the scene takes away. In [0, 1]; 0, to the bit, where nothing is in the way of any
-    /// light.
+    /// Opacity of the scene's black shadow on a horizontal ground (`FilmOptions::ground_height`):
+    /// the fraction of rays that hit the ground and no surface, times the fraction of the ground's
+    /// direct light that the scene blocks. In [0, 1]; exactly 0 where nothing blocks any light.
     shadow,
-    /// Shares of rays that meet each object, by the names of instances: Cryptomatte (`IdFilm`).
+    /// Fractions of rays that hit each object, by the names of instances: Cryptomatte (`IdFilm`).
     object,
-    /// The same by the names of materials.
+    /// Fractions of rays that hit each material, by name: Cryptomatte (`IdFilm`).
     material,
-    /// `alpha` without the shadow and without the noise of surfaces that let a share of the light
-    /// through: along each ray it is what all of them take away, not one met by chance.
+    /// `alpha` without the shadow and without the noise of partially transparent surfaces: the
+    /// total opacity along each ray, not that of one hit chosen at random.
     opacity,
 };
 
-/// A set of them.
+/// A set of AOVs.
 class AovSet {
 public:
     constexpr AovSet() = default;
@@ -61,7 +61,7 @@ private:
     std::uint32_t bits_ = 0;
 };
 
-/// Does it have AOVs that are images of ids?
+/// Tests whether `aovs` includes AOVs that are id images.
 [[nodiscard]] constexpr bool asks_for_ids(AovSet aovs)
 {
     return aovs.contains(Aov::object) || aovs.contains(Aov::material);

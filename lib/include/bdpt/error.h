@@ -7,14 +7,15 @@
 
 namespace bdpt {
 
-/// Why a call failed. The values are the exit codes of the `bdpt` command, so they never change.
+/// The reason for a failure. The values are the exit codes of the `bdpt` command, so they never
+/// change.
 enum class ErrorCode {
-    internal = 1,       ///< a defect of the program or of a library below it
-    usage = 2,          ///< options that make no sense
-    not_found = 3,      ///< an input that is missing or cannot be read
-    invalid_input = 4,  ///< an input that breaks its format or a limit
-    unsupported = 5,    ///< an input that requires a feature we do not have
-    output = 6,         ///< a result that cannot be written
+    internal = 1,       ///< defect of the program or of a library it uses
+    usage = 2,          ///< invalid or contradictory options
+    not_found = 3,      ///< input that is missing or cannot be read
+    invalid_input = 4,  ///< input that violates its format or a limit
+    unsupported = 5,    ///< input that requires an unsupported feature
+    output = 6,         ///< output that cannot be written
     out_of_memory = 7,
 };
 

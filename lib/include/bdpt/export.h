@@ -1,4 +1,4 @@
 #pragma once
 
-/// Marks what users of the shared library may call or catch; everything else stays inside.
+/// Exports symbols that users of the shared library may call or catch; all others are hidden.
 #define BDPT_EXPORT [[gnu::visibility("default")]]

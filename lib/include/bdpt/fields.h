@@ -10,9 +10,8 @@
 
 namespace bdpt {
 
-// The fields of a description, such as `MaterialDesc`, are listed once, beside it. What is done
-// with all of them (checks, hashes) goes through that list; a list that misses a field does not
-// compile.
+// The fields of a description, such as `MaterialDesc`, are listed once, beside it. Operations on
+// all of them (checks, hashes) use that list; a list that misses a field does not compile.
 
 /// The range of a number, or of each channel of a colour: [low, high], or (low, high].
 struct Limits {
@@ -20,19 +19,19 @@ struct Limits {
     float high = 0.0f;
     bool low_is_excluded = false;
 
-    /// [0, 1]
+    /// Returns [0, 1].
     [[nodiscard]] static constexpr Limits unit() { return {.low = 0.0f, .high = 1.0f}; }
-    /// Any finite number.
+    /// Returns the range of all finite numbers.
     [[nodiscard]] static constexpr Limits finite()
     {
         return at_least(-std::numeric_limits<float>::max());
     }
-    /// And finite.
+    /// Returns the range of finite numbers of at least `low`.
     [[nodiscard]] static constexpr Limits at_least(float low)
     {
         return {.low = low, .high = std::numeric_limits<float>::max()};
     }
-    /// Infinity included.
+    /// Returns the range of numbers above `low`, including infinity.
     [[nodiscard]] static constexpr Limits above(float low)
     {
         return {
@@ -40,7 +39,7 @@ struct Limits {
     }
 };
 
-/// A field, and its name for people.
+/// A field and its human-readable name.
 template <typename Desc, typename T>
 struct Field {
     std::string_view name;
@@ -49,7 +48,7 @@ struct Field {
 template <typename Desc, typename T>
 Field(const char*, T Desc::*) -> Field<Desc, T>;
 
-/// A field that is a number or a colour, in whatever surroundings it is valid.
+/// A numeric or colour field whose valid range does not depend on other fields.
 template <typename Desc, typename T>
 struct Number {
     std::string_view name;
@@ -61,13 +60,13 @@ Number(const char*, T Desc::*, Limits) -> Number<Desc, T>;
 
 /// The effect of an option's value.
 enum class OptionRole : std::uint8_t {
-    image,    ///< bits of the image: part of the identity of a render
-    samples,  ///< which samples are rendered, each of which is what it is without the others
-    limit,    ///< what is refused
-    machine,  ///< how the machine does the work
+    image,    ///< affects bits of the image: part of the identity of a render
+    samples,  ///< selects samples, each of which is independent of the others
+    limit,    ///< limits the accepted values
+    machine,  ///< affects how the machine does the work
 };
 
-/// The values that a number may have: [low, high], or (low, high].
+/// The valid range of a number: [low, high], or (low, high].
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
@@ -82,15 +81,17 @@ struct Range {
 /// The documentation and range of an option. Its command-line flag is "--" and its name, with '-'
 /// for '_'.
 struct OptionInfo {
-    Range range{};             ///< of numbers
-    std::string_view value{};  ///< what stands for the value in help texts, such as "N"; for words
-                               ///< with names (`enumerators`): empty
-    std::string_view help{};   ///< what it does; empty: no option of commands
-    std::string_view otherwise{};  ///< the default in words; empty: the default's own text
+    Range range{};  ///< valid range of numbers
+    /// Placeholder of the value in help texts, such as "N"; empty for enumerations with names
+    /// (`enumerators`).
+    std::string_view value{};
+    std::string_view help{};  ///< description of the effect; empty: not an option of commands
+    /// The default in words; empty: the default is printed as a value.
+    std::string_view otherwise{};
     OptionRole role = OptionRole::image;
 };
 
-/// A field that users choose.
+/// A field that users can set.
 template <typename Desc, typename T>
 struct OptionField {
     std::string_view name;
@@ -104,18 +105,18 @@ OptionField(const char*, T Desc::*, OptionInfo) -> OptionField<Desc, T>;
 template <typename Desc>
 inline constexpr std::nullptr_t fields = nullptr;
 
-/// Has `T`, which may be a reference or const, a list of its fields?
+/// Tests whether `T`, which may be a reference or const, has a list of its fields.
 template <typename T>
 concept HasFields =
     !std::is_null_pointer_v<std::remove_cv_t<decltype(fields<std::remove_cvref_t<T>>)>>;
 
-/// Is `Desc` an aggregate whose first members have these types?
+/// Tests whether `Desc` is an aggregate whose first members have these types.
 template <typename Desc, typename... T>
 concept BeginsWith = requires(T... values)
 {
     Desc{std::move(values)...};
 };
-/// Does it have more members than those?
+/// Tests whether `Desc` has more members than those.
 template <typename Desc, typename... T>
 concept HasMoreThan = requires(T... values)
 {
@@ -134,7 +135,8 @@ constexpr bool is_same_member(const A& a, const B& b)
     }
 }
 
-/// How many times a member is in the list, over all members: as many as there are if each is once.
+/// Returns the number of pairs of equal members in the list: the number of members if each is
+/// listed once.
 template <typename... Members>
 constexpr std::size_t count_pairs(Members... members)
 {
@@ -146,7 +148,8 @@ constexpr std::size_t count_pairs(Members... members)
 
 }  // namespace detail
 
-/// A list of fields (`Field`, `Number`, `OptionField`) that has all of those of `Desc`, each once.
+/// Returns a list of fields (`Field`, `Number`, `OptionField`) that has all of those of `Desc`,
+/// each once.
 template <template <typename, typename> typename... Kinds, typename Desc, typename... T>
 [[nodiscard]] consteval std::tuple<Kinds<Desc, T>...> all_fields(Kinds<Desc, T>... list)
 {

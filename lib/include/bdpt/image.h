@@ -15,7 +15,7 @@ struct Image {
     int height = 0;
     std::vector<Rgb> pixels;  ///< width * height
 
-    /// `x` in [0, width), `y` in [0, height).
+    /// Returns a pixel; `x` in [0, width), `y` in [0, height).
     [[nodiscard]] const Rgb& at(int x, int y) const
     {
         return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -23,16 +23,16 @@ struct Image {
     }
 };
 
-/// Named channels of an image, as files of many layers hold them.
+/// Named channels of an image, as in multi-layer files.
 struct Layer {
     std::string name;      ///< "normal"; empty: the main layer
     std::string channels;  ///< one letter each, in the order of the values: "XYZ"
     int width = 0;
     int height = 0;
-    std::vector<float> values;  ///< row-major from the top left, the channels of a pixel together
+    std::vector<float> values;  ///< row-major from the top left, channels interleaved
 };
 
-/// How the values of an image are stored.
+/// Storage type of an image's values.
 enum class TexelType : std::uint8_t {
     unorm8,   ///< 255 is 1
     unorm16,  ///< 65535 is 1
@@ -40,16 +40,16 @@ enum class TexelType : std::uint8_t {
     float32,
 };
 
-/// Bytes of one value.
+/// Returns the bytes per value.
 [[nodiscard]] constexpr std::size_t size_of(TexelType type) noexcept
 {
     return type == TexelType::unorm8 ? 1 : type == TexelType::float32 ? 4 : 2;
 }
 
-/// Row-major texels as they are stored in an image file; row 0 is the top row. Whether integers
-/// are sRGB-encoded is decided by the material slot that refers to the image; alpha, halves and
-/// floats are linear. Halves and floats must be finite and not negative; what is above 1 counts in
-/// emission only.
+/// Row-major texels as stored in an image file; row 0 is the top row. The material slot that refers
+/// to the image decides whether integers are sRGB-encoded; alpha, halves and floats are linear.
+/// Halves and floats must be finite and not negative; values above 1 have an effect in emission
+/// only.
 struct TexelImage {
     int width = 0;
     int height = 0;

@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <vector>
 
-/// The paths and strategies of one sample of a pixel, for those who write or study integrators.
+/// The paths and strategies of one sample of a pixel, for those who develop or study integrators.
 namespace bdpt {
 
-/// Which sample of which pixel.
+/// Identifies one sample of one pixel.
 struct PixelSample {
     int x = 0;               ///< [pixels], from the left
     int y = 0;               ///< [pixels], from the top
@@ -22,68 +22,71 @@ struct PixelSample {
 /// The kind of place where a vertex lies.
 enum class InspectedKind : std::uint8_t {
     lens,
-    light,  ///< where a light path starts
+    light,  ///< start of a light path
     surface,
-    medium,    ///< where a medium scatters
-    infinite,  ///< on a light at infinity
+    medium,    ///< scattering event in a medium
+    infinite,  ///< point on a light at infinity
 };
 
 /// A vertex of a subpath.
 struct InspectedVertex {
     InspectedKind kind = InspectedKind::surface;
-    Vec3 position{0.0f};      ///< world [m]; infinite: the unit direction towards the light
-    Vec3 normal{0.0f};        ///< unit shading normal of surfaces; else zero
-    Rgb beta{1.0f};           ///< throughput up to here, its own scattering not included
-    Rgb emission{0.0f};       ///< radiance towards the vertex before, of camera paths [nit]
-    float pdf_fwd = 0.0f;     ///< density with which the walk made it [1/m^2]; infinite: [1/sr]
-    bool is_light = false;    ///< emits
-    bool connectible = true;  ///< has a lobe that is not delta
-    bool scattered_delta = false;  ///< the walk left through a delta lobe
+    /// Position in world space [m]; for `infinite`: the unit direction towards the light.
+    Vec3 position{0.0f};
+    Vec3 normal{0.0f};   ///< unit shading normal of surfaces; else zero
+    Rgb beta{1.0f};      ///< throughput up to this vertex, excluding its own scattering
+    Rgb emission{0.0f};  ///< camera paths: radiance emitted towards the previous vertex [nit]
+    /// Density with which the walk sampled the vertex [1/m^2]; for `infinite`: [1/sr].
+    float pdf_fwd = 0.0f;
+    bool is_light = false;         ///< the vertex emits
+    bool connectible = true;       ///< the vertex has a lobe that is not delta
+    bool scattered_delta = false;  ///< the walk left the vertex through a delta lobe
 };
 
 /// The contribution of one strategy to the pixel.
 struct InspectedContribution {
     Strategy strategy;
     int light_path = 0;         ///< as in `PathContribution`
-    Rgb unweighted{0.0f};       ///< if it were alone [nit]
-    float weight = 1.0f;        ///< by MIS
-    std::vector<float> shares;  ///< as in `PathContribution`; empty if they are not known
+    Rgb unweighted{0.0f};       ///< contribution if this were the only strategy [nit]
+    float weight = 1.0f;        ///< MIS weight
+    std::vector<float> shares;  ///< as in `PathContribution`; empty if unknown
 };
 
-/// All of a sample.
+/// All data of a sample.
 struct InspectedSample {
-    Vec2 raster{0.0f};  ///< where its camera path goes through the film [pixels]
-    float time = 0.0f;  ///< in [0, 1] while the shutter is open
+    Vec2 raster{0.0f};  ///< raster position of its camera path on the film [pixels]
+    float time = 0.0f;  ///< time within the shutter interval, in [0, 1]
     std::vector<InspectedVertex> camera_path;
-    /// Its own; empty for integrators without, and where all pixels share light paths.
+    /// The sample's own light path; empty for integrators without one, and where all pixels share
+    /// light paths.
     std::vector<InspectedVertex> light_path;
-    /// Only those that count for this pixel: its light path may be seen in others.
+    /// Only the contributions to this pixel: its light path may also contribute to others.
     std::vector<InspectedContribution> contributions;
-    Rgb value{0.0f};  ///< their weighted sum [nit]
+    Rgb value{0.0f};  ///< weighted sum of the contributions [nit]
 };
 
-/// The sample as render() takes it, with the same random numbers; `options.sampling.samples` are
-/// not looked at. IntegratorKind::automatic is what it chooses. Throws `Error` as render() does,
-/// and usage for a pixel that is not in the image or for vcm, whose merged paths are of no
+/// Traces the sample as render() does, with the same random numbers; ignores
+/// `options.sampling.samples`. IntegratorKind::automatic is resolved as usual. Throws `Error` like
+/// render(), and usage for a pixel outside of the image or for vcm, whose merged paths belong to no
 /// strategy.
 [[nodiscard]] BDPT_EXPORT InspectedSample inspect_sample(const Scene& scene,
                                                          const CameraDesc& camera,
                                                          const RenderOptions& options,
                                                          const PixelSample& sample);
 
-/// The directions from a vertex, as next-event estimation and BSDF sampling see them: images in the
-/// form of environments, +y at the top, -z in the centre. Values are means over the pixels.
+/// The directions around a vertex, as next-event estimation and BSDF sampling see them: images in
+/// the format of environments, +y at the top, -z in the centre. Values are means over the pixels.
 struct DirectionMaps {
-    Image incident;    ///< radiance that comes straight from lights that have an area [nit]
+    Image incident;    ///< radiance that arrives directly from lights that have an area [nit]
     Image scattering;  ///< BSDF times cosine [1/sr]
-    Image product;     ///< of these two: what is to be sampled
-    Image bsdf_pdf;    ///< density of BSDF sampling [1/sr]; without its delta lobes
+    Image product;     ///< product of `incident` and `scattering`: the integrand to be sampled
+    Image bsdf_pdf;    ///< density of BSDF sampling [1/sr], excluding delta lobes
     Image light_pdf;   ///< density of one light sample [1/sr], where its light is visible
 };
 
-/// Those of vertex `vertex` of the camera path of the sample: 1 is the first surface. `width`
-/// [pixels], even and [2, 8192], is twice the height. Throws `Error` as `inspect_sample`, and usage
-/// when the path has no such surface with lobes that are not delta.
+/// Returns the maps of vertex `vertex` of the sample's camera path: 1 is the first surface. `width`
+/// [pixels], even and in [2, 8192], is twice the height. Throws `Error` like `inspect_sample`, and
+/// usage if the path has no such surface with lobes that are not delta.
 [[nodiscard]] BDPT_EXPORT DirectionMaps inspect_directions(const Scene& scene,
                                                            const CameraDesc& camera,
                                                            const RenderOptions& options,

@@ -5,23 +5,23 @@
 
 namespace bdpt {
 
-/// Instruction set that rays are traced with. Images are equal to the bit for the same one only,
-/// as the rounding of hits differs between them: pin it where machines of several kinds work on one
+/// Instruction set for ray tracing. Images are bit-identical only for the same instruction set,
+/// because hits are rounded differently by each: pin it when machines of several kinds work on one
 /// image (docs/decisions/0022-pinned-isa.md).
 enum class Isa : std::uint8_t {
-    native,  ///< the best one of this CPU
-    sse2,    ///< of every x86-64 CPU
+    native,  ///< the best one that this CPU supports
+    sse2,    ///< available on every x86-64 CPU
     sse4_2,
     avx,
     avx2,
     avx512,
 };
 
-/// In the order of the enumerators.
+/// All instruction sets, in the order of the enumerators.
 inline constexpr std::array all_isas{Isa::native, Isa::sse2, Isa::sse4_2,
                                      Isa::avx,    Isa::avx2, Isa::avx512};
 
-/// As people and Embree write it: "sse4.2".
+/// Returns the name that people and Embree use: "sse4.2".
 [[nodiscard]] constexpr const char* isa_name(Isa isa)
 {
     switch (isa) {

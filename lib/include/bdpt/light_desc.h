@@ -12,81 +12,88 @@
 
 namespace bdpt {
 
-/// The greatest luminous flux [lm] that a light may have, emissive triangles included, in each
-/// channel: what is computed from it stays in the range of floats. The sun has 4e28 lm.
+/// Maximum luminous flux [lm] of a light in each channel, including emissive triangles: keeps
+/// derived values within the range of floats. The sun has 4e28 lm.
 inline constexpr float max_light_power = 1e36f;
 
-/// Shines alike in all directions; intensity over distance squared [KHR_lights_punctual].
+/// Emits uniformly in all directions; intensity over distance squared [KHR_lights_punctual].
 struct PointLightDesc {
-    static constexpr std::string_view kind = "point light";  ///< for people
+    static constexpr std::string_view kind = "point light";  ///< human-readable name
 
     std::string name{};
     Vec3 position{0.0f};
     Rgb intensity{1.0f};  ///< [cd]
-    /// [m] 0: a point. Otherwise an area light: a sphere of radiance intensity / (pi radius^2),
-    /// which rays hit like any surface. It hides the scene behind it and reflects nothing.
+    /// Radius [m]; 0: a point. Otherwise an area light: a sphere of radiance intensity / (pi
+    /// radius^2), which rays hit like any surface. It occludes the scene behind it and reflects
+    /// nothing.
     float radius = 0.0f;
-    std::vector<Vec3> motion{};  ///< of the position
+    std::vector<Vec3> motion{};  ///< later positions
 };
 
 /// A point light in a cone, smooth from the inner to the outer angle [KHR_lights_punctual].
 struct SpotLightDesc {
-    static constexpr std::string_view kind = "spot light";  ///< for people
+    static constexpr std::string_view kind = "spot light";  ///< human-readable name
 
     std::string name{};
     Vec3 position{0.0f};
-    Vec3 direction{0.0f, 0.0f, -1.0f};    ///< the axis; of any length but 0
-    Rgb intensity{1.0f};                  ///< [cd] within the inner cone
+    Vec3 direction{0.0f, 0.0f, -1.0f};    ///< axis; any length but 0
+    Rgb intensity{1.0f};                  ///< intensity within the inner cone [cd]
     float inner_cone_angle = 0.0f;        ///< [rad] from the axis
     float outer_cone_angle = 0.7853982f;  ///< [rad] from the axis, in (inner, pi/2]
-    /// [m] As for point lights; the falloff is that of the direction in which light leaves the
-    /// sphere.
+    /// Radius [m], as in `PointLightDesc`; the falloff depends on the direction in which light
+    /// leaves the sphere.
     float radius = 0.0f;
-    std::vector<Vec3> motion{};            ///< of the position
-    std::vector<Vec3> later_directions{};  ///< of the direction, by less than 90 degrees a step
+    std::vector<Vec3> motion{};  ///< later positions
+    /// Later values of `direction`, less than 90 degrees apart.
+    std::vector<Vec3> later_directions{};
 };
 
 /// The intensities of a luminaire by direction, on a grid of two angles: the polar angle from -z,
-/// and the azimuth around that axis, from +x towards +y. Between the angles of the grid intensities
-/// are bilinear in both; beyond its first and last ones it is dark.
+/// and the azimuth around that axis, from +x towards +y. Intensities are interpolated bilinearly in
+/// the angles; outside of the grid they are zero.
 struct LightProfile {
-    std::vector<float> polar_angles;  ///< [rad] two or more, ascending, in [0, pi]
-    std::vector<float> azimuths;      ///< [rad] ascending over at most a turn; one: round
-    std::vector<float> intensities;   ///< [cd] those of all polar angles for each azimuth, >= 0
+    std::vector<float> polar_angles;  ///< polar angles [rad], two or more, ascending, in [0, pi]
+    /// Azimuths [rad], ascending over at most a turn; one: rotationally symmetric.
+    std::vector<float> azimuths;
+    /// Intensities of all polar angles for each azimuth [cd], >= 0.
+    std::vector<float> intensities;
 };
 
-/// A point light that shines as a measured luminaire does [EXT_lights_ies].
+/// A point light with the intensity distribution of a measured luminaire [EXT_lights_ies].
 struct ProfileLightDesc {
-    static constexpr std::string_view kind = "profile light";  ///< for people
+    static constexpr std::string_view kind = "profile light";  ///< human-readable name
 
     std::string name{};
     Vec3 position{0.0f};
     Mat3 world_from_light{1.0f};  ///< orthonormal; may mirror
-    Rgb scale{1.0f};              ///< >= 0, times the intensities of the profile
+    Rgb scale{1.0f};              ///< >= 0, factor of the intensities of the profile
     ProfileId profile{};
-    std::vector<Vec3> motion{};  ///< as of point lights; it does not turn
+    std::vector<Vec3> motion{};  ///< later positions; it does not rotate
 };
 
-/// Light from infinity out of one direction, like the sun's [KHR_lights_punctual].
+/// Light from one direction at infinity, like the sun's [KHR_lights_punctual].
 struct DirectionalLightDesc {
-    static constexpr std::string_view kind = "directional light";  ///< for people
+    static constexpr std::string_view kind = "directional light";  ///< human-readable name
 
     std::string name{};
-    Vec3 direction{0.0f, 0.0f, -1.0f};     ///< the way the light travels; of any length but 0
-    Rgb illuminance{1.0f};                 ///< [lx] on a surface that faces the light
-    std::vector<Vec3> later_directions{};  ///< of the direction, by less than 90 degrees a step
+    /// Direction in which the light travels; any length but 0.
+    Vec3 direction{0.0f, 0.0f, -1.0f};
+    Rgb illuminance{1.0f};  ///< illuminance of a surface that faces the light [lx]
+    /// Later values of `direction`, less than 90 degrees apart.
+    std::vector<Vec3> later_directions{};
 };
 
-/// Light from infinity. `radiance` is equirectangular [nit]: its top row is +y, its centre column
-/// is seen along -z and columns to the right turn towards +x. A 1 x 1 image is constant.
+/// Light from all directions at infinity. `radiance` is equirectangular [nit]: its top row is +y,
+/// its centre column is seen along -z and columns to the right turn towards +x. A 1 x 1 image is
+/// constant.
 struct EnvironmentLightDesc {
-    static constexpr std::string_view kind = "environment light";  ///< for people
+    static constexpr std::string_view kind = "environment light";  ///< human-readable name
 
     Image radiance;
     Mat3 world_from_environment{1.0f};  ///< rotation
 };
 
-/// A light that is no surface.
+/// A light that is not an emissive triangle.
 using LightDesc = std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc,
                                EnvironmentLightDesc, ProfileLightDesc>;
 /// Fields of `PointLightDesc`, with names and limits.

@@ -13,7 +13,7 @@
 
 namespace bdpt {
 
-/// The continuation of a texture outside of [0, 1]; names as in glTF 2.0.
+/// Texture lookup outside of [0, 1]; names as in glTF 2.0.
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
 /// An image used by a material slot, with the transform of KHR_texture_transform.
@@ -27,25 +27,27 @@ struct TextureRef {
     Vec2 scale{1.0f};
 };
 
-/// The effect of alpha, which is base_color.a times the texture's and the vertex colour's alpha, on
-/// a surface [glTF 2.0, sec. 3.9.4].
+/// The effect of alpha, the product of base_color.a, the texture's and the vertex colour's alpha,
+/// on a surface [glTF 2.0, sec. 3.9.4].
 enum class AlphaMode : std::uint8_t {
-    opaque,  ///< nothing
-    mask,    ///< the surface is there where alpha is at least `alpha_cutoff`
-    blend,   ///< alpha is the share of light that meets the surface; the rest passes straight on
+    opaque,  ///< alpha is ignored
+    mask,    ///< the surface exists where alpha is at least `alpha_cutoff`
+    /// Alpha is the fraction of light that hits the surface; the rest passes straight through.
+    blend,
 };
 
 /// Clear varnish over everything else, of index 1.5 [KHR_materials_clearcoat].
 struct ClearcoatDesc {
-    float factor = 0.0f;     ///< [0, 1], share of the surface that is coated; 0: no coat
+    float factor = 0.0f;     ///< [0, 1], fraction of the surface that is coated; 0: no coat
     float roughness = 0.0f;  ///< [0, 1], perceptual
     float normal_scale = 1.0f;
     std::optional<TextureRef> texture;            ///< linear; R, times factor
     std::optional<TextureRef> roughness_texture;  ///< linear; G, times roughness
-    std::optional<TextureRef> normal_texture;     ///< linear; none: the coat is even
+    /// Linear; none: normals of the coat are not perturbed.
+    std::optional<TextureRef> normal_texture;
 };
 
-/// Fibres that stand off a cloth, over everything but a coat [KHR_materials_sheen].
+/// Fibres on top of a cloth, above everything but a coat [KHR_materials_sheen].
 struct SheenDesc {
     Rgb color{0.0f};                              ///< [0, 1]; black: no sheen
     float roughness = 0.0f;                       ///< [0, 1]
@@ -56,34 +58,37 @@ struct SheenDesc {
 /// Grooves that blur reflections along one direction [KHR_materials_anisotropy].
 struct AnisotropyDesc {
     float strength = 0.0f;  ///< [0, 1]; 0: round highlights
-    float rotation = 0.0f;  ///< [rad] of the direction of blur, from the tangent to the bitangent
+    /// Rotation of the blur direction from the tangent to the bitangent [rad].
+    float rotation = 0.0f;
     std::optional<TextureRef> texture;  ///< linear; RG direction, B times strength
 };
 
 /// A thin film whose interference colours reflections [KHR_materials_iridescence].
 struct IridescenceDesc {
-    float factor = 0.0f;                          ///< [0, 1]; 0: no film
-    float ior = 1.3f;                             ///< >= 1, of the film
-    float thickness_minimum = 100.0f;             ///< [nm], where the texture is 0
-    float thickness_maximum = 400.0f;             ///< [nm], where it is 1, or without it
+    float factor = 0.0f;               ///< [0, 1]; 0: no film
+    float ior = 1.3f;                  ///< index of refraction of the film, >= 1
+    float thickness_minimum = 100.0f;  ///< thickness where the texture is 0 [nm]
+    /// Thickness where the texture is 1, or without a texture [nm].
+    float thickness_maximum = 400.0f;
     std::optional<TextureRef> texture;            ///< linear; R, times factor
     std::optional<TextureRef> thickness_texture;  ///< linear; G
 };
 
-/// Matt light that comes out on the other side, as through paper or a leaf
+/// Diffuse light transmitted to the other side, as through paper or a leaf
 /// [KHR_materials_diffuse_transmission].
 struct DiffuseTransmissionDesc {
-    float factor = 0.0f;                      ///< [0, 1], share of the diffuse light
+    float factor = 0.0f;                      ///< [0, 1], transmitted fraction of the diffuse light
     Rgb color{1.0f};                          ///< [0, 1]
     std::optional<TextureRef> texture;        ///< linear; A, times factor
     std::optional<TextureRef> color_texture;  ///< sRGB
 };
 
-/// Scattering within a body whose attenuation says how dense it is [KHR_materials_volume_scatter
-/// and KHR_materials_scatter, drafts].
+/// Scattering within a body, whose attenuation sets the density [KHR_materials_volume_scatter and
+/// KHR_materials_scatter, drafts].
 struct VolumeScatterDesc {
-    Rgb color{0.0f};          ///< [0, 1], multi-scatter albedo: about what a dense body looks like
-    float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1): > 0 forwards
+    /// Multiple-scattering albedo, [0, 1]: approximately the colour of a dense body.
+    Rgb color{0.0f};
+    float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1); > 0 scatters forwards
 };
 
 /// glTF 2.0 metallic-roughness material with KHR_materials_{anisotropy, clearcoat,
@@ -95,22 +100,22 @@ struct MaterialDesc {
     Vec4 base_color{1.0f};  ///< [0, 1]
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;  ///< >= 0
-    /// Shines with its base colour as radiance [nit] and scatters nothing: a light like any other.
-    /// Nothing but base colour, alpha and `double_sided` counts.
+    /// Emits its base colour as radiance [nit] and scatters nothing: a light like any other. Only
+    /// base colour, alpha and `double_sided` have an effect.
     bool unlit = false;
     float metallic = 1.0f;      ///< [0, 1]
     float roughness = 1.0f;     ///< [0, 1], perceptual; GGX alpha is its square; 0: a mirror
     Rgb emission{0.0f};         ///< radiance [nit], >= 0
-    float normal_scale = 1.0f;  ///< times x and y of normal_texture
+    float normal_scale = 1.0f;  ///< scales x and y of normal_texture
     bool double_sided = false;  ///< emits from both sides; scattering is two-sided in any case
 
     float ior = 1.5f;           ///< >= 1
-    float specular = 1.0f;      ///< [0, 1]; 0 takes the dielectric reflection away
-    Rgb specular_color{1.0f};   ///< >= 0, times the reflectance at normal incidence
+    float specular = 1.0f;      ///< [0, 1]; 0 removes the dielectric reflection
+    Rgb specular_color{1.0f};   ///< >= 0, factor of the reflectance at normal incidence
     float transmission = 0.0f;  ///< [0, 1]
     float thickness = 0.0f;     ///< > 0: the mesh bounds a solid body; 0: a thin sheet
     float attenuation_distance = std::numeric_limits<float>::infinity();  ///< [m], > 0
-    Rgb attenuation_color{1.0f};  ///< [0, 1], what is left of white after that distance
+    Rgb attenuation_color{1.0f};  ///< [0, 1], transmitted colour of white light after that distance
     float dispersion = 0.0f;      ///< >= 0, 20 / Abbe number of a solid transmitter
 
     ClearcoatDesc clearcoat{};
@@ -219,7 +224,8 @@ inline constexpr auto fields<MaterialDesc> = all_fields(
     Field{"transmission texture", &MaterialDesc::transmission_texture},
     Field{"glossiness texture", &MaterialDesc::glossiness_texture});
 
-/// Calls `visit(texture)` with each `std::optional<TextureRef>` of `desc`, and then of its layers.
+/// Calls `visit(texture)` with each `std::optional<TextureRef>` of `desc`, then with those of its
+/// layers.
 template <HasFields Desc, typename Visitor>
 constexpr void for_each_texture(Desc& desc, const Visitor& visit)
 {

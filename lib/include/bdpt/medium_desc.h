@@ -5,16 +5,17 @@
 
 namespace bdpt {
 
-/// How far the anisotropy of scattering may be from 0; the phase functions of -1 and 1 have all of
-/// their light in one direction.
+/// Maximum magnitude of the anisotropy; the phase functions of -1 and 1 scatter all light into one
+/// direction.
 inline constexpr float max_anisotropy = 0.9999f;
 
 /// A homogeneous medium that absorbs and scatters light, such as fog [Pharr et al. 2023, Physically
 /// Based Rendering, ch. 11].
 struct MediumDesc {
-    Rgb extinction{0.0f};     ///< [1/m], >= 0: 1 / the mean free path; absorption and scattering
-    Rgb albedo{1.0f};         ///< [0, 1]: the share of it that scatters
-    float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1): > 0 forwards
+    /// Extinction coefficient [1/m], >= 0: absorption and scattering; 1 / the mean free path.
+    Rgb extinction{0.0f};
+    Rgb albedo{1.0f};         ///< single-scattering albedo, [0, 1]
+    float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1); > 0 scatters forwards
 };
 /// Fields of `MediumDesc`, with names and limits.
 template <>

@@ -7,21 +7,23 @@
 
 namespace bdpt {
 
-/// A path that brings light, as one strategy found it. The mean over the samples of a pixel of
-/// `weight * unweighted` is the pixel.
+/// A path that carries light, as sampled by one strategy. The mean of `weight * unweighted` over
+/// the samples of a pixel is the pixel's value.
 struct PathContribution {
     Strategy strategy;
-    /// The last light vertex and the last camera vertex count as one (vcm).
+    /// True if the last light vertex and the last camera vertex were merged into one (vcm).
     bool merged = false;
-    int light_path = 0;    ///< of the sample's light paths, which one it is about; 0 for s <= 1
-    Vec2 raster{0.0f};     ///< in the pixel that it counts for [pixels, origin at the top left]
-    Rgb unweighted{0.0f};  ///< if the strategy were alone, divided by its number of samples [nit]
-    float weight = 1.0f;   ///< by MIS
-    /// Shares of all strategies of this path by the balance heuristic, from their definition, by s:
-    /// N_s p_s over the sum of all; 0 for those that cannot make the path. Where paths
-    /// merge, the sum holds that, too, so the shares add up to less than one. They hold for
-    /// any heuristic in use, so weights can be held against them. Only bdpt, lt and vcm know them.
-    /// Valid during the call.
+    int light_path = 0;  ///< index among the light paths of the sample; 0 for s <= 1
+    /// Raster position in the pixel it contributes to [pixels, origin at the top left].
+    Vec2 raster{0.0f};
+    /// Contribution if this were the only strategy, divided by its number of samples [nit].
+    Rgb unweighted{0.0f};
+    float weight = 1.0f;  ///< MIS weight
+    /// Balance-heuristic weight of every strategy for this path, by s, computed from the
+    /// definition: N_s p_s over the sum of all; 0 for strategies that cannot sample the path. Where
+    /// paths merge, the sum includes merging, so the shares add up to less than one. They are
+    /// independent of the heuristic in use, so weights can be checked against them. Only bdpt, lt
+    /// and vcm provide them. Valid during the call.
     std::span<const float> shares{};
 };
 

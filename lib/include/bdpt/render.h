@@ -20,129 +20,132 @@
 
 namespace bdpt {
 
-/// How far a render is; what `RenderControl::on_progress` is told.
+/// Progress of a render, passed to `RenderControl::on_progress`.
 struct Progress {
     std::int64_t samples_done = 0;   ///< per pixel
     std::int64_t samples_total = 0;  ///< per pixel
-    double seconds = 0.0;            ///< [s] since render() was called
-    /// noise_of() the film when it was looked at last, with `noise_samples` samples a pixel.
+    double seconds = 0.0;            ///< time since render() was called [s]
+    /// Last measured noise_of() the film, at `noise_samples` samples per pixel.
     std::optional<double> noise{};
     std::int64_t noise_samples = 0;
 };
 
-/// Is it measured where the time of samples goes?
+/// Time measurement of samples by phase.
 enum class Profiling : std::uint8_t {
     off,
-    /// For `RenderResult::profile`; the image and the counts stay the same, to the bit. Makes a
-    /// render some per cent slower.
+    /// Fills `RenderResult::profile`; image and counts stay bit-identical. Slows a render down by a
+    /// few per cent.
     on,
 };
 
-/// How a caller watches and stops a render. Everything is optional.
+/// Observation and control of a render. Everything is optional.
 struct RenderControl {
-    /// A request ends the render after the pass in flight.
+    /// A request ends the render after the current pass.
     std::stop_token stop;
     /// A request ends the render in the middle of a pass, within the time of a few tiles: all
-    /// samples are lost, those of earlier calls too, and a `Renderer` is empty until it renders
-    /// more.
+    /// samples are lost, including those of earlier calls, and a `Renderer` is empty until it
+    /// renders more.
     std::stop_token abandon{};
-    /// Called between passes on the thread that called render(). What it throws ends the render and
-    /// reaches the caller.
+    /// Called between passes on the thread that called render(). An exception it throws ends the
+    /// render and reaches the caller.
     std::function<void(const Progress&)> on_progress;
-    /// Called after it, with all samples that there are by then: for checkpoints.
+    /// Called after `on_progress` with all samples so far: for checkpoints.
     std::function<void(const RenderPart&)> on_part;
-    /// Called for each path that brings light to the film's region, on many threads at once; slows
-    /// the render down.
+    /// Called for each path that contributes light to the film's region, on many threads at once;
+    /// slows the render down.
     std::function<void(const PathContribution&)> on_path;
     Profiling profiling = Profiling::off;
-    /// No pass starts that would probably end after this [s].
+    /// No pass starts that would probably end after this time [s].
     double time_limit = std::numeric_limits<double>::infinity();
-    /// The render ends when noise_of() its film is not above this; 0: not for that. It looks when
-    /// it has the first 16, 24, 32, 48, ... samples of those asked for (next_noise_look), and not
-    /// in between, so that threads, stops and parts change nothing. What ends then is a little too
-    /// dark or too bright on average: by far less than the noise, as all tiles decide together.
+    /// The render ends once noise_of() its film is at most this; 0: no goal. The noise is measured
+    /// after the first 16, 24, 32, 48, ... of the requested samples (next_noise_look) and not in
+    /// between, so that threads, stops and parts change nothing. Stopping this way makes the image
+    /// slightly too dark or too bright on average: by far less than the noise, as all tiles decide
+    /// together.
     double noise_goal = 0.0;
 };
 
 /// The result of render().
 struct RenderResult {
     Film film;
-    AovFilm aovs;             ///< of the same samples; empty if none were asked for
-    IdFilm ids;               ///< likewise
-    StrategyFilm strategies;  ///< of the same samples; empty if none were asked for
+    AovFilm aovs;             ///< AOVs of the same samples; empty if none were requested
+    IdFilm ids;               ///< ids of the same samples; empty if none were requested
+    StrategyFilm strategies;  ///< images of the same samples; empty if none were requested
     RenderStats stats;
-    /// The options that were used: IntegratorKind::automatic is replaced by its choice.
+    /// The options that were used: IntegratorKind::automatic is replaced by the chosen integrator.
     RenderOptions options;
-    SampleRange samples;  ///< those that are in `film`; fewer than asked for after a stop
+    SampleRange samples;  ///< samples in `film`; fewer than requested after a stop
     double seconds = 0.0;
-    std::optional<TimeProfile> profile{};  ///< of the same samples; with Profiling::on
+    std::optional<TimeProfile> profile{};  ///< profile of the same samples, with Profiling::on
 };
 
-/// The choice of choose_integrator(), and the pilot's knowledge about it.
+/// The choice of choose_integrator(), and the pilot's estimate about it.
 struct IntegratorChoice {
     RenderOptions options{};
-    /// Estimated share of the light of the image that `options` cannot find, in [0, 1]: caustics of
-    /// the sun or of lights without extent, seen in mirrors or through glass. Only `vcm` finds it.
-    /// 0 if the pilot found none, or if there was none.
+    /// Estimated fraction of the image's light that `options` cannot find, in [0, 1]: caustics of
+    /// the sun or of delta lights, seen in mirrors or through glass. Only `vcm` finds it. 0 if the
+    /// pilot found none, or if there was no pilot.
     double unseen_light = 0.0;
 };
 
-/// `options` with another integrator in the place of IntegratorKind::automatic: mis, or bdpt with
-/// `light_paths` and `connections`. It is chosen by a pilot, a short render of its own, and depends
-/// on the scene, the camera and the options, but not on seed, samples, crop or threads. bdpt with
-/// one light path if the options limit or show strategies, or ask for another heuristic than
-/// balance and power. Other integrators stay as they are. A request of `abandon` ends the pilot
-/// within the time of a few rows of its pixels; the choice is then worth nothing. Throws `Error` as
-/// render() does.
+/// Returns `options` with IntegratorKind::automatic replaced: by mis, or by bdpt with `light_paths`
+/// and `connections`. A pilot, a short render of its own, makes the choice; it depends on the
+/// scene, the camera and the options, but not on seed, samples, crop or threads. The choice is bdpt
+/// with one light path if the options limit or show strategies, or request another heuristic than
+/// balance and power. Other integrators are kept. A request of `abandon` ends the pilot within the
+/// time of a few rows of its pixels; the choice is then meaningless. Throws `Error` like render().
 [[nodiscard]] BDPT_EXPORT IntegratorChoice choose_integrator(const Scene& scene,
                                                              const CameraDesc& camera,
                                                              const RenderOptions& options,
                                                              const std::stop_token& abandon = {});
-/// The options that choose_integrator() returns.
+/// Returns the options that choose_integrator() chooses.
 [[nodiscard]] BDPT_EXPORT RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
                                                        const RenderOptions& options);
 
-/// Estimated share, in [0, 1], of the scattered light at the camera that comes by paths of more
-/// than `max_depth` edges, which `options` leave out; 0 if it cannot be told from noise. A short
-/// render of its own measures it; it depends on scene, camera, size of the film and `max_depth`. It
-/// is 0 without a render where nothing is lost: if no medium scatters light and `max_depth` is not
-/// below its default, and from 512 edges on. Throws `Error` as render() does.
+/// Estimates the fraction, in [0, 1], of the scattered light at the camera that arrives by paths of
+/// more than `max_depth` edges, which `options` exclude; 0 if it is below the noise. A short render
+/// of its own measures it; it depends on scene, camera, size of the film and `max_depth`. It is 0
+/// without a render where nothing is lost: if no medium scatters light and `max_depth` is not below
+/// its default, and from 512 edges on. Throws `Error` like render().
 [[nodiscard]] BDPT_EXPORT double light_beyond_max_depth(const Scene& scene,
                                                         const CameraDesc& camera,
                                                         const RenderOptions& options);
 
-/// Blocks until all samples are done, the noise is low enough, `control.stop` is requested or the
-/// time is up; at least one pass is always done. The result depends on scene, camera and options
-/// only, to the bit: not on threads, tiles or time. May be called from several threads at once, for
-/// the same scene too. Throws `Error`: usage for options out of range and for images of strategies
-/// that would take more than `strategy_memory`, invalid_input for a camera that is not usable.
+/// Renders a scene. Blocks until all samples are done, the noise goal is reached, `control.stop` is
+/// requested or the time is up; completes at least one pass. The result depends on scene, camera
+/// and options only, to the bit: not on threads, tiles or time. May be called from several threads
+/// at once, also for the same scene. Throws `Error`: usage for options out of range and for
+/// strategy images that would take more than `strategy_memory`, invalid_input for an unusable
+/// camera.
 [[nodiscard]] BDPT_EXPORT RenderResult render(const Scene& scene, const CameraDesc& camera,
                                               const RenderOptions& options,
                                               const RenderControl& control = {});
 
 /// The result of render_part().
 struct PartResult {
-    RenderPart part;                       ///< `so_far` and what was rendered
-    RenderOptions options{};               ///< as in `RenderResult`
-    double seconds = 0.0;                  ///< of this call
-    std::optional<TimeProfile> profile{};  ///< of the samples of this call; with Profiling::on
+    RenderPart part;          ///< `so_far` and the rendered samples
+    RenderOptions options{};  ///< as in `RenderResult`
+    double seconds = 0.0;     ///< time of this call
+    /// Profile of the samples of this call, with Profiling::on.
+    std::optional<TimeProfile> profile{};
 };
 
-/// Continues `so_far`, or begins if that has no samples: renders the missing samples of `options`
+/// Continues `so_far`, or begins if it has no samples: renders the missing samples of `options`
 /// into its films. If samples are missing, and the noise is above the goal if there is one, at
-/// least one pass is done. Merged parts of a render have the bits of one render() of all their
-/// samples, however they were split. `control` observes the samples of this call. Throws as
-/// render() does, and `Error` (invalid_input) when `so_far` belongs to another render; the message
-/// names the difference.
+/// least one pass is completed. Merged parts of a render are bit-identical to one render() of all
+/// their samples, however they were split. `control` observes the samples of this call. Throws like
+/// render(), and `Error` (invalid_input) if `so_far` belongs to another render; the message names
+/// the difference.
 [[nodiscard]] BDPT_EXPORT PartResult render_part(const Scene& scene, const CameraDesc& camera,
                                                  const RenderOptions& options, RenderPart so_far,
                                                  const RenderControl& control = {});
 
-/// The same, for those who do not go on. `RenderResult::samples` are the first range of the part's.
+/// Converts a part to the result of render(), for callers that do not continue it.
+/// `RenderResult::samples` is the first range of the part's samples.
 [[nodiscard]] BDPT_EXPORT RenderResult result_of(PartResult done);
 
-/// Memory that the images of strategies of this render take [bytes], with the layers that they are
-/// developed to; 0 if none are asked for. Throws `Error` (usage) for options out of range.
+/// Returns the memory that the strategy images of this render take [bytes], including the developed
+/// layers; 0 if none are requested. Throws `Error` (usage) for options out of range.
 [[nodiscard]] BDPT_EXPORT std::uint64_t strategy_image_bytes(const RenderOptions& options,
                                                              const CameraDesc& camera);
 

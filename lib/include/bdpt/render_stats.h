@@ -4,14 +4,16 @@
 
 namespace bdpt {
 
-/// Rays that were followed through the scene, by what for.
+/// Rays traced through the scene, by purpose.
 struct RayCounts {
-    std::uint64_t camera = 0;           ///< of camera subpaths
-    std::uint64_t light = 0;            ///< of light subpaths
-    std::uint64_t shadow = 0;           ///< between two points, or to a light at infinity
-    std::uint64_t aov = 0;              ///< for AOVs, shadow rays to the ground among them
-    std::uint64_t shadow_to_lens = 0;   ///< of `shadow`, from light subpaths to the lens (t = 1)
-    std::uint64_t shadow_interior = 0;  ///< of `shadow`, between both subpaths (s, t >= 2)
+    std::uint64_t camera = 0;  ///< rays of camera subpaths
+    std::uint64_t light = 0;   ///< rays of light subpaths
+    /// Shadow rays between two points, or to a light at infinity.
+    std::uint64_t shadow = 0;
+    std::uint64_t aov = 0;  ///< rays for AOVs, including shadow rays from the ground
+    /// Part of `shadow`: from light subpaths to the lens (t = 1).
+    std::uint64_t shadow_to_lens = 0;
+    std::uint64_t shadow_interior = 0;  ///< part of `shadow`: between both subpaths (s, t >= 2)
 
     [[nodiscard]] std::uint64_t total() const { return camera + light + shadow + aov; }
     [[nodiscard]] bool operator==(const RayCounts&) const = default;
@@ -24,7 +26,7 @@ struct PathCounts {
     [[nodiscard]] bool operator==(const PathCounts&) const = default;
 };
 
-/// How much work a render was. Like the image it depends on scene, camera and options only.
+/// Amount of work of a render. Like the image, it depends on scene, camera and options only.
 struct RenderStats {
     RayCounts rays;
     PathCounts paths;

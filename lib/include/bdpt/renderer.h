@@ -10,7 +10,7 @@
 
 namespace bdpt {
 
-/// A render that one holds, to look at while it grows:
+/// A progressive render, whose image can be read between calls:
 ///
 ///     bdpt::Renderer renderer(scene, camera, options);
 ///     while (renderer.noise() > 0.02) {
@@ -18,42 +18,43 @@ namespace bdpt {
 ///         show(renderer.image());
 ///     }
 ///
-/// What IntegratorKind::automatic stands for is chosen once, and all that a render needs is kept
-/// between the calls. The samples have the bits of one render() of all of them. Not for several
-/// threads at once; each call uses all threads of the options.
+/// IntegratorKind::automatic is resolved once, and all state of the render is kept between calls.
+/// The samples are bit-identical to one render() of all of them. Not thread-safe; each call uses
+/// all threads of the options.
 class BDPT_EXPORT Renderer {
 public:
-    /// `scene` must outlive this. The first sample index is that of `options`, whose last one
-    /// counts for `finish()` alone. Throws `Error` as render() does.
+    /// Prepares a render of `scene`, which must outlive this. The first sample index is that of
+    /// `options`, whose last one matters for `finish()` alone. Throws `Error` like render().
     Renderer(const Scene& scene, const CameraDesc& camera, const RenderOptions& options);
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
     ~Renderer();
 
-    /// The next `samples` of each pixel that are missing; at least 1, with rates of samples a
-    /// multiple of SampleRates::group. Throws `Error` (usage) for others, and what `control`
-    /// throws: what was rendered until then stays.
+    /// Renders the next `samples` missing samples of each pixel; at least 1, and with rates a
+    /// multiple of SampleRates::group. Throws `Error` (usage) for other numbers, and exceptions of
+    /// `control`: the samples rendered until then are kept.
     void render(std::int64_t samples, const RenderControl& control = {});
-    /// Renders the missing samples of those in the options.
+    /// Renders all missing samples of the options.
     void finish(const RenderControl& control = {});
     /// Adds samples of the same render that were rendered elsewhere. Throws `Error` (invalid_input)
-    /// for those of another one, and for samples that are here already.
+    /// for samples of another render, and for samples that are already here.
     Renderer& operator+=(const RenderPart& part);
 
-    /// The options, in which IntegratorKind::automatic is replaced by its choice.
+    /// Returns the options, in which IntegratorKind::automatic is replaced by the chosen
+    /// integrator.
     [[nodiscard]] const RenderOptions& options() const;
-    /// All samples so far.
+    /// Returns all samples so far.
     [[nodiscard]] const RenderPart& part() const;
-    /// How many samples each pixel has; in the mean, with rates.
+    /// Returns the samples per pixel; their mean, with rates.
     [[nodiscard]] std::int64_t samples() const;
-    /// noise_of() the film; infinite before there are two samples.
+    /// Returns noise_of() the film; infinite before there are two samples.
     [[nodiscard]] double noise() const;
-    /// Linear radiance [nit] of the region that is rendered; black where there is no sample yet.
+    /// Returns the linear radiance [nit] of the rendered region; black before the first sample.
     [[nodiscard]] Image image() const;
-    /// [s] that calls of render() and finish() took.
+    /// Returns the time that calls of render() and finish() took [s].
     [[nodiscard]] double seconds() const;
 
-    /// Gives all away that was rendered; this then has no samples.
+    /// Moves all rendered samples out; this renderer then has none.
     [[nodiscard]] RenderPart take();
 
 private:

@@ -24,54 +24,55 @@ struct Bounds {
 
 /// The counts of a scene, for reports.
 struct SceneCounts {
-    std::size_t triangles = 0;             ///< in meshes, each mesh once
-    std::size_t instanced_triangles = 0;   ///< as rays see them
+    std::size_t triangles = 0;             ///< in meshes, counting each mesh once
+    std::size_t instanced_triangles = 0;   ///< counting each instance of a mesh
     std::size_t degenerate_triangles = 0;  ///< without area: skipped
     std::size_t emissive_triangles = 0;
-    std::size_t lights = 0;  ///< emissive triangles and all others
+    std::size_t lights = 0;  ///< emissive triangles and all other lights
 };
 
-/// A scene that is ready to trace: validated, its Embree BVH built, immutable and safe to share
-/// between threads.
+/// A scene that is ready to trace: validated, with its Embree BVH built, immutable and safe to
+/// share between threads.
 class BDPT_EXPORT Scene {
 public:
-    /// Throws `Error`: invalid_input when an index, a transform or a value in `desc` is invalid,
-    /// and the message names the item and the value; usage when this CPU lacks `isa`; out_of_memory
-    /// or internal when Embree fails.
+    /// Throws `Error`: invalid_input if an index, a transform or a value in `desc` is invalid, and
+    /// the message names the item and the value; usage if this CPU lacks `isa`; out_of_memory or
+    /// internal if Embree fails.
     explicit Scene(SharedSceneDesc desc, Isa isa = Isa::native);
     Scene(Scene&&) noexcept;
     Scene& operator=(Scene&&) noexcept;
     ~Scene();
 
-    /// The description of the scene. Its lists are shared: a copy takes no time.
+    /// Returns the description of the scene. Its lists are shared: a copy takes no time.
     [[nodiscard]] const SharedSceneDesc& description() const;
-    /// The scene of another description, traced with the same instruction set, as if built from it:
-    /// the same bits. What stays the same is shared: where triangles keep their places no tree is
-    /// built, and where lists are those of `description()` nothing is checked or hashed. This scene
-    /// stays as it is, and may go. Throws as a new one.
+    /// Returns the scene of another description, traced with the same instruction set,
+    /// bit-identical to a scene built from it. Unchanged parts are shared: no BVH is built where
+    /// the triangles keep their positions, and lists that are those of `description()` are neither
+    /// checked nor hashed. This scene is unchanged and may be destroyed. Throws like the
+    /// constructor.
     [[nodiscard]] Scene edited(SharedSceneDesc desc) const;
-    /// The same with one material, instance or list in place of another. Throws `Error`
-    /// (invalid_input), too, when nothing or more than one thing has that number or name.
+    /// Returns the scene with one material, instance or list replaced. Also throws `Error`
+    /// (invalid_input) if no item or more than one has that number or name.
     [[nodiscard]] Scene with(MaterialId id, MaterialDesc material) const;
     [[nodiscard]] Scene with(std::string_view name, MaterialDesc material) const;
     [[nodiscard]] Scene with(std::string_view name, InstanceDesc instance) const;
     [[nodiscard]] Scene with_lights(std::vector<LightDesc> lights) const;
-    /// Instead of the one that there is, or besides all other lights; none: without one.
+    /// Replaces the environment, or adds one to the other lights; nullopt removes it.
     [[nodiscard]] Scene with_environment(std::optional<EnvironmentLightDesc> environment) const;
 
-    /// The bounds of all instances; both corners are zero in an empty scene.
+    /// Returns the bounds of all instances; both corners are zero in an empty scene.
     [[nodiscard]] Bounds bounds() const;
     [[nodiscard]] SceneCounts counts() const;
-    /// The instruction set for tracing rays; never `native` on x86.
+    /// Returns the instruction set of ray tracing; never `native` on x86.
     [[nodiscard]] Isa isa() const;
-    /// Likely mistakes in the scene, such as bodies that are not closed; one line each.
+    /// Returns likely mistakes in the scene, such as bodies that are not closed; one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const;
 
-    /// The identity of the scene (bdpt/part/identity.h): all inputs that its bits depend on, the
-    /// instruction set and Embree included.
+    /// Returns the identity of the scene (bdpt/part/identity.h): all inputs that its bits depend
+    /// on, including the instruction set and Embree.
     [[nodiscard]] const std::vector<IdentityComponent>& identity() const;
 
-    /// For the library itself.
+    /// Returns the internal representation, for the library's own use.
     [[nodiscard]] const World& world() const;
 
 private:

@@ -17,11 +17,11 @@
 
 namespace bdpt {
 
-// What moves while the shutter is open has a `motion` or `turn`: its values at equally spaced later
-// moments, the last one when the shutter closes; the first value is that of the opening. Straight
-// lines join them (bdpt/motion.h). Empty: it stands still.
+// Things that move while the shutter is open have a `motion` or `turn`: the values at equally
+// spaced later times, the last one when the shutter closes; the first value is that of the opening.
+// Values are interpolated linearly (bdpt/motion.h). Empty: no motion.
 
-/// The vertices of a mesh at a later moment: as many of each as the mesh has.
+/// The vertices of a mesh at a later time: as many of each attribute as the mesh has.
 struct MeshPose {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;
@@ -37,31 +37,33 @@ struct MeshDesc {
     std::array<std::vector<Vec2>, 2> uvs;  ///< empty: all (0, 0); v grows downwards (glTF)
     std::vector<Vec4> colors;        ///< linear RGBA that multiplies the base colour; empty: white
     std::vector<UVec3> triangles;    ///< counter-clockwise from the front
-    std::vector<MeshPose> motion{};  ///< of a mesh that deforms
+    std::vector<MeshPose> motion{};  ///< poses of a deforming mesh
 };
 
-/// A mesh placed in the world [m]. Meshes are shared: many instances cost one BVH.
+/// A mesh placed in the world [m]. Meshes are shared: many instances use one BVH.
 struct InstanceDesc {
     std::string name{};
     MeshId mesh{};
     MaterialId material{};
     Mat4 world_from_object{1.0f};  ///< affine, invertible; a negative determinant is fine
-    /// Invertible on the way, too (`can_move`). As many steps as its mesh has, if both have any.
+    /// Later transforms, also invertible in between (`can_move`). As many steps as its mesh has, if
+    /// both have any.
     std::vector<Mat4> motion{};
 };
 
-/// How textures are looked up where they have more detail than the image shows.
+/// Lookup of textures that have more detail than the image shows.
 enum class TextureFilter : std::uint8_t {
-    /// Between the texels of the image as it is: many samples a pixel find the average.
+    /// Bilinear interpolation of the texels of the full image: many samples per pixel average out
+    /// the detail.
     bilinear,
-    /// Between those of a smaller copy, where texels are narrower than half a pixel seen directly
-    /// from the camera: the same for all paths that meet the point. Emission, alpha, normals and
-    /// directions are looked up as they are.
+    /// Interpolation in a smaller copy where texels are narrower than half a pixel seen directly
+    /// from the camera: the same for all paths through the point. Emission, alpha, normals and
+    /// directions use the full image.
     mip_mapped,
 };
 
-/// Everything that light meets, as plain data: what a loader fills in and what `Scene` is built
-/// from. Emissive triangles are lights by their material.
+/// The whole scene as plain data: the output of loaders and the input of `Scene`. Emissive
+/// triangles are lights by their material.
 struct SceneDesc {
     std::vector<TexelImage> images;
     std::vector<MaterialDesc> materials;
@@ -70,26 +72,28 @@ struct SceneDesc {
     std::vector<LightProfile> profiles;
     std::vector<LightDesc> lights;  ///< at most one environment
     TextureFilter texture_filter = TextureFilter::bilinear;
-    /// Around all bodies; it fills the sphere around the bounds of the scene.
+    /// Medium outside of all bodies; it fills the bounding sphere of the scene.
     std::optional<MediumDesc> fog{};
     std::vector<VolumeDesc> volumes{};
 };
 
-/// How a camera maps directions or points to the film.
+/// Mapping of directions or points to the film.
 enum class Projection : std::uint8_t { perspective, orthographic };
 
 /// A camera with the glTF axes: it looks down -z, +y is up.
 struct CameraDesc {
     std::string name{};
-    Mat4 world_from_camera{1.0f};  ///< its scale is ignored
+    Mat4 world_from_camera{1.0f};  ///< scale is ignored
     Projection projection = Projection::perspective;
     float vertical_fov = 0.7853982f;  ///< perspective: [rad], in (0, pi)
     float vertical_extent = 2.0f;     ///< orthographic: height of the view [m], > 0
-    float lens_radius = 0.0f;         ///< perspective: of a thin lens [m], >= 0; 0 is a pinhole
-    float focus_distance = 1.0f;      ///< of the plane that a thin lens shows sharp [m], > 0
-    /// Width over height that the scene's author had in mind, if any. The film's own wins.
+    /// Perspective: radius of a thin lens [m], >= 0; 0 is a pinhole.
+    float lens_radius = 0.0f;
+    float focus_distance = 1.0f;  ///< distance of the plane in focus of a thin lens [m], > 0
+    /// Aspect ratio, width over height, intended by the scene's author, if any. The film's aspect
+    /// ratio takes precedence.
     std::optional<float> aspect_ratio{};
-    std::vector<Mat4> motion{};  ///< as of instances
+    std::vector<Mat4> motion{};  ///< as in `InstanceDesc`
 };
 
 // Lists of fields (bdpt/fields.h).

@@ -4,8 +4,8 @@
 
 namespace bdpt {
 
-/// Index into `SceneDesc::meshes`. Each kind of index is a type, so that one cannot stand for
-/// another.
+/// Index into `SceneDesc::meshes`. Each kind of index has a type of its own, so that they cannot be
+/// confused.
 enum class MeshId : std::uint32_t {};
 /// Index into `SceneDesc::materials`.
 enum class MaterialId : std::uint32_t {};

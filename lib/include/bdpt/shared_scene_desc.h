@@ -12,23 +12,24 @@
 
 namespace bdpt {
 
-/// A list that never changes, so that its copies share it. To change an item one copies the values
-/// to a vector, and makes a list of that.
+/// An immutable list whose copies share its values. To change an item, copy the values to a vector
+/// and construct a new list.
 template <typename T>
 class SharedList {
 public:
     SharedList() = default;
-    /// Not explicit: values are a list.
+    /// Constructs a list of `values`. Not explicit: values are a list.
     SharedList(std::vector<T> values)
         : values_(std::make_shared<const std::vector<T>>(std::move(values)))
     {}
-    // No moves: there is always a list.
+    // Not movable: a list always has values.
     SharedList(const SharedList&) = default;
     SharedList& operator=(const SharedList&) = default;
     ~SharedList() = default;
 
     [[nodiscard]] const std::vector<T>& values() const { return *values_; }
-    /// Not explicit: a list is read as its values are, and a vector can be made of it.
+    /// Converts to the values. Not explicit: a list reads like its values, and can be copied to a
+    /// vector.
     operator const std::vector<T>&() const { return *values_; }
 
     [[nodiscard]] bool empty() const { return values_->empty(); }
@@ -38,7 +39,7 @@ public:
     [[nodiscard]] auto begin() const { return values_->begin(); }
     [[nodiscard]] auto end() const { return values_->end(); }
 
-    /// Is it one of the copies of `other`?
+    /// Tests whether this list and `other` share their values.
     [[nodiscard]] bool is_shared_with(const SharedList& other) const
     {
         return values_ == other.values_;
@@ -54,16 +55,16 @@ private:
     std::shared_ptr<const std::vector<T>> values_ = none();
 };
 
-/// A `SceneDesc` whose lists are shared by all copies: what a scene was built from, and what edits
-/// begin with (`Scene::edited`).
+/// A `SceneDesc` whose lists are shared by all copies: the description that a scene was built from,
+/// and the starting point of edits (`Scene::edited`).
 struct BDPT_EXPORT SharedSceneDesc {
     SharedSceneDesc() = default;
-    /// Not explicit: it says the same.
+    /// Takes over `desc`. Not explicit: it has the same meaning.
     SharedSceneDesc(SceneDesc desc);
-    /// A copy of all lists, which is large for a large scene.
+    /// Copies all lists, which takes much memory for a large scene.
     [[nodiscard]] SceneDesc copy() const;
 
-    /// All members, in the order of those of `SceneDesc`.
+    /// Returns all members, in the order of those of `SceneDesc`.
     [[nodiscard]] auto members() const
     {
         return std::tie(images, materials, meshes, instances, profiles, lights, texture_filter, fog,

@@ -2,8 +2,8 @@
 
 namespace bdpt {
 
-/// x^2.4 for x in (0, 1], by Newton's method for the fifth root of x^2. The same bits everywhere:
-/// it needs no C library.
+/// Returns x^2.4 for x in (0, 1], by Newton's method for the fifth root of x^2. Bit-identical on
+/// all machines: it needs no C library.
 [[nodiscard]] constexpr double power_2_4(double x)
 {
     const double square = x * x;
@@ -15,7 +15,8 @@ namespace bdpt {
     return square * root;
 }
 
-/// The linear value of an sRGB code in [0, 1]: the electro-optical function of IEC 61966-2-1.
+/// Returns the linear value of an sRGB code in [0, 1]: the electro-optical function of IEC
+/// 61966-2-1.
 [[nodiscard]] constexpr float srgb_to_linear(double code)
 {
     return static_cast<float>(code <= 0.04045 ? code / 12.92 : power_2_4((code + 0.055) / 1.055));

@@ -4,16 +4,16 @@
 
 namespace bdpt {
 
-/// Threads of this process, that of the caller among them.
+/// Threads of this process, including the caller's.
 struct ThreadLimit {
     int wanted = 1;
     int allowed = 1;  ///< at most `wanted`
 };
 
-/// Finds out whether the system lets this process have `wanted` threads (0: as many as oneTBB would
-/// take here), by starting that many for a moment. Users and containers may have a limit, and
-/// oneTBB ends the process when it meets that; so where there are fewer, it gets no more than those
-/// from now on. What renders calls this; who uses oneTBB before does, too.
+/// Determines whether the system lets this process have `wanted` threads (0: as many as oneTBB
+/// would use here) by briefly starting that many. Users and containers may have a limit, and oneTBB
+/// terminates the process when it hits that limit; so if fewer are allowed, oneTBB is restricted to
+/// them from now on. All rendering functions call this; call it yourself if you use oneTBB earlier.
 BDPT_EXPORT ThreadLimit limit_threads(int wanted);
 
 }  // namespace bdpt

@@ -9,19 +9,20 @@
 
 namespace bdpt {
 
-/// A medium whose density varies in space, such as smoke or a cloud: a grid of voxels. It has no
-/// surface, and counts on top of whatever else is there. The greatest density times the extinction
-/// times the length of the grid's diagonal is at most 1e5 in each channel.
+/// A heterogeneous medium, such as smoke or a cloud: a grid of voxels. It has no surface, and adds
+/// to the media that are already there. The maximum density times the extinction times the length
+/// of the grid's diagonal is at most 1e5 in each channel.
 struct VolumeDesc {
     std::string name{};
     UVec3 size{0};               ///< voxels along x, y and z, > 0
-    std::vector<float> density;  ///< >= 0, at the centres of voxels, x runs fastest
-    /// Transforms coordinates in voxels, where voxel (0, 0, 0) fills the unit cube. Affine and
+    std::vector<float> density;  ///< >= 0, at the centres of voxels; x varies fastest
+    /// Transforms grid coordinates, where voxel (0, 0, 0) fills the unit cube. Affine and
     /// invertible.
     Mat4 world_from_grid{1.0f};
-    Rgb extinction{1.0f};     ///< [1/m] where the density is 1, >= 0: absorption and scattering
-    Rgb albedo{1.0f};         ///< [0, 1]: the share of it that scatters
-    float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1): > 0 forwards
+    /// Extinction where the density is 1 [1/m], >= 0: absorption and scattering.
+    Rgb extinction{1.0f};
+    Rgb albedo{1.0f};         ///< single-scattering albedo, [0, 1]
+    float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1); > 0 scatters forwards
 };
 /// Fields of `VolumeDesc`, with names and limits.
 template <>

@@ -38,7 +38,8 @@ Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds
 
 void Camera::look_from(const Mat4& world_from_camera)
 {
-    // Only where the camera looks and what is up for it count; scale and shear of its node do not.
+    // Only the viewing direction and the up direction matter; scale and shear of the node are
+    // ignored.
     const Vec3 back = normalize(Vec3(world_from_camera[2]));
     const Vec3 right = normalize(cross(Vec3(world_from_camera[1]), back));
     world_from_camera_ = Mat3(right, cross(back, right), back);
@@ -78,7 +79,7 @@ SegmentEnd Camera::lens_end(Vec3 local_point) const
 
 SolidAnglePdf Camera::pdf_of(float inv_cos) const
 {
-    // For each point of the lens the film is seen as the plane of focus: A cos^-3 in its units.
+    // For each point on the lens the film is seen as the plane of focus: A cos^-3 in its units.
     return {inv_cos * inv_cos * inv_cos / film_area_};
 }
 
@@ -117,7 +118,7 @@ float Camera::depth(Vec3 scene_point) const
 
 std::optional<LensSample> Camera::sample_lens(Vec3 scene_point, Vec2 u_lens) const
 {
-    std::optional<LensSample> sampled;  // made where it is returned
+    std::optional<LensSample> sampled;  // constructed in place of the result
     const Vec3 local = to_local(scene_point - position_);
     if (!(local.z < 0.0f)) {
         return sampled;

@@ -12,33 +12,34 @@ namespace bdpt {
 
 /// A primary ray. Importance over density is one: a camera subpath starts with beta = 1.
 struct CameraRay {
-    SegmentEnd lens;              ///< where it starts; ng is set if light can hit the lens
-    Vec3 direction{0.0f};         ///< unit
-    AreaPdf pdf_lens;             ///< of the point on the lens; 1 for a pinhole and parallel rays
-    SolidAnglePdf pdf_direction;  ///< perspective
+    SegmentEnd lens;       ///< origin; ng is set if light can hit the lens
+    Vec3 direction{0.0f};  ///< unit
+    /// Density of the point on the lens; 1 for a pinhole and parallel rays.
+    AreaPdf pdf_lens;
+    SolidAnglePdf pdf_direction;  ///< density of the direction, for perspective
     std::optional<PlanarPdf>
-        pdf_plane;  ///< orthographic: of the ray's place, the direction is fixed
+        pdf_plane;  ///< orthographic: density of the ray's position; the direction is fixed
 };
 
 /// A connection from a scene point to the lens: the strategies with t = 1. The densities are those
-/// of generate_ray making the reversed ray.
+/// with which generate_ray samples the reversed ray.
 struct LensSample {
     SegmentEnd lens;
     Vec3 wi{0.0f};  ///< unit, from the scene point towards the lens
     float distance = 0.0f;
-    Vec2 raster{0.0f};    ///< where the scene point appears on the film [pixels]
+    Vec2 raster{0.0f};    ///< raster position of the scene point on the film [pixels]
     float weight = 0.0f;  ///< We |cos at lens| / (distance^2 pdf_lens); orthographic: We
     AreaPdf pdf_lens;
     SolidAnglePdf pdf_direction;
     std::optional<PlanarPdf> pdf_plane;
 };
 
-/// A light path that met the lens by chance: the strategies with t = 0.
+/// A light path that hit the lens by chance: the strategies with t = 0.
 struct LensHit {
     SegmentEnd lens;
     float distance = 0.0f;
     Vec2 raster{0.0f};
-    float importance = 0.0f;  ///< We
+    float importance = 0.0f;  ///< importance We
     AreaPdf pdf_lens;
     SolidAnglePdf pdf_direction;
 };
@@ -54,41 +55,44 @@ struct RasterBounds {
 /// numbers of samples.
 class Camera {
 public:
-    /// `width`, `height`: film size [pixels].
+    /// `width` and `height` are the film size [pixels].
     Camera(const CameraDesc& desc, int width, int height);
-    /// Connections to the lens are wanted within `visible` only; it may reach beyond the film. The
-    /// lens lies in `medium`.
+    /// Restricts connections to the lens to `visible`, which may extend beyond the film. The lens
+    /// lies in `medium`.
     Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible,
            MediumId medium = MediumId::clear);
 
-    /// The same camera in another pose, which `can_move` from the first.
+    /// Returns the camera in another pose, which `can_move` from the first.
     [[nodiscard]] Camera moved_to(const Mat4& world_from_camera) const;
 
     [[nodiscard]] bool is_perspective() const { return perspective_; }
-    /// Can light hit the lens by chance?
+    /// Tests whether light can hit the lens by chance.
     [[nodiscard]] bool has_finite_lens() const { return lens_radius_ > 0.0f; }
 
-    /// The ray through `raster` [pixels, origin at the top left], which may lie beside the film.
-    /// `u_lens` chooses the point of a finite lens.
+    /// Returns the ray through `raster` [pixels, origin at the top left], which may lie beside the
+    /// film. `u_lens` selects the point on a finite lens.
     [[nodiscard]] CameraRay generate_ray(Vec2 raster, Vec2 u_lens) const;
-    /// How wide a pixel of the film is in the scene.
+    /// Returns the width of a pixel of the film in the scene.
     [[nodiscard]] const PixelCone& pixel_cone() const { return pixel_cone_; }
-    /// Distance of a point along the camera's axis [m]; positive in front.
+    /// Returns the distance of a point along the camera's axis [m]; positive in front.
     [[nodiscard]] float depth(Vec3 scene_point) const;
-    /// Nothing when the point is behind the lens or appears outside of the visible bounds.
+    /// Samples a point on the lens; nullopt if the scene point is behind the lens or appears
+    /// outside of the visible bounds.
     [[nodiscard]] std::optional<LensSample> sample_lens(Vec3 scene_point, Vec2 u_lens) const;
-    /// Does a ray with unit `direction` cross a finite lens from the front?
+    /// Intersects a ray with unit `direction` with a finite lens, from the front.
     [[nodiscard]] std::optional<LensHit> hit_lens(Vec3 origin, Vec3 direction) const;
 
 private:
     void look_from(const Mat4& world_from_camera);
     [[nodiscard]] Vec3 to_local(Vec3 world_vector) const;
     [[nodiscard]] bool is_visible(Vec2 raster) const;
-    [[nodiscard]] Vec3 lens_point(Vec2 u_lens) const;  // local
+    [[nodiscard]] Vec3 lens_point(Vec2 u_lens) const;  // in local coordinates
     [[nodiscard]] SegmentEnd lens_end(Vec3 local_point) const;
-    /// Of a direction at the lens by its length per unit along the axis (1 / cos).
+    /// Returns the density of a direction at the lens, given its length per unit along the axis (1
+    /// / cos).
     [[nodiscard]] SolidAnglePdf pdf_of(float inv_cos) const;
-    /// Where the ray from a lens point in the local direction `d` meets the film [pixels].
+    /// Returns the raster position of the ray from a lens point in the local direction `d`
+    /// [pixels].
     [[nodiscard]] Vec2 raster_of(Vec3 lens, Vec3 d) const;
 
     Vec3 position_;
@@ -97,9 +101,9 @@ private:
     Vec2 film_size_;          // [pixels]
     RasterBounds visible_;
     bool perspective_;
-    Vec2
-        half_extent_;  // of the film: one unit in front of the lens; orthographic: in the world [m]
-    float film_area_;  // of the whole film there
+    Vec2 half_extent_;  // half size of the film: one unit in front of the lens; orthographic: in
+                        // the world [m]
+    float film_area_;   // area of the whole film at that distance
     float lens_radius_;
     float focus_distance_;
     AreaPdf pdf_lens_{1.0f};

@@ -12,7 +12,7 @@ namespace bdpt {
 /// A camera while the shutter is open.
 class MovingCamera {
 public:
-    /// Stands still.
+    /// Constructs a static camera.
     explicit MovingCamera(const Camera& camera) : first_(camera) {}
     /// `camera` is `desc` on its film; moves as `desc` does.
     MovingCamera(const CameraDesc& desc, const Camera& camera)
@@ -20,18 +20,19 @@ public:
     {}
 
     [[nodiscard]] bool moves() const { return !motion_.empty(); }
-    /// When the shutter opens.
+    /// Returns the camera at shutter open.
     [[nodiscard]] const Camera& first() const { return first_; }
-    /// At a time in [0, 1]: its matrix goes straight from step to step, its axes stay orthonormal.
+    /// Returns the camera at a time in [0, 1]: its matrix is interpolated linearly between steps,
+    /// its axes stay orthonormal.
     [[nodiscard]] Camera at(float time) const;
 
 private:
     Camera first_;
-    Mat4 pose_{1.0f};  ///< when the shutter opens
+    Mat4 pose_{1.0f};  ///< at shutter open
     std::vector<Mat4> motion_;
 };
 
-/// A moving camera at one time; one that stands still is not copied, and must outlive this.
+/// A moving camera at one time; a static camera is not copied, and must outlive this.
 class TimedCamera {
 public:
     TimedCamera(const MovingCamera& camera, float time)

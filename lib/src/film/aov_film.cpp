@@ -18,7 +18,7 @@ void add(std::array<ExactSum, 3>& sums, Vec3 value)
     }
 }
 
-/// What a sum can take.
+/// Clamps a value to the range of sums.
 Vec3 limited(Vec3 value)
 {
     for (int c = 0; c < 3; ++c) {

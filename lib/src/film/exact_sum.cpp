@@ -10,13 +10,13 @@ constexpr int unit_exponent = -60;  // the low word counts multiples of 2^-60
 
 using Words = ExactSum::Words;
 
-/// In two's complement.
+/// Negates in two's complement.
 Words negative(const Words& words)
 {
     return {.low = ~words.low + 1U, .high = ~words.high + (words.low == 0 ? 1U : 0U)};
 }
 
-/// The nearest multiple of the unit to 1.m 2^e, from the float's bits.
+/// Returns the multiple of the unit nearest to 1.m 2^e, from the float's bits.
 Words magnitude(std::uint32_t bits)
 {
     const auto biased_exponent = static_cast<int>((bits >> 23U) & 0xffU);
@@ -96,7 +96,7 @@ double ExactSum::Words::value() const noexcept
     Words words = *this;
     const bool below_zero = (words.high >> 63U) != 0;
     if (below_zero) {
-        words = negative(words);  // else small sums would be differences of large numbers
+        words = negative(words);  // otherwise small sums would be differences of large numbers
     }
     const double size = std::ldexp(static_cast<double>(words.high), 64 + unit_exponent) +
                         std::ldexp(static_cast<double>(words.low), unit_exponent);

@@ -16,7 +16,7 @@ std::size_t half_of(std::int64_t sample_index)
     return static_cast<std::size_t>(sample_index & 1);
 }
 
-/// A number for a sample of a pixel: the lower, the earlier.
+/// Encodes a sample of a pixel such that earlier samples have lower numbers.
 std::uint64_t place_code(const FilmLayout& layout, int x, int y, std::int64_t sample_index)
 {
     const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(layout.width) +
@@ -113,12 +113,12 @@ bool Film::accept(Rgb& value, int x, int y, std::int64_t sample_index, float sca
     if (saturated) {
         saturated_.fetch_add(1, std::memory_order_relaxed);
     }
-    // Scaled after it was clamped, or pixels with few samples would lose less than others.
+    // Scaled after clamping, or pixels with few samples would lose less than others.
     value = glm::min(scale * clamp(value, y, scale), Rgb(ExactSum::max_value));
     return true;
 }
 
-/// `value`, within the limit and with its hue.
+/// Returns `value`, scaled to the limit while preserving its hue.
 Rgb Film::clamp(Rgb value, int y, float scale) noexcept
 {
     const float greatest = std::max({value.r, value.g, value.b});
@@ -266,8 +266,8 @@ Image Film::variance() const
         const Rgb unknown(std::numeric_limits<float>::infinity());
         return {width(), height(), std::vector<Rgb>(samples_[0].size(), unknown)};
     }
-    // With a variance v a sample the halves differ by v (1/n0 + 1/n1) on average, squared, and the
-    // whole has v / (n0 + n1).
+    // With a variance v per sample the expected squared difference of the halves is v (1/n0 +
+    // 1/n1), and the variance of the whole is v / (n0 + n1).
     const auto n0 = static_cast<double>(counts_[0]);
     const auto n1 = static_cast<double>(counts_[1]);
     const auto factor = static_cast<float>(n0 * n1 / ((n0 + n1) * (n0 + n1)));

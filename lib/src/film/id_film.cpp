@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<NameId SurfaceIds::*, id_kinds.size()> members{&SurfaceIds::object,
                                                                     &SurfaceIds::material};
 
-/// Counts runs of equal ids.
+/// Adds runs of equal ids.
 void add_sorted(IdCounts& counts, std::span<const SurfaceIds> met, NameId SurfaceIds::*id)
 {
     for (auto run = met.begin(); run != met.end();) {

@@ -8,15 +8,15 @@
 namespace bdpt {
 namespace {
 
-constexpr std::size_t channels = 4;  // of a layer: two levels
+constexpr std::size_t channels = 4;  // channels of a layer: two levels
 constexpr std::size_t layers_of_kind = IdFilm::levels / 2;
 
 constexpr std::array<const char*, id_kinds.size()> layer_names{"CryptoObject", "CryptoMaterial"};
 
-/// An id and its share after the other.
+/// Alternating ids and fractions.
 using Levels = std::array<float, 2 * IdFilm::levels>;
 
-/// The greatest share first. `ranked` is room that is used again.
+/// Returns the levels by descending fraction. `ranked` is reusable storage.
 Levels levels_of(const IdCounts& counts, std::int64_t samples, std::vector<IdCount>& ranked)
 {
     ranked.clear();

@@ -13,10 +13,10 @@ namespace {
     throw Error(ErrorCode::invalid_input, what);
 }
 
-/// Takes the ids of a pixel from planes, one after the other.
+/// Reads the ids of a pixel from planes, one after the other.
 class PixelReader {
 public:
-    /// `known`: sorted.
+    /// `known` is sorted.
     PixelReader(std::span<const NameId> known, std::int64_t samples)
         : known_(known), left_(static_cast<std::uint64_t>(samples))
     {}

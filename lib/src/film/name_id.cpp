@@ -6,13 +6,13 @@
 namespace bdpt {
 namespace {
 
-/// What four bytes of the text change in the hash.
+/// Returns the change of the hash by four bytes of the text.
 constexpr std::uint32_t scrambled(std::uint32_t block)
 {
     return std::rotl(block * 0xcc9e2d51U, 15) * 0x1b873593U;
 }
 
-/// Bytes from `begin` on, at most four, the first one being the lowest.
+/// Returns at most four bytes from `begin` on, little-endian.
 std::uint32_t block_at(std::string_view text, std::size_t begin)
 {
     std::uint32_t block = 0;
@@ -22,7 +22,7 @@ std::uint32_t block_at(std::string_view text, std::size_t begin)
     return block;
 }
 
-/// MurmurHash3_x86_32 with seed 0.
+/// Returns MurmurHash3_x86_32 with seed 0.
 std::uint32_t murmur_hash(std::string_view text)
 {
     std::uint32_t hash = 0;
@@ -30,7 +30,7 @@ std::uint32_t murmur_hash(std::string_view text)
     for (std::size_t i = 0; i < whole; i += 4) {
         hash = std::rotl(hash ^ scrambled(block_at(text, i)), 13) * 5 + 0xe6546b64U;
     }
-    hash ^= scrambled(block_at(text, whole));  // of nothing: 0
+    hash ^= scrambled(block_at(text, whole));  // 0 if no bytes are left
     hash ^= static_cast<std::uint32_t>(text.size());
     hash = (hash ^ hash >> 16) * 0x85ebca6bU;
     hash = (hash ^ hash >> 13) * 0xc2b2ae35U;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int cells = 1024;
 
-/// The filter's curve at `t` = offset / radius in [0, 1], not normalised.
+/// Returns the filter's curve at `t` = offset / radius in [0, 1], not normalised.
 float curve(FilterKind kind, float t)
 {
     switch (kind) {
@@ -48,7 +48,7 @@ PixelFilter::PixelFilter(const FilterOptions& options)
 float PixelFilter::sample_offset(float u) const noexcept
 {
     const float v = std::abs(2.0f * u - 1.0f);
-    // The cell in which the distribution passes v; of u = 0 it is the last that is not empty.
+    // The cell in which the distribution passes v; for u = 0 the last that is not empty.
     auto above = std::upper_bound(cdf_.begin(), cdf_.end(), v);
     above = above == cdf_.end() ? std::lower_bound(cdf_.begin(), cdf_.end(), 1.0f) : above;
     const float low = *(above - 1);

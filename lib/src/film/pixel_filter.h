@@ -7,30 +7,30 @@
 
 namespace bdpt {
 
-/// Where a splat goes and what it counts there.
+/// Pixel that receives a splat, and its weight.
 struct SplatTarget {
     Vec2 raster{0.0f};  ///< within the pixel [pixels]
     float weight = 1.0f;
 };
 
 /// A pixel filter h with integral one, sampled and evaluated as the same step function. A pixel
-/// with centre c measures the integral of h(p - c) L(p) over raster positions p, whether p is found
-/// by a camera path of that pixel or by a light path of any.
+/// with centre c measures the integral of h(p - c) L(p) over raster positions p, whether p is
+/// sampled by a camera path of that pixel or by any light path.
 class PixelFilter {
 public:
     /// `options` have been checked.
     explicit PixelFilter(const FilterOptions& options);
 
     [[nodiscard]] float radius() const { return radius_; }
-    /// Does each raster position count for the pixel that it lies in, and no other?
+    /// Tests whether each raster position contributes only to the pixel that contains it.
     [[nodiscard]] bool is_pixel() const { return is_pixel_; }
-    /// Raster position of a camera sample of pixel (x, y), by the density h. It can lie beside the
-    /// image. `u` is uniform in [0, 1)^2.
+    /// Samples the raster position of a camera sample of pixel (x, y) with density h. It can lie
+    /// outside of the image. `u` is uniform in [0, 1)^2.
     [[nodiscard]] Vec2 sample_raster(int x, int y, Vec2 u) const noexcept;
-    /// One of the pixels that `raster` counts for, with a probability in proportion to h; the
-    /// weight makes up for the sum of h over those pixels, which is near one.
+    /// Chooses one of the pixels that `raster` contributes to, with probability proportional to h;
+    /// the weight compensates for the sum of h over those pixels, which is near one.
     [[nodiscard]] SplatTarget choose_pixel(Vec2 raster, Vec2 u) const noexcept;
-    /// One factor of h at `offset` from the centre [1/pixel].
+    /// Returns one factor of h at `offset` from the centre [1/pixel].
     [[nodiscard]] float density(float offset) const noexcept;
 
 private:
@@ -42,8 +42,8 @@ private:
     [[nodiscard]] Choice choose_center(float position, float u) const noexcept;
 
     float radius_;
-    bool is_pixel_;           // a box of one pixel: each position counts for one pixel only
-    std::vector<float> cdf_;  // of |offset|, at the borders of equal cells of [0, radius]
+    bool is_pixel_;           // a box of one pixel: each position contributes to one pixel only
+    std::vector<float> cdf_;  // of |offset|, at the boundaries of equal cells of [0, radius]
 };
 
 }  // namespace bdpt

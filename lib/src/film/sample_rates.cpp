@@ -8,7 +8,7 @@
 namespace bdpt {
 namespace {
 
-/// In quarters there is nothing to round.
+/// Returns the mean rate; in quarters nothing is rounded.
 double mean_of(const std::vector<std::int8_t>& exponents)
 {
     std::int64_t quarters = 0;

@@ -8,7 +8,7 @@
 namespace bdpt {
 namespace {
 
-/// Takes a number from the front of `text`.
+/// Parses a number at the front of `text` and removes it.
 std::optional<std::int64_t> take_number(std::string_view& text)
 {
     std::uint32_t number = 0;
@@ -20,7 +20,7 @@ std::optional<std::int64_t> take_number(std::string_view& text)
     return number;
 }
 
-/// The first of `ranges`, which are in order, that does not end before `sample`.
+/// Returns the first of the sorted `ranges` that does not end before `sample`.
 template <typename Ranges>
 auto first_ending_from(Ranges& ranges, std::int64_t sample)
 {
@@ -53,7 +53,7 @@ std::optional<SampleSet> SampleSet::parse(std::string_view text)
         }
         text.remove_prefix(more ? 1 : 0);
         result.ranges_.push_back({.begin = *begin, .end = *end});
-        least = *end + 1;  // ranges that touch are one
+        least = *end + 1;  // ranges that touch are merged
     }
     return result;
 }
@@ -82,7 +82,7 @@ void SampleSet::add(SampleRange range)
     if (range.begin >= range.end) {
         return;
     }
-    // Those that it overlaps or touches become one with it.
+    // Ranges that it overlaps or touches are merged with it.
     const auto first = first_ending_from(ranges_, range.begin);
     auto last = first;
     for (; last != ranges_.end() && last->begin <= range.end; ++last) {

@@ -13,7 +13,7 @@
 namespace bdpt {
 namespace {
 
-/// Bounds every coordinate of `m * v` for all v whose coordinates are at most 1.
+/// Returns a bound of every coordinate of `m * v` for all v whose coordinates are at most 1.
 double stretch(const glm::dmat3& m)
 {
     const glm::dvec3 rows = abs(m[0]) + abs(m[1]) + abs(m[2]);

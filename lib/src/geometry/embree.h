@@ -1,7 +1,7 @@
 #pragma once
 
-// The one place that knows which Embree is there: 3.13 and 4.x differ in include path and in how a
-// query is passed.
+// The only file that depends on the Embree version: 3.13 and 4.x differ in include path and in the
+// arguments of queries.
 #if BDPT_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
 #else
@@ -18,14 +18,14 @@ using Context = RTCRayQueryContext;
 using Context = RTCIntersectContext;
 #endif
 
-/// What callbacks get to know of a query: Embree hands them the address of its own part.
+/// Context of a query for callbacks: Embree passes them the address of its own part.
 struct RayContext {
     Context embree;
     const Ray* ray;
     const void* owner;
 };
 
-/// `of`: the ray of `ray_hit`, as callbacks will get to know it, and `owner`: who asks.
+/// Traces `ray_hit`; callbacks receive `of`, the world-space ray, and `owner`, the caller.
 inline void intersect(RTCScene scene, RTCRayHit& ray_hit, const Ray& of, const void* owner)
 {
     RayContext context{.embree = {}, .ray = &of, .owner = owner};
@@ -41,7 +41,7 @@ inline void intersect(RTCScene scene, RTCRayHit& ray_hit, const Ray& of, const v
 #endif
 }
 
-/// Sets `ray.tfar` to minus infinity when anything is in the way.
+/// Sets `ray.tfar` to minus infinity if anything blocks the ray.
 inline void occluded(RTCScene scene, RTCRay& ray, const Ray& of, const void* owner)
 {
     RayContext context{.embree = {}, .ray = &of, .owner = owner};
@@ -57,7 +57,7 @@ inline void occluded(RTCScene scene, RTCRay& ray, const Ray& of, const void* own
 #endif
 }
 
-/// The query that a callback belongs to; its ray is that in the world.
+/// Returns the query that a callback belongs to, with its world-space ray.
 inline const RayContext& query_of(const Context* context)
 {
     return *reinterpret_cast<const RayContext*>(context);

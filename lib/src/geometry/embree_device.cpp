@@ -22,10 +22,10 @@ constexpr bool is_x86 = false;
                                          std::to_string(static_cast<int>(code)) + ")");
 }
 
-/// Null when the CPU lacks `isa`.
+/// Starts a device; null if the CPU lacks `isa`.
 RTCDevice start(Isa isa)
 {
-    // Left to itself Embree chooses the width of its tree by the model of the CPU.
+    // By default Embree chooses the width of its BVH by the model of the CPU.
     const std::string config =
         isa == Isa::native ? std::string()
                            : std::string("isa=") + isa_name(isa) + ",frequency_level=simd256";

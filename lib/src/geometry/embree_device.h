@@ -10,17 +10,17 @@
 
 namespace bdpt {
 
-/// Embree, started with one instruction set.
+/// An Embree device with a chosen instruction set.
 class EmbreeDevice {
 public:
-    /// `isa` native: the best one that this CPU and Embree agree on. Throws `Error`: usage when the
-    /// CPU lacks `isa`; out_of_memory or internal when Embree fails.
+    /// `isa` native selects the best one that this CPU and Embree support. Throws `Error`: usage if
+    /// the CPU lacks `isa`; out_of_memory or internal if Embree fails.
     explicit EmbreeDevice(Isa isa);
 
     [[nodiscard]] RTCDevice get() const { return device_.get(); }
-    /// The one in use; native only where it is not known, on other CPUs than x86.
+    /// Returns the instruction set in use; native only if it is unknown, on CPUs other than x86.
     [[nodiscard]] Isa isa() const { return isa_; }
-    /// Of the library that is loaded: "3.13.5".
+    /// Returns the version of the loaded library: "3.13.5".
     [[nodiscard]] std::string version() const;
 
 private:
@@ -32,8 +32,8 @@ private:
     Isa isa_;
 };
 
-/// Throws `Error` (out_of_memory or internal) when a call since the last check has failed on this
-/// thread. `device` is null for the start of a device itself; `action` completes "failed to".
+/// Throws `Error` (out_of_memory or internal) if a call since the last check has failed on this
+/// thread. `device` is null for the creation of a device itself; `action` completes "failed to".
 void check_embree(RTCDevice device, const char* action);
 
 }  // namespace bdpt

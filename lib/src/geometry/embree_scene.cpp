@@ -20,7 +20,7 @@
 namespace bdpt {
 namespace {
 
-constexpr unsigned all_rays = 0xffffffffU;  // Embree 4 would default to a mask of 1
+constexpr unsigned all_rays = 0xffffffffU;  // Embree 4 defaults to a mask of 1
 
 template <auto release>
 struct Releaser {
@@ -37,7 +37,7 @@ using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Releaser<release>>;
 using OwnedScene = Owned<RTCScene, rtcReleaseScene>;
 using OwnedGeometry = Owned<RTCGeometry, rtcReleaseGeometry>;
 
-/// Embree reads whole 16-byte vectors, so one more float must follow the last vertex.
+/// Appends a float, because Embree reads whole 16-byte vectors.
 std::vector<Vec3> padded(std::vector<Vec3> positions)
 {
     positions.emplace_back(0.0f);
@@ -53,14 +53,14 @@ OwnedScene new_scene(RTCDevice device)
     return scene;
 }
 
-/// What a query is asked of, as callbacks get to know it.
+/// The owner of a query, passed to callbacks.
 struct QueryOwner {
     const AnyHitFilter* filter;
     std::span<const PlacedMesh> placed;
 };
 
-/// Asks the filter whether the hit counts. Only single rays are asked for, and packets of one have
-/// the layout of the struct.
+/// Applies the filter to a hit. All queries are single rays, and packets of one have the layout of
+/// the struct.
 void filter_hit(const RTCFilterFunctionNArguments* args)
 {
     if (args->valid[0] == 0) {
@@ -95,7 +95,7 @@ void let_pass(RTCDevice device, RTCGeometry geometry)
 /// Vertices of a mesh, at one or more equally spaced times.
 using PaddedPositions = std::vector<std::vector<Vec3>>;
 
-/// The vectors must outlive the geometry.
+/// Creates a triangle geometry. The vectors must outlive it.
 OwnedGeometry new_triangles(RTCDevice device, const PaddedPositions& positions,
                             const std::vector<UVec3>& triangles, bool filtered)
 {
@@ -117,7 +117,7 @@ OwnedGeometry new_triangles(RTCDevice device, const PaddedPositions& positions,
     return geometry;
 }
 
-/// All vertices in the world: at each step, if they move.
+/// Returns all vertices in world space: at each step, if they move.
 PaddedPositions world_positions(const PlacedMesh& placed)
 {
     PaddedPositions result;
@@ -148,7 +148,7 @@ OwnedGeometry new_instance(RTCDevice device, RTCScene mesh, const PlacedMesh& pl
     return geometry;
 }
 
-/// The sum of the magnitudes, so that it takes one comparison.
+/// Tests the sum of the magnitudes, to need a single comparison.
 bool is_within(Vec3 v, float bound)
 {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z) <= bound;
@@ -156,7 +156,7 @@ bool is_within(Vec3 v, float bound)
 
 RTCRay to_embree(const Ray& ray)
 {
-    // A surface through the exact origin counts as behind it, for it is the one that the ray
+    // A surface through the exact origin counts as behind it, as it is the surface that the ray
     // leaves.
     constexpr float beyond_origin = std::numeric_limits<float>::min();
     return {.org_x = ray.origin.x,
@@ -173,9 +173,9 @@ RTCRay to_embree(const Ray& ray)
             .flags = 0};
 }
 
-/// A mesh that instances share.
+/// The BVH of a mesh that instances share.
 struct MeshTree {
-    PaddedPositions positions;  // what Embree reads
+    PaddedPositions positions;  // read by Embree
     OwnedScene scene;
 };
 
@@ -207,25 +207,25 @@ std::vector<bool> filtered_meshes(std::span<const InstanceDesc> instances, std::
 
 struct EmbreeScene::State {
     std::shared_ptr<const EmbreeDevice> device;
-    std::vector<bool> filtered;  // by mesh
-    // By mesh; null for those that are in the top level.
+    std::vector<bool> filtered;  // one per mesh
+    // One per mesh; null for meshes in the top level.
     std::vector<std::shared_ptr<const MeshTree>> trees;
-    std::vector<PaddedPositions> positions;  // of the top level, as Embree reads them
+    std::vector<PaddedPositions> positions;  // vertices of the top level, in the format of Embree
     OwnedScene top;
     std::span<const PlacedMesh> placed;
     float reach = 0.0f;
 
     [[nodiscard]] float farthest_origin() const { return 8.0f * reach; }
 
-    /// Embree may end the process for other rays. What numbers make of odd scenes, such as NaN,
-    /// must not; such rays meet nothing.
+    /// Tests whether a ray is valid. Embree may terminate the process for others, such as NaN from
+    /// degenerate scenes; such rays hit nothing.
     [[nodiscard]] bool can_trace(const Ray& ray) const
     {
         return is_within(ray.origin, farthest_origin()) &&
                is_within(ray.direction, 16.0f * reach) && ray.t_max >= 0.0f;
     }
 
-    /// That of `like` if it will do.
+    /// Returns the BVH of `like` if it fits, else a new one.
     [[nodiscard]] std::shared_ptr<const MeshTree> tree_of(std::size_t mesh, const MeshDesc& desc,
                                                           const State* like) const
     {
@@ -286,7 +286,7 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
         rtcSetGeometryMask(geometry.get(), all_rays);
         rtcCommitGeometry(geometry.get());
         check_embree(device, "take over the spheres");
-        // The number after those of the instances tells them apart.
+        // The index after those of the instances identifies the spheres.
         rtcAttachGeometryByID(state.top.get(), geometry.get(),
                               static_cast<unsigned>(instances.size()));
     }
@@ -329,7 +329,7 @@ const void* EmbreeScene::tree(std::size_t mesh) const noexcept
 
 std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
 {
-    std::optional<RayHit> found;  // made where it is returned
+    std::optional<RayHit> found;  // constructed in place of the result
     if (!state_->can_trace(ray)) [[unlikely]] {
         return found;
     }
@@ -360,7 +360,7 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
 bool EmbreeScene::occluded(const Ray& ray) const noexcept
 {
     if (!state_->can_trace(ray)) [[unlikely]] {
-        return true;  // No light comes along a line that nothing is known of.
+        return true;  // An invalid ray transports no light.
     }
     RTCRay query = to_embree(ray);
     const QueryOwner owner{.filter = &filter_, .placed = state_->placed};

@@ -46,7 +46,7 @@ std::optional<SphereHit> hit_of(const RTCRay& ray, const void* spheres, unsigned
                      ray.tnear);
 }
 
-// Only single rays are asked for, and packets of one have the layout of the struct.
+// All queries are single rays, and packets of one have the layout of the struct.
 
 void find_hit(const RTCIntersectFunctionNArguments* args)
 {
@@ -78,7 +78,7 @@ RTCGeometry new_sphere_geometry(RTCDevice device, std::span<const Sphere> sphere
 {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(spheres.size()));
-    // Embree wants a pointer to non-const, but the callbacks do not write.
+    // Embree requires a pointer to non-const, but the callbacks do not write.
     rtcSetGeometryUserData(geometry, const_cast<Sphere*>(spheres.data()));
     rtcSetGeometryBoundsFunction(geometry, &set_bounds, nullptr);
     rtcSetGeometryIntersectFunction(geometry, &find_hit);

@@ -7,9 +7,9 @@
 
 namespace bdpt {
 
-/// A geometry of spheres; the caller releases it, and `spheres` must outlive it. Embree's own
-/// spheres compute in float, which frays the outline of those that are small as seen from afar, so
-/// these are of the user's kind. A ray's `id` names the sphere that it does not see.
+/// Creates a geometry of spheres; the caller releases it, and `spheres` must outlive it. Embree's
+/// own spheres compute in float, which frays the outline of distant small ones, so these are a user
+/// geometry. A ray's `id` names the sphere that it ignores.
 [[nodiscard]] RTCGeometry new_sphere_geometry(RTCDevice device, std::span<const Sphere> spheres);
 
 }  // namespace bdpt

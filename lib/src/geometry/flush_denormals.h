@@ -7,8 +7,8 @@
 
 namespace bdpt {
 
-/// Treats denormal floats as zero on the calling thread, as Embree asks for, and restores the
-/// thread's former mode at the end.
+/// Flushes denormal floats to zero on the calling thread, as Embree recommends, and restores the
+/// thread's previous mode in the destructor.
 class FlushDenormals {
 public:
 #if defined(__SSE__)

@@ -9,8 +9,8 @@
 
 namespace bdpt {
 
-/// The length of a vector, right also where its square leaves the range of floats: area normals of
-/// triangles with edges of more than 4e9 m, or less than 1e-9 m, are so long or short.
+/// Returns the length of a vector, correct even if its square exceeds the range of floats: area
+/// normals of triangles with edges of more than 4e9 m, or less than 1e-9 m, are that long or short.
 [[nodiscard]] inline float length_of(Vec3 v)
 {
     const float squared = dot(v, v);

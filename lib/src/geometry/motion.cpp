@@ -13,8 +13,8 @@
 namespace bdpt {
 namespace {
 
-/// The coefficients of det((1 - f) a + f b) in Bernstein's basis: it is between the least and the
-/// greatest of them for f in [0, 1].
+/// Returns the Bernstein coefficients of det((1 - f) a + f b): for f in [0, 1] it is between their
+/// minimum and maximum.
 std::array<double, 4> determinants(const glm::dmat3& a, const glm::dmat3& b)
 {
     const auto of = [](const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z) {
@@ -26,7 +26,7 @@ std::array<double, 4> determinants(const glm::dmat3& a, const glm::dmat3& b)
             of(b[0], b[1], b[2])};
 }
 
-/// Magnitudes that those of the cofactors of all matrices between a and b do not exceed.
+/// Returns upper bounds of the magnitudes of the cofactors of all matrices between a and b.
 glm::dmat3 cofactor_bounds(const glm::dmat3& a, const glm::dmat3& b)
 {
     glm::dmat3 bounds(0.0);

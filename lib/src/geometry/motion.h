@@ -8,13 +8,14 @@
 
 namespace bdpt {
 
-/// Where a time lies among the steps of a motion.
+/// Position of a time among the steps of a motion.
 struct TimeStep {
-    std::size_t index = 0;  ///< of the step before it
-    float fraction = 0.0f;  ///< of the way to the next one
+    std::size_t index = 0;  ///< index of the step before it
+    float fraction = 0.0f;  ///< fraction of the interval to the next step
 };
 
-/// `time` is in [0, 1], `steps` at least 1. The arithmetic is that of Embree.
+/// Returns the position of `time` in [0, 1] among `steps`, at least 1. The arithmetic is that of
+/// Embree.
 [[nodiscard]] inline TimeStep time_step(float time, std::size_t steps)
 {
     const float scaled = time * static_cast<float>(steps);
@@ -28,14 +29,14 @@ template <typename T>
     return (1.0f - fraction) * a + fraction * b;
 }
 
-/// Value number `step` of a motion.
+/// Returns value number `step` of a motion.
 template <typename T>
 [[nodiscard]] const T& at_step(const T& first, std::span<const T> later, std::size_t step)
 {
     return step == 0 || later.empty() ? first : later[step - 1];
 }
 
-/// What is `first` when the shutter opens and moves as `later` says, at a time in [0, 1].
+/// Returns a value at a time in [0, 1]: `first` at shutter open, and interpolated through `later`.
 template <typename T>
 [[nodiscard]] T at_time(const T& first, std::span<const T> later, float time)
 {
@@ -48,8 +49,8 @@ template <typename T>
 
 /// Bounds of the matrices between two that `can_move`.
 struct MotionBounds {
-    double min_determinant = 0.0;  ///< magnitude; 0: some may have none
-    double inverse_stretch = 0.0;  ///< greatest sum of a row of the inverses, by magnitude
+    double min_determinant = 0.0;  ///< minimum magnitude; 0: some may be singular
+    double inverse_stretch = 0.0;  ///< maximum row sum of magnitudes of the inverses
 };
 
 [[nodiscard]] MotionBounds motion_bounds(const Mat4& from, const Mat4& to);

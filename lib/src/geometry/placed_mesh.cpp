@@ -14,7 +14,7 @@
 namespace bdpt {
 namespace {
 
-/// How often a coordinate of a point, or of an intersection test, is rounded at most.
+/// Maximum number of roundings of a coordinate of a point, or of an intersection test.
 constexpr int rounded_operations = 12;
 
 float max_axis(Vec3 v)
@@ -22,30 +22,31 @@ float max_axis(Vec3 v)
     return std::max(v.x, std::max(v.y, v.z));
 }
 
-/// The greatest coordinate of all corners.
+/// Returns the largest coordinates of all vertices.
 Vec3 extent(const std::array<Vec3, 3>& corners)
 {
     return max(abs(corners[0]), max(abs(corners[1]), abs(corners[2])));
 }
 
-/// Of corners as Embree has them. The intersection test works on the corners relative to the ray's
-/// origin and rounds in all directions, even where a coordinate of all corners is zero. So the
-/// bound takes the greatest coordinate of all, not each axis for itself.
+/// Returns the error bound for vertices as Embree stores them. The intersection test works on the
+/// vertices relative to the ray's origin and rounds in all directions, even where a coordinate of
+/// all vertices is zero. So the bound uses the largest coordinate of all, not each axis separately.
 float still_error(const std::array<Vec3, 3>& corners)
 {
     return rounding_bound(rounded_operations) * max_axis(extent(corners));
 }
 
-/// Of a corner that goes `way` in one of `steps` steps and is at most `size` from the origin. Both
-/// we and Embree interpolate, and a mesh that keeps its shape is tested in its own space; the time
-/// within the step is as inexact as the number of steps is great.
+/// Returns the error bound of a vertex that moves by `way` in one of `steps` steps and is at most
+/// `size` from the origin. Both this code and Embree interpolate, and a rigid mesh is tested in its
+/// own space; the error of the time within a step grows with the number of steps.
 float moving_error(Vec3 size, Vec3 way, std::size_t steps)
 {
     return rounding_bound(3 * rounded_operations) * max_axis(size) +
            rounding_bound(4 * static_cast<int>(steps)) * max_axis(way);
 }
 
-/// Transposed cofactors: the inverse transpose times the determinant, so it cannot divide by zero.
+/// Returns the transposed cofactors: the inverse transpose times the determinant, so it cannot
+/// divide by zero.
 Mat3 cofactors(const Mat3& m)
 {
     return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
@@ -135,7 +136,7 @@ PlacedMesh::Moment PlacedMesh::deforming_moment(const UVec3& vertices, float tim
     return moment;
 }
 
-/// Of a mesh that others share: it is tested in its own space.
+/// Returns a triangle of a shared mesh, which is tested in its own space.
 PlacedMesh::Moment PlacedMesh::still_moment(std::uint32_t triangle) const
 {
     const UVec3& i = mesh_->triangles[triangle];
@@ -263,13 +264,13 @@ Vec4 PlacedMesh::tangent(std::uint32_t triangle, Vec2 barycentrics, int uv_set, 
     const auto [a, b, c] = corners(triangle, time);
     const Vec2 d1 = uvs[i.y] - uvs[i.x];
     const Vec2 d2 = uvs[i.z] - uvs[i.x];
-    const float area = d1.x * d2.y - d1.y * d2.x;  // signed, of the triangle in the texture
+    const float area = d1.x * d2.y - d1.y * d2.x;  // signed area of the triangle in the texture
     if (area == 0.0f) {
         return Vec4(0.0f);
     }
     const Vec3 along_u = std::copysign(1.0f, area) * (d2.y * (b - a) - d1.y * (c - a));
     // v grows downwards in glTF and the bitangent points up in the image. A triangle that is not
-    // mirrored in the texture has its corners clockwise there, so the area is negative.
+    // mirrored in the texture has clockwise vertices there, so the area is negative.
     return {along_u, -std::copysign(front_sign(), area * front_sign())};
 }
 

@@ -15,7 +15,7 @@
 
 namespace bdpt {
 
-/// Where a transform takes things.
+/// A transform of points, vectors and normals.
 struct Placement {
     explicit Placement(const Mat4& world_from_object);
 
@@ -27,22 +27,22 @@ struct Placement {
     Mat3 linear;
     Vec3 translation;
     Mat3 normal_matrix;
-    float front_sign;  ///< -1 when it mirrors, else +1
+    float front_sign;  ///< -1 if it mirrors, else +1
 };
 
-/// Bounds the error of points on triangles that reach `extent` from the origin [m], in one
-/// coordinate.
+/// Returns a bound of the error of points on triangles that reach `extent` from the origin [m], in
+/// one coordinate.
 [[nodiscard]] float position_error(float extent);
 
-/// A mesh as one instance places it in the world. Refers to both, which must outlive it. Times are
-/// in [0, 1] while the shutter is open, and count where something moves.
+/// A mesh as placed in the world by one instance. Refers to both, which must outlive it. Times are
+/// within the shutter interval [0, 1], and matter if something moves.
 ///
-/// What moves does so as Embree moves it: along straight lines from step to step, of matrices in
-/// the case of a mesh that keeps its shape, of vertices in the world if it deforms.
+/// Motion follows Embree: linear interpolation between steps, of matrices for a rigid mesh, of
+/// world-space vertices for a deforming one.
 class PlacedMesh {
 public:
     PlacedMesh(const MeshDesc& mesh, const InstanceDesc& instance);
-    /// Its instance stands still.
+    /// Places a mesh with a static transform.
     PlacedMesh(const MeshDesc& mesh, const Mat4& world_from_object);
 
     [[nodiscard]] const MeshDesc& mesh() const { return *mesh_; }
@@ -51,42 +51,43 @@ public:
         return static_cast<std::uint32_t>(mesh_->triangles.size());
     }
 
-    /// +1, or -1 when the transform mirrors: the front is then where the corners run clockwise
-    /// (glTF 2.0, sec. 3.7.4 "Instantiation").
+    /// Returns +1, or -1 if the transform mirrors: the front then has clockwise vertices (glTF 2.0,
+    /// sec. 3.7.4 "Instantiation").
     [[nodiscard]] float front_sign() const { return first_.front_sign; }
 
-    /// Does it deform, or its instance move?
+    /// Tests whether it deforms, or its instance moves.
     [[nodiscard]] bool moves() const { return steps_ > 0; }
     [[nodiscard]] bool deforms() const { return !mesh_->motion.empty(); }
-    /// Of the motion, after the opening; 0: it stands still.
+    /// Returns the number of motion steps after shutter open; 0 if static.
     [[nodiscard]] std::size_t steps() const { return steps_; }
-    /// Transform and vertex number `step`, in [0, steps()].
+    /// Returns the transform, or a vertex in world space, at step `step` in [0, steps()].
     [[nodiscard]] const Mat4& transform_at(std::size_t step) const;
     [[nodiscard]] Vec3 world_point_at(std::size_t step, std::size_t vertex) const;
 
-    // When the shutter opens.
+    // At shutter open.
     [[nodiscard]] Vec3 world_point(Vec3 object_point) const { return first_.point(object_point); }
     [[nodiscard]] Vec3 world_vector(Vec3 object_vector) const
     {
         return first_.linear * object_vector;
     }
-    /// Keeps the side: the front in object space is the front in the world. Any length.
+    /// Transforms a normal, preserving the side: the front in object space is the front in the
+    /// world. Any length.
     [[nodiscard]] Vec3 world_normal(Vec3 object_normal) const
     {
         return first_.normal_matrix * object_normal;
     }
 
-    /// Corners in the world.
+    /// Returns the vertices of a triangle in world space.
     [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t triangle, float time) const;
-    /// Barycentrics are those of the second and third corner.
+    /// Returns a point; barycentrics are the weights of the second and third vertex.
     [[nodiscard]] BoundedPoint point(std::uint32_t triangle, Vec2 barycentrics, float time) const
     {
         return settled_.empty() ? unsettled_point(triangle, barycentrics, time)
                                 : settled_[triangle].point(barycentrics);
     }
-    /// Writes to `at` where the line of the ray crosses the plane of the triangle. Embree knows it
-    /// too, but from reciprocals that CPUs of different makers approximate differently; this is the
-    /// same on all.
+    /// Intersects the line of the ray with the plane of the triangle and stores the result in `at`.
+    /// Embree computes it too, but from reciprocals that CPUs of different vendors approximate
+    /// differently; this is bit-identical on all.
     void hit(std::uint32_t triangle, const Ray& ray, TriangleHit& at) const
     {
         if (settled_.empty()) {
@@ -95,30 +96,31 @@ public:
             settled_[triangle].hit(ray, at);
         }
     }
-    /// Front normal from the corners, in the world, unnormalised; its length is twice the area.
+    /// Returns the front normal of the triangle in world space, unnormalised; its length is twice
+    /// the area.
     [[nodiscard]] Vec3 area_normal(std::uint32_t triangle, float time) const;
 
     [[nodiscard]] std::array<Vec2, 2> uv(std::uint32_t triangle, Vec2 barycentrics) const;
-    /// What a pixel that is `width` wide [m] on the triangle covers of its texture coordinates;
-    /// zero where the triangle has no area.
+    /// Returns the texture footprint of a pixel that is `width` wide [m] on the triangle; zero if
+    /// the triangle has no area.
     [[nodiscard]] UvFootprint uv_footprint(std::uint32_t triangle, float width, float time) const;
-    /// Interpolated and unit; zero when the mesh has no normals.
+    /// Returns the interpolated unit normal; zero if the mesh has no normals.
     [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Vec2 barycentrics, float time) const;
-    /// Tangent and handedness for normal maps: the mesh's own, else along texture coordinate u of
-    /// set `uv_set`; zero when neither exists.
+    /// Returns tangent and handedness for normal maps: the mesh's own, else along texture
+    /// coordinate u of set `uv_set`; zero if neither exists.
     [[nodiscard]] Vec4 tangent(std::uint32_t triangle, Vec2 barycentrics, int uv_set,
                                float time) const;
     [[nodiscard]] Vec4 color(std::uint32_t triangle, Vec2 barycentrics) const;
 
-    /// For a mesh that stands still and is placed once: works out what hits need. Corners are read
-    /// from `positions` from now on (world space, one for each vertex), which must outlive this.
+    /// Precomputes hits of a static mesh with a single instance. Vertices are read from `positions`
+    /// from now on (world space, one for each vertex), which must outlive this.
     void settle(std::span<const Vec3> positions);
 
 private:
-    /// A triangle in the world at a time.
+    /// A triangle in world space at a time.
     struct Moment {
         std::array<Vec3, 3> corners;
-        float error;  ///< as that of `BoundedPoint`
+        float error;  ///< as in `BoundedPoint`
     };
     [[nodiscard]] Moment rigid_moment(const UVec3& vertices, float time) const;
     [[nodiscard]] Moment deforming_moment(const UVec3& vertices, float time) const;
@@ -137,7 +139,8 @@ private:
         return (1.0f - barycentrics.x - barycentrics.y) * values[i.x] +
                barycentrics.x * values[i.y] + barycentrics.y * values[i.z];
     }
-    /// The same of what moves with the mesh: `first` when the shutter opens, `later` in each pose.
+    /// Interpolates an attribute that moves with the mesh: `first` at shutter open, `later` in each
+    /// pose.
     template <typename T>
     [[nodiscard]] T interpolate(const std::vector<T>& first, std::vector<T> MeshPose::*later,
                                 std::uint32_t triangle, Vec2 barycentrics, float time) const
@@ -153,11 +156,11 @@ private:
     }
 
     const MeshDesc* mesh_;
-    std::span<const Vec3> world_positions_;  // once settled
-    std::vector<StillTriangle> settled_;     // the same
+    std::span<const Vec3> world_positions_;  // set once settled
+    std::vector<StillTriangle> settled_;     // set once settled
     std::size_t steps_;
-    Placement first_;  // when the shutter opens
-    Mat4 transform_;   // the same
+    Placement first_;  // at shutter open
+    Mat4 transform_;   // at shutter open
     std::span<const Mat4> motion_;
 };
 

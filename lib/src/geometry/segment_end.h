@@ -9,13 +9,15 @@
 
 namespace bdpt {
 
-/// One end of a segment of a path: what a ray that starts or ends there needs to know.
+/// One end of a segment of a path, with the data needed to trace a ray from or to it.
 struct SegmentEnd {
     Vec3 p{0.0f};
-    float error = 0.0f;  ///< how far off p can be, and the surface that a ray meets there [m]
-    Vec3 ng{0.0f};       ///< unit geometric normal on the front; zero when on no surface
-    std::uint32_t sphere = no_sphere;  ///< that p lies on; segments touch spheres from outside only
-    SideMedia media{};                 ///< on both sides; around a point on no surface
+    float error = 0.0f;  ///< bound of the error of p and of the surface hit there [m]
+    Vec3 ng{0.0f};       ///< unit geometric normal on the front; zero if not on a surface
+    /// Sphere that contains p; segments touch spheres from outside only.
+    std::uint32_t sphere = no_sphere;
+    /// Media on both sides, or around a point that is not on a surface.
+    SideMedia media{};
 };
 
 }  // namespace bdpt

@@ -18,7 +18,7 @@ Sphere Sphere::at(float time) const
 
 BoundedPoint Sphere::point(Vec3 normal) const
 {
-    // The unit normal, its product and the sum are rounded; rays are tested in double.
+    // Roundings of the unit normal, its product and the sum; rays are tested in double.
     constexpr int rounded_operations = 8;
     const Vec3 size = abs(center) + radius;
     return {center + radius * normal,
@@ -32,7 +32,7 @@ std::optional<SphereHit> intersect(const Sphere& sphere, const Ray& ray, float t
     const auto radius = static_cast<double>(sphere.radius);
     const double length_squared = dot(direction, direction);
     const double nearest = dot(to_center, direction) / length_squared;
-    // From the centre to the point of the line that is nearest to it.
+    // Vector from the centre to the nearest point of the line.
     const glm::dvec3 aside = nearest * direction - to_center;
     const double half_chord_squared = radius * radius - dot(aside, aside);
     if (!(half_chord_squared >= 0.0)) {

@@ -10,27 +10,28 @@
 
 namespace bdpt {
 
-/// The surface of a sphere. Its normals point outwards.
+/// The surface of a sphere. Normals point outwards.
 struct Sphere {
     Vec3 center{0.0f};
     float radius = 1.0f;             ///< [m], > 0
-    std::span<const Vec3> motion{};  ///< of the centre, as in `PointLightDesc`; owned by others
+    std::span<const Vec3> motion{};  ///< later centres, as in `PointLightDesc`; not owned
 
-    /// Where it is at a time in [0, 1], standing still.
+    /// Returns the static sphere at a time in [0, 1].
     [[nodiscard]] Sphere at(float time) const;
 
-    /// The point whose unit normal is given, with a bound of how far it may lie off the surface.
+    /// Returns the point with the unit normal `normal`, and a bound of its distance from the
+    /// surface.
     [[nodiscard]] BoundedPoint point(Vec3 normal) const;
 };
 
-/// Where a ray met a sphere.
+/// Hit of a sphere.
 struct SphereHit {
     float t = 0.0f;     ///< in units of the ray's direction
     Vec3 normal{0.0f};  ///< unit, outwards
 };
 
-/// The first crossing in (t_min, ray.t_max), from outside or from inside. Computed in double, so
-/// that spheres that are tiny or far away keep their outline.
+/// Returns the first hit in (t_min, ray.t_max), from outside or from inside. Computed in double
+/// precision, so that tiny or distant spheres keep their outline.
 [[nodiscard]] std::optional<SphereHit> intersect(const Sphere& sphere, const Ray& ray,
                                                  float t_min) noexcept;
 

@@ -9,17 +9,16 @@
 
 namespace bdpt {
 
-/// A triangle that stands still, as every ray needs it that hits it: worked out once, in one cache
-/// line.
+/// Precomputed data of a static triangle for each hit, in one cache line.
 struct alignas(64) StillTriangle {
-    Vec3 corner{0.0f};        ///< the first, in the world
-    float error = 0.0f;       ///< as that of `BoundedPoint`, for points given by barycentrics
-    Vec3 to_b{0.0f};          ///< edges from there to the second corner
-    Vec3 to_c{0.0f};          ///< and to the third
+    Vec3 corner{0.0f};        ///< first vertex, in world space
+    float error = 0.0f;       ///< as in `BoundedPoint`, for points given by barycentrics
+    Vec3 to_b{0.0f};          ///< edge from the first to the second vertex
+    Vec3 to_c{0.0f};          ///< edge from the first to the third vertex
     Vec3 ng{0.0f};            ///< unit, on the front; zero without an area
-    float twice_area = 0.0f;  ///< negative where the front is where corners run clockwise
+    float twice_area = 0.0f;  ///< negative if the front has clockwise vertices
 
-    /// `front_sign`: as that of `PlacedMesh`.
+    /// `front_sign` as in `PlacedMesh`.
     StillTriangle(const std::array<Vec3, 3>& corners, float front_sign, float error_of_points)
         : corner(corners[0]),
           error(error_of_points),
@@ -38,13 +37,13 @@ struct alignas(64) StillTriangle {
     {
         return {corner + (barycentrics.x * to_b + barycentrics.y * to_c), error};
     }
-    /// Where the line of the ray crosses the plane [Moeller and Trumbore 1997, "Fast, Minimum
+    /// Intersects the line of the ray with the plane [Moeller and Trumbore 1997, "Fast, Minimum
     /// Storage Ray/Triangle Intersection"].
     [[gnu::always_inline]] inline void hit(const Ray& ray, TriangleHit& at) const
     {
         const float determinant = twice_area * dot(ng, ray.direction);
         const Vec3 moment = cross(ray.origin - corner, ray.direction);
-        const float scale = determinant == 0.0f ? 0.0f : 1.0f / determinant;  // seen from the side
+        const float scale = determinant == 0.0f ? 0.0f : 1.0f / determinant;  // edge-on
         at.barycentrics = {-dot(moment, to_c) * scale, dot(moment, to_b) * scale};
         at.ng = ng;
         at.point = point(at.barycentrics);

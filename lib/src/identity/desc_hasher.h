@@ -25,8 +25,8 @@ concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T> || requires(co
     requires !std::is_convertible_v<T, std::string_view>;
 };
 
-/// Hashes descriptions by their lists of fields (bdpt/fields.h). Names do not count, as they show
-/// in no image.
+/// Hashes descriptions by their lists of fields (bdpt/fields.h). Names are ignored, as they affect
+/// no image.
 class DescHasher {
 public:
     template <PlainValue T>
@@ -93,7 +93,7 @@ private:
     ContentHasher hasher_;
 };
 
-/// "#" and the hash of one value.
+/// Returns "#" and the hash of one value.
 template <typename T>
 [[nodiscard]] std::string hash_text(const T& value)
 {

@@ -12,12 +12,12 @@
 
 namespace bdpt {
 
-/// Do descriptions have the same bits? Names do not count, as in `DescHasher`. For those without
-/// images, which are compared as what they are in.
+/// Tests whether descriptions have the same bits. Names are ignored, as in `DescHasher`. Does
+/// not support descriptions that contain images.
 template <typename T>
 [[nodiscard]] bool same_bits(const T& a, const T& b);
 
-/// The same of each item.
+/// Compares lists item by item.
 template <typename T>
 [[nodiscard]] bool same_bits(const std::vector<T>& a, const std::vector<T>& b)
 {
@@ -32,7 +32,7 @@ template <typename T>
     return true;
 }
 
-/// The same of what they have, if anything.
+/// Compares optional values.
 template <typename T>
 [[nodiscard]] bool same_bits(const std::optional<T>& a, const std::optional<T>& b)
 {

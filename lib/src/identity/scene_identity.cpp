@@ -10,7 +10,7 @@
 namespace bdpt {
 namespace {
 
-/// Longer lists have one hash for all, so that an identity stays short.
+/// Longer lists have one hash for all items, so that an identity stays short.
 constexpr std::size_t max_items_hashed_alone = 64;
 
 template <typename T>
@@ -39,7 +39,7 @@ bool is_known(const SharedList<T>& list, const SharedList<T>& before)
     return !list.empty() && list.is_shared_with(before);
 }
 
-/// It takes no time.
+/// Returns false, for values that are fast to hash.
 template <typename T>
 bool is_known(const T& /*value*/, const T& /*before*/)
 {

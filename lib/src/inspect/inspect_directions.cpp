@@ -16,7 +16,7 @@ namespace {
 
 constexpr int strata = 4;  // rays along each side of a pixel
 
-/// What is seen at (u, v) of an image with +y at the top and -z in the centre.
+/// Returns the direction at (u, v) of an image with +y at the top and -z in the centre.
 Vec3 direction_at(float u, float v)
 {
     const SinCos turn = sin_cos(2.0f * pi * (u - 0.5f));
@@ -24,10 +24,10 @@ Vec3 direction_at(float u, float v)
     return {turn.sin * from_top.sin, from_top.cos, -turn.cos * from_top.sin};
 }
 
-/// What light comes from a direction.
+/// Light that arrives from a direction.
 struct Seen {
     Rgb radiance{0.0f};
-    std::optional<PathVertex> light{};  ///< where it starts
+    std::optional<PathVertex> light{};  ///< vertex on the light
 };
 
 Seen look(const SampleContext& sample, const SegmentEnd& from, Vec3 direction, SegmentKey segment)
@@ -56,7 +56,7 @@ Seen look(const SampleContext& sample, const SegmentEnd& from, Vec3 direction, S
     return seen;
 }
 
-/// Density of the light sample that finds `x0` from `vertex`.
+/// Returns the density of the light sample that finds `x0` from `vertex`.
 float light_density(const SampleContext& sample, const PathVertex& x0, const PathVertex& vertex,
                     Vec3 direction, NextEventSampling sampling)
 {

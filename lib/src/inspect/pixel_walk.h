@@ -13,12 +13,12 @@
 
 namespace bdpt {
 
-/// `options` with what `automatic` chooses, for this sample alone and on one thread. Throws what
-/// `inspect_sample` does.
+/// Returns `options` with `automatic` resolved, for this sample alone and on one thread. Throws
+/// like `inspect_sample`.
 [[nodiscard]] RenderOptions inspected_options(const Scene& scene, const CameraDesc& camera,
                                               RenderOptions options, const PixelSample& sample);
 
-/// The camera path of a sample, as integrators walk it.
+/// The camera path of a sample, as integrators trace it.
 class PixelWalk {
 public:
     /// `options` are `inspected_options`. `scene` must outlive this object.
@@ -31,7 +31,7 @@ public:
     [[nodiscard]] Vec2 raster() const { return start_.raster; }
     [[nodiscard]] const Subpath& camera_path() const { return camera_path_; }
     [[nodiscard]] NextEventSampling next_event_sampling() const { return next_event_sampling_; }
-    /// The light path of the sample, if its integrator has one of its own.
+    /// Returns the light path of the sample, if its integrator has one of its own.
     [[nodiscard]] Subpath light_path();
 
 private:

@@ -23,7 +23,7 @@ std::string coordinates_text(Vec3 v)
     return std::to_string(v.x) + "," + std::to_string(v.y) + "," + std::to_string(v.z);
 }
 
-/// A ray may begin or end there.
+/// Returns the end of a ray at `p`; throws if it is not finite or too far away.
 SegmentEnd checked_end(const World& world, const char* name, Vec3 p)
 {
     if (!has_finite_values(p)) {
@@ -38,7 +38,7 @@ SegmentEnd checked_end(const World& world, const char* name, Vec3 p)
     return end;
 }
 
-/// A surface is met wherever it takes any light away.
+/// Returns a key with which rays hit every surface that is not fully transparent.
 SegmentKey checked_key(float time)
 {
     if (!(time >= 0.0f && time <= 1.0f)) {

@@ -5,8 +5,8 @@
 namespace bdpt {
 namespace {
 
-/// The estimate of `found` if its strategy were alone; light of a path that has met dispersion
-/// counts in one channel.
+/// Returns the estimate of `found` if its strategy were alone; light of a dispersed path counts in
+/// one channel.
 Rgb unweighted_of(const SampleContext& sample, const Contribution& found)
 {
     return found.dispersed ? found.unweighted * spectral_weight(sample.wavelength)

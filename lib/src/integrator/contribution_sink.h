@@ -11,35 +11,35 @@
 
 namespace bdpt {
 
-/// Where a thread's integrator delivers every contribution that it finds: film, images of
-/// strategies and observers get it from here alone.
+/// Receives every contribution that a thread's integrator finds: the only source of film, strategy
+/// images and observers.
 class ContributionSink {
 public:
-    /// `weigher` tells observers the shares of strategies; null if the integrator has none. At most
-    /// `max_splats` come in one sample. All must outlive this.
+    /// `weigher` provides the shares of strategies for observers; null if the integrator has none.
+    /// At most `max_splats` are added per sample. All arguments must outlive this.
     ContributionSink(const Films& films, const PixelFilter& filter, PathWeigher* weigher,
                      std::size_t max_splats);
 
-    /// Contributions until `end_sample` belong to this sample of pixel (x, y).
+    /// Starts a sample of pixel (x, y), to which contributions until `end_sample` belong.
     void begin_sample(int x, int y, const ScheduledSample& sample);
-    /// Contributions until `end_sample` are splats of a light path of that round, which belongs to
-    /// no pixel.
+    /// Starts a light path of that round, which belongs to no pixel; contributions until
+    /// `end_sample` are its splats.
     void begin_light_path(std::int64_t round) { begin_sample(-1, -1, {.index = round}); }
-    /// Splats and contributions that come from here on belong to that light path of the sample.
+    /// Attributes subsequent splats and contributions to that light path of the sample.
     void begin_joins(int light_path)
     {
         light_path_ = light_path;
         merged_ = false;
     }
-    /// Contributions that come from here on, until joins begin, were found by merging.
+    /// Marks subsequent contributions as merged, until `begin_joins`.
     void begin_merges() { merged_ = true; }
-    /// Does anyone want that pixel?
+    /// Tests whether the film or an observer needs that pixel.
     [[nodiscard]] bool holds_pixel() const { return holds(x_, y_); }
-    /// A contribution to that pixel; the strategy takes `count` samples for each camera path.
+    /// Adds a contribution to that pixel; the strategy takes `count` samples per camera path.
     void add(const SampleContext& sample, Strategy strategy, const Contribution& found,
              float count);
-    /// A contribution to the pixel at `found.raster`, or to one near it by the pixel filter;
-    /// `dimension` tells the splats of one light path apart.
+    /// Adds a contribution to the pixel at `found.raster`, or to a nearby one by the pixel filter;
+    /// `dimension` distinguishes the splats of one light path.
     void splat(SampleContext& sample, Strategy strategy, const Contribution& found, float count,
                std::uint32_t dimension);
     /// Adds the sample to the film.
@@ -54,20 +54,20 @@ private:
     {
         return films_.film == nullptr || films_.film->region().contains(x, y);
     }
-    /// To images of strategies and to observers, scaled.
+    /// Passes a contribution, scaled, to strategy images and observers.
     void report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb unweighted, float weight);
 
     Films films_;
     const PixelFilter& filter_;
     PathWeigher* weigher_;
-    std::vector<PendingSplat> splats_;  ///< wait for their pixels to come from memory
+    std::vector<PendingSplat> splats_;  ///< wait until their pixels are prefetched
     int x_ = 0;
     int y_ = 0;
     std::int64_t index_ = 0;
     SampleScale scale_{};
     int light_path_ = 0;
     bool merged_ = false;
-    Vec2 center_{0.0f};  ///< of the pixel
+    Vec2 center_{0.0f};  ///< centre of the pixel
     Rgb radiance_{0.0f};
 };
 

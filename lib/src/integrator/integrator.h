@@ -26,47 +26,48 @@ struct Tile {
     int y_end = 0;
 };
 
-/// Where an integrator adds what it finds.
+/// Destinations of an integrator's contributions.
 struct Films {
-    Film* film;  ///< null: nothing is kept, and observers are told of the paths of all pixels
-    StrategyFilm& strategies;  ///< empty unless images of strategies are asked for
-    /// Told of each path that brings light, if there is one.
+    Film* film;  ///< null: nothing is stored, and observers receive the paths of all pixels
+    StrategyFilm& strategies;  ///< empty unless strategy images are requested
+    /// Called for each path that contributes light, if set.
     const std::function<void(const PathContribution&)>& on_path;
-    /// Where the time of samples is noted, if it is to be.
+    /// Records the time of samples, if set.
     TimeSheet* times = nullptr;
 };
 
-/// A light transport algorithm at work on one render. Const while tiles are rendered: every thread
-/// calls the same object.
+/// A light transport algorithm working on one render. Const while tiles are rendered: all threads
+/// call the same object.
 class Integrator {
 public:
     virtual ~Integrator() = default;
-    /// Sample indices that a pass may have at most.
+    /// Returns the maximum number of sample indices in a pass.
     [[nodiscard]] virtual std::int64_t max_samples_in_pass() const
     {
         return std::numeric_limits<std::int64_t>::max();
     }
-    /// Called on one thread before anything else of a pass of `samples`. Returns in how many parts
-    /// the integrator does what all tiles of the pass share.
+    /// Called on one thread before anything else of a pass of `samples`. Returns the number of
+    /// chunks of work that all tiles of the pass share.
     [[nodiscard]] virtual std::int64_t begin_pass(SampleRange /*samples*/) { return 0; }
-    /// One of these parts; all are done before any tile, by any threads. It may keep what tiles
-    /// need, and add to `films` what belongs to none of them. Returns the work that it was.
+    /// Computes one of these chunks; all are done before any tile, by any threads. It may store
+    /// data that tiles need, and add contributions to `films` that belong to no tile. Returns the
+    /// amount of work.
     [[nodiscard]] virtual RenderStats render_chunk(std::int64_t /*part*/, SampleRange /*samples*/,
                                                    const Films& /*films*/)
     {
         return {};
     }
-    /// Called on one thread between the last part of a pass and its tiles.
+    /// Called on one thread between the last chunk of a pass and its tiles.
     virtual void end_chunks() {}
-    /// Adds the samples of all pixels of `tile` that are in the film's region to `films`, and what
-    /// the light paths of all of its pixels splat anywhere. Tiles of an integrator without splats
-    /// lie inside of the region. Returns the work that it was.
+    /// Adds to `films` the samples of all pixels of `tile` that are in the film's region, and the
+    /// splats of the light paths of all of its pixels. Tiles of an integrator without splats lie
+    /// inside of the region. Returns the amount of work.
     [[nodiscard]] virtual RenderStats render_tile(const Tile& tile, SampleRange samples,
                                                   const Films& films) const = 0;
 };
 
-/// `options` have been checked. The world, the camera and what is known of the visibility of its
-/// environment (null: nothing) must outlive the integrator.
+/// Creates the integrator of `options`, which have been checked. The world, the camera and the
+/// learned visibility of its environment (null: none) must outlive the integrator.
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(
     const World& world, const MovingCamera& camera, const RenderOptions& options,
     const EnvironmentVisibility* visibility = nullptr);

@@ -22,13 +22,13 @@ std::unique_ptr<Integrator> make(const World& world, const MovingCamera& camera,
     return std::make_unique<T>(world, camera, options, visibility);
 }
 
-/// The description of an integrator for users, and its factory.
+/// User-facing description and factory of an integrator.
 struct Row {
     IntegratorInfo info;
     Factory make;
 };
 
-/// From the simplest to the one that has all strategies, and the one that chooses.
+/// Sorted from the simplest to the one with all strategies, and the automatic choice.
 constexpr std::array table{
     Row{{.kind = IntegratorKind::pt,
          .name = name_of(IntegratorKind::pt),
@@ -73,7 +73,7 @@ constexpr std::array table{
                     "by a short test render",
          .traces_light_paths = true,
          .has_strategies = true},
-        nullptr},  // `chosen_options` puts another in its place
+        nullptr},  // `chosen_options` replaces it
 };
 
 const Row& row_of(IntegratorKind kind)
@@ -82,7 +82,7 @@ const Row& row_of(IntegratorKind kind)
                          [kind](const Row& row) { return row.info.kind == kind; });
 }
 
-/// The descriptions alone.
+/// The descriptions without factories.
 constexpr auto infos = [] {
     std::array<IntegratorInfo, table.size()> result{};
     std::transform(table.begin(), table.end(), result.begin(),

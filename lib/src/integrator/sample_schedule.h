@@ -7,28 +7,29 @@
 
 namespace bdpt {
 
-/// By what contributions of a sample are multiplied before they are added up.
+/// Factors of a sample's contributions.
 struct SampleScale {
-    float camera = 1.0f;  ///< to its own pixel
-    float splat = 1.0f;   ///< of its light path to any pixel
+    float camera = 1.0f;  ///< factor of contributions to its own pixel
+    float splat = 1.0f;   ///< factor of splats of its light path to any pixel
 };
 
-/// A sample of a pixel, as the schedule has it.
+/// A scheduled sample of a pixel.
 struct ScheduledSample {
-    std::int64_t index = 0;       ///< of its random numbers; even in the one half, odd in the other
-    std::int64_t round = 0;       ///< of the light paths that all pixels share
-    std::uint32_t sub_index = 0;  ///< spreads the samples that a pixel takes in a round [2^-32]
+    /// Index of its random numbers; the halves have even and odd ones.
+    std::int64_t index = 0;
+    std::int64_t round = 0;       ///< round of the light paths that all pixels share
+    std::uint32_t sub_index = 0;  ///< distributes the samples that a pixel takes in a round [2^-32]
     SampleScale scale{};
 };
 
-/// Which samples the pixels take in which rounds. Without rates a round is one sample. With them,
-/// pixels take the first samples of each half, in their order, so that their points stay well
-/// spread: in round k of half h = k mod 2, which is round m = k div 2 of that half, a pixel of rate
-/// 2^e takes samples m 2^e to (m + 1) 2^e - 1 of the half, if e is not negative; else sample m /
-/// 2^-e where that is whole.
+/// Assignment of the pixels' samples to rounds. Without rates a round is one sample. With rates,
+/// pixels take the first samples of each half in order, so that their points stay well distributed:
+/// in round k of half h = k mod 2, which is round m = k div 2 of that half, a pixel of rate 2^e
+/// takes samples m 2^e to (m + 1) 2^e - 1 of the half, if e is not negative; else sample m / 2^-e
+/// where that is whole.
 class SampleSchedule {
 public:
-    /// `options` must outlive this.
+    /// Keeps a reference to `options`, which must outlive this.
     explicit SampleSchedule(const RenderOptions& options)
         : rates_(options.sampling.rates.get()),
           splat_scale_(rates_ != nullptr ? static_cast<float>(1.0 / rates_->mean()) : 1.0f)
@@ -67,7 +68,7 @@ public:
         }
     }
 
-    /// How many these are.
+    /// Returns the number of samples of pixel (x, y) in these rounds.
     [[nodiscard]] std::int64_t count(int x, int y, SampleRange rounds) const
     {
         const int e = rates_ == nullptr ? 0 : rates_->exponent(x, y);
@@ -75,7 +76,7 @@ public:
     }
 
 private:
-    /// In the rounds [0, round) of rate 2^e.
+    /// Returns the number of samples in the rounds [0, round) at rate 2^e.
     [[nodiscard]] static std::int64_t count_before(std::int64_t round, int e)
     {
         const auto of_half = [e](std::int64_t rounds) {

@@ -9,13 +9,13 @@
 
 namespace bdpt {
 
-/// The shutter time and the wavelength, which both ends of a path must share.
+/// Shutter time and wavelength, which both subpaths of a path must share.
 struct TimeAndWavelength {
     float time = 0.0f;
     Wavelength wavelength = Wavelength::green;
 };
 
-/// Draws both where they matter.
+/// Draws time and wavelength if the scene depends on them.
 [[nodiscard]] inline TimeAndWavelength draw_time_and_wavelength(Sampler& sampler,
                                                                 const World& world,
                                                                 const MovingCamera& camera)
@@ -30,10 +30,10 @@ struct TimeAndWavelength {
     return moment;
 }
 
-/// A sample of a pixel before any of its paths, the same for all integrators.
+/// Start of a pixel's sample, before any of its paths; the same for all integrators.
 struct SampleStart {
     Sampler sampler;
-    Vec2 raster;  ///< where its camera path goes through the film [pixels]
+    Vec2 raster;  ///< raster position of its camera path on the film [pixels]
     TimeAndWavelength moment;
 
     SampleStart(const RenderOptions& options, const PixelFilter& filter, const World& world,

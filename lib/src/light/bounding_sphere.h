@@ -7,12 +7,13 @@
 
 namespace bdpt {
 
-/// Around the whole scene: what lights at infinity shine on.
+/// Bounding sphere of the whole scene, which lights at infinity illuminate.
 struct BoundingSphere {
     Vec3 center{0.0f};
     float radius = 1.0f;
 
-    /// Of a point of the disk that parallel rays through the sphere cross at right angles.
+    /// Returns the density of a point on the disk perpendicular to parallel rays through the
+    /// sphere.
     [[nodiscard]] PlanarPdf pdf_disk() const { return {1.0f / (pi * radius * radius)}; }
 };
 

@@ -20,7 +20,7 @@ public:
                                                  float time) const;
     [[nodiscard]] IncidentSample sample_incident(const LightSampleContext& receiver, Vec2 u,
                                                  EnvironmentSampling sampling, float time) const;
-    /// Luminous flux through the scene's disk [lm].
+    /// Returns the luminous flux through the scene's disk [lm].
     [[nodiscard]] Rgb power() const;
 
 private:

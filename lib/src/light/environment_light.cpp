@@ -17,7 +17,7 @@
 namespace bdpt {
 namespace {
 
-/// Cosines of the polar angle at the edges of the image's rows.
+/// Returns the cosines of the polar angle at the edges of the image's rows.
 std::vector<float> row_cosines(int height)
 {
     std::vector<float> cosines;
@@ -29,7 +29,7 @@ std::vector<float> row_cosines(int height)
     return cosines;
 }
 
-/// Of each row, of the sphere.
+/// Returns the fraction of the sphere in each row.
 std::vector<float> row_shares(const std::vector<float>& cosines)
 {
     std::vector<float> shares;
@@ -55,7 +55,8 @@ EnvironmentLight::EnvironmentLight(const EnvironmentLightDesc& desc, const Bound
         .row_shares = row_shares(row_cosines_)});
 }
 
-/// Row 0 is around +y; the centre column is at -z and columns to the right turn towards +x.
+/// Maps directions to the image: row 0 is around +y; the centre column is at -z and columns to the
+/// right turn towards +x.
 Vec2 EnvironmentLight::uv_of(Vec3 to_light) const
 {
     const Vec3 d = transpose(world_from_environment_) * to_light;
@@ -86,7 +87,8 @@ Rgb EnvironmentLight::radiance(Vec3 to_light) const
     return lookup(uv_of(to_light));
 }
 
-/// From the unit square, where all cells are equal, to directions: uniform in each cell.
+/// Converts a density on the unit square, where all cells are equal, to directions: uniform in each
+/// cell.
 SolidAnglePdf EnvironmentLight::to_solid_angle(float pdf_square, int row) const
 {
     const auto y = static_cast<std::size_t>(row);

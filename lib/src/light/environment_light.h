@@ -17,22 +17,22 @@
 
 namespace bdpt {
 
-/// Light from all directions at infinity, from an equirectangular image that is looked up with
-/// bilinear interpolation. Light paths start in proportion to luminance; next-event estimation has
-/// the choice of `EnvironmentSampling`, and takes what stands high above the receiver.
+/// Light from all directions at infinity, from an equirectangular image with bilinear
+/// interpolation. Light paths start in proportion to luminance; next-event estimation samples
+/// according to `EnvironmentSampling`, preferring directions high above the receiver.
 class EnvironmentLight : public InfiniteLight {
 public:
     static constexpr bool is_delta = false;
 
-    /// Negative values have been refused before.
+    /// Negative values have been rejected before.
     EnvironmentLight(const EnvironmentLightDesc& desc, const BoundingSphere& bounds);
 
-    /// `to_light`: unit, from the scene towards infinity.
+    /// Returns the radiance from direction `to_light`: unit, from the scene towards infinity.
     [[nodiscard]] Rgb radiance(Vec3 to_light) const;
-    /// Of the direction that a light path comes from.
+    /// Returns the density of the direction from which a light path starts.
     [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0) const;
-    /// Of the direction that `sample_incident` takes; compensated, it can be zero where light is,
-    /// and below the receiver's surface it is.
+    /// Returns the density of a direction of `sample_incident`; with compensation it can be zero
+    /// where light is, and it is zero below the receiver's surface.
     [[nodiscard]] AreaPdf pdf_incident(const LightSampleContext& receiver, const LightPoint& x0,
                                        EnvironmentSampling sampling) const;
 
@@ -42,17 +42,17 @@ public:
                                                                 Vec2 u,
                                                                 EnvironmentSampling sampling,
                                                                 float time) const;
-    /// Radiance over density of what `sample_incident` has sampled.
+    /// Returns radiance over density of a sample of `sample_incident`.
     [[nodiscard]] Rgb incident_weight(const IncidentSample& incident) const
     {
         return lookup(incident.barycentrics) / incident.pdf.value;
     }
-    /// The tile of `EnvironmentTiles` that the direction is in.
+    /// Returns the tile of `EnvironmentTiles` that contains the direction.
     [[nodiscard]] std::size_t tile_to(Vec3 to_light) const;
     /// Luminous flux into the scene's bounding sphere [lm].
     [[nodiscard]] Rgb power() const;
 
-    // The image's size [texels].
+    // Size of the image [texels].
     [[nodiscard]] int width() const { return texels_->width(); }
     [[nodiscard]] int height() const { return texels_->height(); }
 
@@ -62,12 +62,12 @@ private:
         Vec2 uv;
         SolidAnglePdf pdf;
     };
-    /// Of `EnvironmentTiles`.
+    /// A cell of `EnvironmentTiles`.
     struct Cell {
         int column;
         int row;
     };
-    /// `receiver`: one without normal for light paths.
+    /// Samples a direction; `receiver` has no normal for light paths.
     [[nodiscard]] std::optional<Direction> sample_direction(Vec2 u,
                                                             const LightSampleContext& receiver,
                                                             EnvironmentSampling sampling) const;

@@ -9,9 +9,9 @@
 
 namespace bdpt {
 
-/// What a light at a point sends to a receiver: its intensity, which is `intensity` times
-/// `falloff(direction)` of the direction away from it, over the squared distance. Nothing where
-/// that is 0.
+/// Returns the light of a point light at a receiver: its intensity, `intensity` times
+/// `falloff(direction)` of the direction away from it, over the squared distance. nullopt if that
+/// is 0.
 template <typename Falloff>
 [[nodiscard]] std::optional<IncidentSample> incident_from_point(Vec3 position, Vec3 receiver,
                                                                 Rgb intensity,

@@ -10,30 +10,30 @@ namespace bdpt {
 namespace {
 
 constexpr float turn = 2.0f * pi;
-// Angles that come from degrees are off by their rounding.
+// Tolerance for angles converted from degrees.
 constexpr float rounding = 1e-5f;  // [rad]
-// Cells are so narrow that intensities do not vary much within one, even in a coarse grid.
+// Cells are so narrow that intensities vary little within one, even in a coarse grid.
 constexpr float max_cell_height = 2.0f * pi / 180.0f;
 constexpr float widest_cell = 6.0f * pi / 180.0f;
-// As many as fit in some megabytes; a grid that is fine in one angle only would get too many.
+// Limits memory to some megabytes; a grid that is fine in one angle only would get too many.
 constexpr std::size_t usual_cells = std::size_t{1} << 18;
-// Share of what is even over all cells that are not dark: no rounding makes a density zero there.
+// Uniform part over all cells that are not dark: rounding cannot make a density zero there.
 constexpr double even_share = 1e-3;
 
-/// 1 - cos(angle).
+/// Returns 1 - cos(angle).
 float height_of(float angle)
 {
     const float s = sin_cos(0.5f * angle).sin;
     return angle >= pi - rounding ? 2.0f : 2.0f * s * s;
 }
 
-/// The angle whose height it is.
+/// Returns the angle with that height.
 float polar_angle_of(float height)
 {
     return atan2_exact(std::sqrt(std::max(0.0f, height * (2.0f - height))), 1.0f - height);
 }
 
-/// The angles, with more between them where they are farther apart than `step`.
+/// Returns the angles, subdivided where they are more than `step` apart.
 std::vector<float> refine(const std::vector<float>& angles, float step)
 {
     std::vector<float> edges{angles.front()};
@@ -49,13 +49,13 @@ std::vector<float> refine(const std::vector<float>& angles, float step)
     return edges;
 }
 
-/// A place among ascending values.
+/// Position among ascending values.
 struct Place {
-    std::size_t index = 0;  ///< of the value before; the last value is none
-    float fraction = 0.0f;  ///< of the way to the next one, in [0, 1]
+    std::size_t index = 0;  ///< index of the value before; never the last
+    float fraction = 0.0f;  ///< fraction of the interval to the next value, in [0, 1]
 };
 
-/// `values` are two or more; what is beyond them is taken to the ends.
+/// Returns the position of `x` among two or more `values`, clamped to their range.
 Place place_in(std::span<const float> values, float x)
 {
     const auto after = std::upper_bound(values.begin() + 1, values.end() - 1, x);
@@ -64,7 +64,7 @@ Place place_in(std::span<const float> values, float x)
     return {index, std::clamp((x - values[index]) / width, 0.0f, 1.0f)};
 }
 
-/// Bilinear in the angles, with one azimuth for all in a round profile.
+/// Interpolates bilinearly in the angles; a rotationally symmetric profile has one azimuth.
 float interpolate(const LightProfile& grid, float polar_angle, float azimuth)
 {
     const std::size_t rows = grid.polar_angles.size();
@@ -81,8 +81,8 @@ float interpolate(const LightProfile& grid, float polar_angle, float azimuth)
            column.fraction * along(column.index + 1);
 }
 
-/// Flux between two polar angles per radian of azimuth, for intensities that are linear in between:
-/// Simpson's rule over so many parts that its error is below 1e-5.
+/// Returns the flux between two polar angles per radian of azimuth, for intensities that are linear
+/// in between: Simpson's rule with enough parts for an error below 1e-5.
 double flux_along(const LightProfile& grid, float from, float to, float azimuth)
 {
     constexpr float widest_part = 0.4f;
@@ -197,7 +197,8 @@ float IntensityProfile::intensity(Vec3 direction) const
     return angles ? lookup(*angles) : 0.0f;
 }
 
-/// From the unit square, where all cells are equal, to directions: uniform in each cell.
+/// Converts a density on the unit square, where all cells are equal, to directions: uniform in each
+/// cell.
 SolidAnglePdf IntensityProfile::to_solid_angle(float pdf_square, std::size_t column,
                                                std::size_t row) const
 {

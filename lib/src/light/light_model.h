@@ -11,8 +11,8 @@
 
 namespace bdpt {
 
-/// What every kind of light can do; `Light` says what the functions mean. Arguments that a kind has
-/// no use for are there all the same, so that none is asked by other rules.
+/// Interface of every kind of light; `Light` documents the functions. All kinds have the same
+/// arguments, even unused ones, so that all are called alike.
 // clang-format off
 template <typename T>
 concept LightModel = requires(const T& light, Vec2 u, Vec3 v, const LightPoint& x0,
@@ -32,7 +32,7 @@ concept LightModel = requires(const T& light, Vec2 u, Vec3 v, const LightPoint& 
 };
 // clang-format on
 
-/// Base of lights that no ray hits by chance: their point or direction is certain.
+/// Base of lights that no ray hits: their position or direction is fixed.
 struct DeltaLight {
     static constexpr bool is_delta = true;
 

@@ -25,15 +25,15 @@ using AnyOf = std::variant<Kinds...>;
 using AnyLightModel = AnyOf<TriangleLight, SphereLight, PunctualLight, DirectionalLight,
                             EnvironmentLight, ProfileLight>;
 
-/// What lights of a scene may refer to. It outlives them.
+/// Data that a scene's lights may refer to; outlives them.
 struct LightContext {
     std::span<const IntensityProfile> profiles;
     BoundingSphere bounds;
-    std::uint32_t sphere = 0;           ///< number that the light gets if it is a sphere
-    MediumId medium = MediumId::clear;  ///< around it
+    std::uint32_t sphere = 0;           ///< index of the light if it is a sphere
+    MediumId medium = MediumId::clear;  ///< medium around the light
 };
 
-// What a description becomes; it outlives the light.
+// Converts a description, which must outlive the light.
 
 [[nodiscard]] inline AnyLightModel make_model(const PointLightDesc& desc,
                                               const LightContext& context)

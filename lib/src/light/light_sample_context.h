@@ -8,14 +8,14 @@ namespace bdpt {
 
 struct TileFactors;
 
-/// A point that next-event estimation chooses a light for, and a point of that. Whoever evaluates
-/// the density of a certain point has to state the same receiver as whoever samples it.
+/// Receiver for which next-event estimation chooses a light, and a point on it. Evaluating the
+/// density of a point requires the same receiver as sampling it.
 struct LightSampleContext {
     Vec3 p{0.0f};
-    /// Unit; light from below it brings nothing. None: light from all around does.
+    /// Unit normal; light from below it has no effect. nullopt: light from all directions has.
     std::optional<Vec3> normal{};
-    /// How visible the tiles of the environment are from here, if that was learned. `LightSet`
-    /// fills it in for the environment.
+    /// Learned visibility of the environment's tiles from here; null if unknown. `LightSet` sets it
+    /// for the environment.
     const TileFactors* visibility = nullptr;
 };
 

@@ -14,45 +14,48 @@ class EnvironmentVisibility;
 
 enum class LightId : std::uint32_t {};
 
-/// How next-event estimation samples lights. Whoever evaluates its density needs to know.
+/// Parameters of light sampling in next-event estimation, needed to evaluate its density.
 struct NextEventSampling {
     EnvironmentSampling environments = EnvironmentSampling::plain;
     LightSampling lights = LightSampling::automatic;
-    int samples = 1;  ///< of each camera vertex
-    /// What is visible of the environment; null: that is not known.
+    int samples = 1;  ///< per camera vertex
+    /// Learned visibility of the environment; null: unknown.
     const EnvironmentVisibility* visibility = nullptr;
 };
 
-/// A point of a light, whatever found it: all that its densities depend on.
+/// A point on a light, however it was found: everything that its densities depend on.
 struct LightPoint {
-    Vec3 p{0.0f};             ///< infinite lights: the unit direction towards the light
-    Vec3 ng{0.0f};            ///< unit; zero when on no surface
-    Vec2 barycentrics{0.0f};  ///< of triangles
-    float time = 0.0f;        ///< of the sample, as everywhere: in [0, 1] while the shutter is open
+    Vec3 p{0.0f};             ///< infinite lights: unit direction towards the light
+    Vec3 ng{0.0f};            ///< unit; zero if not on a surface
+    Vec2 barycentrics{0.0f};  ///< barycentric coordinates on triangles
+    float time = 0.0f;        ///< time of the sample within the shutter interval, in [0, 1]
 };
 
-/// Light leaving a light: the first vertex of a light subpath and the direction to the second. The
-/// probability of choosing this light is in none of the densities.
+/// Light leaving a light: the first vertex of a light subpath and the direction to the second. Its
+/// densities exclude the probability of choosing this light.
 struct EmissionSample {
-    SegmentEnd end;               ///< on the light; infinite: where the ray enters the scene
-    Vec2 barycentrics{0.0f};      ///< of triangles
-    Vec3 direction{0.0f};         ///< unit, the way the light travels
-    Rgb weight{0.0f};             ///< Le |cos| / (both densities)
-    AreaPdf pdf_position;         ///< of x_0; infinite: of the direction; 1 for a delta light
-    SolidAnglePdf pdf_direction;  ///< finite lights
+    SegmentEnd end;           ///< on the light; infinite: entry point of the ray into the scene
+    Vec2 barycentrics{0.0f};  ///< barycentric coordinates on triangles
+    Vec3 direction{0.0f};     ///< unit, the direction in which the light travels
+    Rgb weight{0.0f};         ///< Le |cos| / (both densities)
+    /// Density of x_0; infinite: of the direction; 1 for a delta light.
+    AreaPdf pdf_position;
+    SolidAnglePdf pdf_direction;  ///< density of the direction, for finite lights
 };
 
 /// Light arriving at a point from a sampled point of a light: next-event estimation, s = 1.
 struct IncidentSample {
-    SegmentEnd end;           ///< on the light; not set for infinite lights
-    Vec2 barycentrics{0.0f};  ///< of triangles; environments: the place in the image
-    Vec3 wi{0.0f};            ///< unit, from the receiver towards the light
-    float distance = 0.0f;    ///< infinite lights: infinity
+    SegmentEnd end;  ///< on the light; not set for infinite lights
+    /// Barycentric coordinates on triangles; environments: position in the image.
+    Vec2 barycentrics{0.0f};
+    Vec3 wi{0.0f};          ///< unit, from the receiver towards the light
+    float distance = 0.0f;  ///< infinite lights: infinity
     /// Incident radiance over the density of wi, to be multiplied by f_cos; environments: one over
-    /// the density, for most of their light is blocked. `Light::incident_weight` looks it up.
+    /// the density, for most of their light is blocked, and `Light::incident_weight` looks the
+    /// radiance up later.
     Rgb weight{0.0f};
-    AreaPdf pdf;  ///< of x_0 given the receiver (EmissionSample::pdf_position's measure)
-    SolidAnglePdf pdf_solid_angle;  ///< of wi at the receiver; 1 for a delta light
+    AreaPdf pdf;  ///< density of x_0 given the receiver (EmissionSample::pdf_position's measure)
+    SolidAnglePdf pdf_solid_angle;  ///< density of wi at the receiver; 1 for a delta light
 };
 
 }  // namespace bdpt

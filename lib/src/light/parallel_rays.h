@@ -6,7 +6,8 @@
 
 namespace bdpt {
 
-/// Where a ray of direction `direction` enters the scene: uniform on the disk in front of it.
+/// Samples the entry point of a ray of direction `direction` into the scene: uniform on the disk in
+/// front of it.
 [[nodiscard]] inline Vec3 sample_entry(const BoundingSphere& bounds, Vec3 direction, Vec2 u)
 {
     const Vec2 on_disk = bounds.radius * square_to_disk(u);

@@ -12,16 +12,16 @@
 
 namespace bdpt {
 
-/// A point light that shines by a profile [EXT_lights_ies]: delta in position, like
+/// A point light with an intensity profile [EXT_lights_ies]: delta in position, like
 /// `PunctualLight`.
 class ProfileLight : public DeltaLight {
 public:
     static constexpr bool is_infinite = false;
 
-    /// `profile` is that of the description; it and the motion outlive the light.
+    /// `profile` is that of the description; it and the motion must outlive the light.
     ProfileLight(const ProfileLightDesc& desc, const IntensityProfile& profile);
 
-    /// Directions are drawn by their intensity; none from a profile that is black.
+    /// Samples directions in proportion to their intensity; nullopt for a black profile.
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time) const;
     [[nodiscard]] std::optional<IncidentSample> sample_incident(const LightSampleContext& receiver,
@@ -29,9 +29,9 @@ public:
                                                                 EnvironmentSampling sampling,
                                                                 float time) const;
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time) const;
-    /// Luminous flux [lm].
+    /// Returns the luminous flux [lm].
     [[nodiscard]] Rgb power() const { return scale_ * profile_->flux(); }
-    /// Of a light that may shine everywhere.
+    /// Returns bounds of a light that may emit in all directions.
     [[nodiscard]] LightBounds bounds() const;
 
 private:

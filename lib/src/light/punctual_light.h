@@ -22,7 +22,7 @@ public:
     explicit PunctualLight(const PointLightDesc& desc);
     explicit PunctualLight(const SpotLightDesc& desc);
 
-    /// Directions are uniform in the cone.
+    /// Samples directions uniformly in the cone.
     [[nodiscard]] EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction,
                                                  float time) const;
     [[nodiscard]] std::optional<IncidentSample> sample_incident(const LightSampleContext& receiver,
@@ -33,7 +33,7 @@ public:
     {
         return cone(time).pdf(direction);
     }
-    /// Luminous flux [lm].
+    /// Returns the luminous flux [lm].
     [[nodiscard]] Rgb power() const { return intensity_ * cone_.integral(); }
     [[nodiscard]] LightBounds bounds() const;
 

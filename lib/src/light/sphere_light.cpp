@@ -18,17 +18,17 @@ namespace {
 /// A sphere as seen from a point outside of it.
 struct View {
     Vec3 axis{0.0f};             // unit, towards the centre
-    double distance = 0.0;       // of the centre, in radii
+    double distance = 0.0;       // distance of the centre, in radii
     double excess = 0.0;         // distance^2 - 1
-    float one_minus_cos = 0.0f;  // of the half angle
+    float one_minus_cos = 0.0f;  // 1 - cos of the half angle
 
     [[nodiscard]] SolidAnglePdf pdf() const { return cone_pdf(one_minus_cos); }
 };
 
-/// Nothing from inside, and for a sphere so small that its solid angle is no normal float.
+/// Returns nullopt from inside, and for a sphere so small that its solid angle is no normal float.
 std::optional<View> view_from(Vec3 receiver, const Sphere& sphere)
 {
-    // In double, or nothing would be left of the excess of a point that nearly touches.
+    // In double, to keep the excess of a point that nearly touches the sphere precise.
     const glm::dvec3 to_center =
         (glm::dvec3(sphere.center) - glm::dvec3(receiver)) / static_cast<double>(sphere.radius);
     const double distance_squared = dot(to_center, to_center);
@@ -48,12 +48,12 @@ std::optional<View> view_from(Vec3 receiver, const Sphere& sphere)
                 .one_minus_cos = one_minus_cos};
 }
 
-/// The normal where the ray meets the sphere whose direction in the cone is uniform.
+/// Samples the normal at the hit of a ray whose direction is uniform in the cone.
 Vec3 sample_visible_normal(const View& view, Vec2 u)
 {
     const Vec3 w = square_to_cone(u, view.one_minus_cos);
     const double sine_squared = static_cast<double>(w.x * w.x + w.y * w.y);
-    // Distance of the hit in radii; written as a quotient, for it may be small.
+    // Distance of the hit in radii; written as a ratio, because it may be small.
     const double chord = std::max(0.0, 1.0 - view.distance * view.distance * sine_squared);
     const double t = view.excess / (view.distance * static_cast<double>(w.z) + std::sqrt(chord));
     const auto x = static_cast<float>(static_cast<double>(w.x) * t);

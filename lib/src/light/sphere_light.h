@@ -21,33 +21,35 @@ public:
     static constexpr bool is_delta = false;
     static constexpr bool is_infinite = false;
 
-    /// `number`: of the sphere in the scene's geometry. The motion of `desc` must outlive this.
+    /// `number` is the index of the sphere in the scene's geometry. The motion of `desc` must
+    /// outlive this.
     SphereLight(const PointLightDesc& desc, std::uint32_t number);
     SphereLight(const SpotLightDesc& desc, std::uint32_t number);
 
-    /// The point with the unit normal `ng`.
+    /// Returns the point with the unit normal `ng`.
     [[nodiscard]] SegmentEnd surface(Vec3 ng, float time) const;
-    /// In a unit direction away from the sphere [nit].
+    /// Returns the radiance in a unit direction away from the sphere [nit].
     [[nodiscard]] Rgb radiance(Vec3 direction, float time) const;
 
-    /// Directions are uniform in the spot's cone, and points uniform on the disk that the sphere is
-    /// as seen from there: for a point light that is area times cosine.
+    /// Samples directions uniformly in the spot's cone, and points uniformly on the projected disk
+    /// of the sphere in that direction: for a point light that is area times cosine.
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time) const;
-    /// Directions are uniform in the cone that the sphere fills; none from inside of it.
+    /// Samples directions uniformly in the cone that the sphere subtends; nullopt from its inside.
     [[nodiscard]] std::optional<IncidentSample> sample_incident(const LightSampleContext& receiver,
                                                                 Vec2 u,
                                                                 EnvironmentSampling sampling,
                                                                 float time) const;
 
-    /// Uniform over the area. For a spot that is not the density of the position alone; but its
-    /// product with `pdf_direction` is that of both, and nothing else is ever used.
+    /// Returns the uniform density over the area. For a spot that is not the marginal density of
+    /// the position; but its product with `pdf_direction` is the joint density, and nothing else is
+    /// used.
     [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0 = {}) const;
     [[nodiscard]] AreaPdf pdf_incident(
         const LightSampleContext& receiver, const LightPoint& x0,
         EnvironmentSampling sampling = EnvironmentSampling::plain) const;
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time) const;
-    /// Luminous flux [lm].
+    /// Returns the luminous flux [lm].
     [[nodiscard]] Rgb power() const { return intensity_ * cone_.integral(); }
     [[nodiscard]] LightBounds bounds() const;
 

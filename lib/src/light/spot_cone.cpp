@@ -12,7 +12,7 @@
 namespace bdpt {
 namespace {
 
-/// 1 - cos(angle) without the loss of digits for small angles.
+/// Returns 1 - cos(angle), precise for small angles.
 float cone_height(float angle)
 {
     const float s = sin_cos(0.5f * angle).sin;

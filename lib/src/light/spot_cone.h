@@ -7,32 +7,33 @@
 
 namespace bdpt {
 
-/// The directions in which a light shines and how strongly: all alike, or a cone with the angular
-/// attenuation of KHR_lights_punctual ("Inner and Outer Cone Angles").
+/// Angular distribution of a light's intensity: uniform, or a cone with the angular attenuation of
+/// KHR_lights_punctual ("Inner and Outer Cone Angles").
 class SpotCone {
 public:
-    /// All directions.
+    /// Constructs the uniform distribution.
     SpotCone() = default;
-    /// Around `axis`, which has any length; angles [rad] from it as in `SpotLightDesc`.
+    /// Constructs a cone around `axis`, which has any length; angles from it [rad] as in
+    /// `SpotLightDesc`.
     SpotCone(Vec3 axis, float inner_angle, float outer_angle);
 
-    /// The same around another axis.
+    /// Returns the same distribution around another axis.
     [[nodiscard]] SpotCone around(Vec3 axis) const;
 
-    /// Uniform within the outer cone, unit.
+    /// Samples a unit direction uniformly within the outer cone.
     [[nodiscard]] Vec3 sample(Vec2 u) const;
-    /// Of `sample`.
+    /// Returns the density of `sample`.
     [[nodiscard]] SolidAnglePdf pdf(Vec3 direction) const;
-    /// In [0, 1], for the unit direction in which the light leaves.
+    /// Returns the attenuation in [0, 1] of the unit direction in which light leaves.
     [[nodiscard]] float falloff(Vec3 direction) const;
 
-    /// Of the outer cone [sr].
+    /// Returns the solid angle of the outer cone [sr].
     [[nodiscard]] float solid_angle() const;
-    /// Of `falloff` over all directions [sr].
+    /// Returns the integral of `falloff` over all directions [sr].
     [[nodiscard]] float integral() const;
 
-    /// The directions of the full intensity, and the cosine of the angle from them beyond which
-    /// there is none.
+    /// Returns the directions of full intensity; `cos_falloff` is the cosine of the angle from them
+    /// beyond which there is none.
     [[nodiscard]] DirectionCone full() const { return {.axis = axis_, .cos_angle = cos_inner_}; }
     [[nodiscard]] float cos_falloff() const;
 

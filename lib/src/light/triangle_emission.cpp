@@ -10,11 +10,11 @@
 namespace bdpt {
 namespace {
 
-constexpr int max_cells = 32;               // a side
-constexpr float floor_of_triangle = 0.01f;  // of the texture's mean
-constexpr float floor_of_cell = 0.1f;       // of the mean of the cells
+constexpr int max_cells = 32;               // per side
+constexpr float floor_of_triangle = 0.01f;  // fraction of the texture's mean
+constexpr float floor_of_cell = 0.1f;       // fraction of the mean of the cells
 
-/// Longest edge of the triangle in texels.
+/// Returns the longest edge of the triangle in texels.
 float longest_edge(const PlacedMesh& mesh, const Material& material, std::uint32_t triangle)
 {
     const auto a = mesh.uv(triangle, {0.0f, 0.0f});
@@ -24,7 +24,7 @@ float longest_edge(const PlacedMesh& mesh, const Material& material, std::uint32
                      material.emission_texels(b, c)});
 }
 
-/// `wanted` rounded up into [least, most]; coordinates may be so large that it is not finite.
+/// Rounds `wanted` up and clamps it to [least, most]; it may be infinite for large coordinates.
 int clamped(float wanted, int least, int most)
 {
     return wanted < static_cast<float>(most) ? std::max(static_cast<int>(std::ceil(wanted)), least)
@@ -64,7 +64,8 @@ TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& materi
     TriangleEmission result{.mean = mix(total / (cell_samples * static_cast<float>(squares.size())),
                                         material.mean_emission(), floor_of_triangle),
                             .spread = nullptr};
-    // The root of the mean square, not the mean, makes the variance least where a cell is uneven.
+    // The root mean square, rather than the mean, minimizes the variance in cells that are not
+    // uniform.
     std::vector<float> weights;
     weights.reserve(squares.size());
     float sum = 0.0f;

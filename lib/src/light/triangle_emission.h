@@ -8,23 +8,24 @@
 
 namespace bdpt {
 
-/// Where textures and vertex colours are looked up at a point of a triangle.
+/// Returns the texture coordinates and vertex colour at a point of a triangle.
 [[nodiscard]] inline TexturePoint texture_point(const PlacedMesh& mesh, std::uint32_t triangle,
                                                 Vec2 barycentrics)
 {
     return {.uv = mesh.uv(triangle, barycentrics), .color = mesh.color(triangle, barycentrics)};
 }
 
-/// What one emissive triangle emits and where on it.
+/// Amount and distribution of the emission of one triangle.
 struct TriangleEmission {
     Rgb mean{0.0f};  ///< expected radiance, averaged over the triangle [nit]
-    /// By luminance over the unit square that `square_to_triangle` maps; null: evenly.
+    /// Distribution by luminance over the unit square that `square_to_triangle` maps; null:
+    /// uniform.
     std::shared_ptr<const Distribution2D> spread;
 };
 
 /// Reads the emission and its textures on a regular grid, fine enough for their texels but of at
-/// most `max_samples` a side. What the grid may have missed keeps a small share, so that no point
-/// that emits has a density of zero.
+/// most `max_samples` per side. A small uniform part covers emission that the grid may have missed,
+/// so that no emitting point has a density of zero.
 [[nodiscard]] TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& material,
                                                 std::uint32_t triangle, int max_samples);
 

@@ -109,7 +109,7 @@ std::optional<IncidentSample> TriangleLight::sample_incident(const LightSampleCo
                                                              EnvironmentSampling /*sampling*/,
                                                              float time) const
 {
-    std::optional<IncidentSample> sampled;  // made where it is returned
+    std::optional<IncidentSample> sampled;  // constructed in place of the result
     const Facing facing = this->facing(time);
     if (!(facing.area > 0.0f)) {
         return sampled;
@@ -184,7 +184,7 @@ LightBounds TriangleLight::bounds() const
         return result;
     }
     result.normals = {};
-    // Between two steps a corner runs along a parabola at most, within its three control points.
+    // Between two steps a vertex moves along a parabola at most, within its three control points.
     const auto steps = static_cast<float>(mesh_->steps());
     for (std::size_t step = 1; step <= mesh_->steps(); ++step) {
         const auto end = static_cast<float>(step);

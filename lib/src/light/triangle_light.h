@@ -18,7 +18,7 @@ public:
     static constexpr bool is_delta = false;
     static constexpr bool is_infinite = false;
 
-    /// `emission`: as `measure_emission` finds it.
+    /// `emission` is the result of `measure_emission`.
     TriangleLight(const PlacedMesh& mesh, const Material& material, std::uint32_t triangle,
                   TriangleEmission emission);
 
@@ -30,7 +30,7 @@ public:
                                                                 float time) const;
 
     [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0) const;
-    /// The same points are sampled for every receiver.
+    /// Returns the density of `sample_incident`, which samples the same points for every receiver.
     [[nodiscard]] AreaPdf pdf_incident(
         const LightSampleContext& /*receiver*/, const LightPoint& x0,
         EnvironmentSampling /*sampling*/ = EnvironmentSampling::plain) const
@@ -38,11 +38,11 @@ public:
         return pdf_position(x0);
     }
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time) const;
-    /// Emitted luminous flux [lm]; the mean at and between the steps of a motion.
+    /// Returns the emitted luminous flux [lm]; the mean at and between the steps of a motion.
     [[nodiscard]] Rgb power() const;
     [[nodiscard]] LightBounds bounds() const;
 
-    /// Do both belong to one mesh, in one place?
+    /// Tests whether both triangles belong to the same instance of a mesh.
     [[nodiscard]] bool is_of_same_surface(const TriangleLight& other) const
     {
         return mesh_ == other.mesh_;
@@ -59,26 +59,26 @@ private:
     struct Facing {
         float area;
         float inverse_area;
-        Vec3 ng;  ///< unit; not finite without an area
+        Vec3 ng;  ///< unit length; not finite without area
     };
-    /// `cosine` is that to the front normal.
+    /// Returns the density of a direction; `cosine` is that to the front normal.
     [[nodiscard]] SolidAnglePdf pdf_direction(float cosine) const;
     [[nodiscard]] static Facing facing_of(Vec3 area_normal);
     [[nodiscard]] Facing facing(float time) const;
     [[nodiscard]] float mean_area() const;
     [[nodiscard]] AreaPdf pdf_position(Vec2 barycentrics, const Facing& at) const;
-    /// Over that of the uniform density.
+    /// Returns the density relative to the uniform one.
     [[nodiscard]] float spread(Vec2 barycentrics) const;
-    /// `facing` is that at the time, and has an area.
+    /// Samples a point; `facing` is that at the time, and has an area.
     [[nodiscard]] Point point(Vec2 u, const Facing& facing, float time) const;
 
     const PlacedMesh* mesh_;
     const Material* material_;
     std::uint32_t triangle_;
-    Facing first_;  ///< when the shutter opens
+    Facing first_;  ///< at shutter open
     float mean_area_;
     TriangleEmission emission_;
-    std::optional<Rgb> even_radiance_;  ///< where it is the same all over the triangle
+    std::optional<Rgb> even_radiance_;  ///< set if constant over the triangle
 };
 
 }  // namespace bdpt

@@ -8,8 +8,9 @@ namespace bdpt {
 
 static_assert(std::is_trivially_copyable_v<Bsdf> && sizeof(Bsdf) <= 160);
 
-// Shading normals change importance, but not radiance, by the quotient of the ratios of both
-// directions [Veach 1997, sec. 5.3]; it is exactly 1 where the normals are equal.
+// Shading normals scale importance, but not radiance, by the adjoint factor: the ratio of the
+// cosine ratios of both directions [Veach 1997, sec. 5.3]; it is exactly 1 if the normals are
+// equal.
 
 BsdfEval Bsdf::eval(Vec3 wi, TransportMode mode) const noexcept
 {

@@ -11,12 +11,12 @@
 
 namespace bdpt {
 
-/// A scattering model placed at a surface point and seen from one direction: world-space directions
-/// in, world-space directions out; all point away from the surface. The one place that knows of
-/// geometric versus shading normals. What follows from `wo` alone is worked out once, for all the
-/// joins of a path vertex. A trivially copyable value that lives inside a vertex.
+/// A scattering model at a surface point seen from one direction, in world space; all directions
+/// point away from the surface. The only class that handles both geometric and shading normals.
+/// Values that depend on `wo` alone are computed once, for all connections of a path vertex. A
+/// trivially copyable value that lives inside a vertex.
 class Bsdf {
-    /// As std::visit, but the most common model is no call away.
+    /// Works like std::visit, but without a call for the most common model.
     template <typename Visitor>
     [[nodiscard]] auto visit(const Visitor& visitor) const
     {
@@ -35,28 +35,29 @@ public:
         : Bsdf(ng, shading, Seen{shading.to_local(wo), dot(wo, ng)},
                placed(model, shading.to_local(wo)))
     {}
-    /// With a normal map: `facet.z` is its normal and `ns` that of the surface without it, on the
-    /// side of `ng`; both are unit and less than a right angle apart.
+    /// Constructs a BSDF with a normal map: `facet.z` is its normal and `ns` that of the surface
+    /// without it, on the side of `ng`; both are unit and less than a right angle apart.
     template <ScatteringModel Model>
     Bsdf(Vec3 ng, Vec3 ns, const Frame& facet, Vec3 wo, const Model& model) noexcept
         : Bsdf(ng, facet, Seen{facet.to_local(wo), dot(wo, ng)}, mapped(model, facet.to_local(ns)))
     {}
 
-    /// `mode` is that of the walk which came from wo.
+    /// Evaluates the BSDF; `mode` is that of the walk that arrived from wo.
     [[nodiscard]] BsdfEval eval(Vec3 wi, TransportMode mode) const noexcept;
     [[nodiscard]] std::optional<BsdfSample> sample(float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept;
-    /// Has a lobe that is not delta: strategies can join here.
+    /// Tests whether it has a lobe that is not delta: strategies can connect here.
     [[nodiscard]] bool connectible() const noexcept
     {
         return visit([](const auto& model) { return model.has_smooth_lobe(); });
     }
-    /// `sample` has no use for `u_lobe`.
+    /// Tests whether `sample` ignores `u_lobe`.
     [[nodiscard]] bool has_one_lobe() const noexcept
     {
         return std::holds_alternative<Lambertian>(model_);
     }
-    /// The geometric normal, unit, on the side of wo: if all light that is scattered stays there.
+    /// Returns the geometric normal, unit, on the side of wo, if all scattered light stays on that
+    /// side.
     [[nodiscard]] std::optional<Vec3> opaque_normal() const noexcept
     {
         return visit([this](const auto& model) -> std::optional<Vec3> {
@@ -66,9 +67,10 @@ public:
             return height(model, local_wo_) < 0.0f ? -ng_ : ng_;
         });
     }
-    /// Unit, on the front side of the surface; that of the normal map, if there is one.
+    /// Returns the unit shading normal on the front side of the surface; that of the normal map, if
+    /// there is one.
     [[nodiscard]] Vec3 shading_normal() const noexcept { return shading_.z; }
-    /// In [0, 1].
+    /// Returns the base colour, in [0, 1].
     [[nodiscard]] Rgb base_color() const noexcept
     {
         return visit([](const auto& model) { return model.base_color(); });
@@ -93,7 +95,7 @@ private:
     Frame shading_;
     Vec3 ng_{0.0f, 0.0f, 1.0f};
     Vec3 local_wo_{0.0f};
-    float ratio_o_ = 0.0f;  ///< wo.ng / wo.ns; 0 where they differ in sign: nothing scatters
+    float ratio_o_ = 0.0f;  ///< wo.ng / wo.ns; 0 if they differ in sign: nothing scatters
     AnyModel model_;
 };
 

@@ -10,23 +10,24 @@
 
 namespace bdpt {
 
-/// Which quantity a walk carries: from the eye radiance, from the light importance-weighted power.
-/// Refraction and shading normals scatter the two differently [Veach 1997, ch. 5].
+/// The quantity that a walk carries: camera walks carry radiance, light walks importance-weighted
+/// power (the adjoint). Refraction and shading normals scatter the two differently [Veach 1997, ch.
+/// 5].
 enum class TransportMode { radiance, importance };
 
-/// The BSDF and both sampling densities for one pair of directions: all that a join needs, from one
-/// call. Delta lobes are left out of f_cos; the choice probabilities of the other lobes are not
+/// The BSDF and both sampling densities for one pair of directions: all that a connection needs,
+/// from one call. f_cos excludes delta lobes; the choice probabilities of the other lobes are not
 /// renormalised for that.
 struct BsdfEval {
     Rgb f_cos{0.0f};        ///< f(wo, wi) |cos(wi)|  [1/sr]
-    SolidAnglePdf pdf_fwd;  ///< of sampling wi given wo
-    SolidAnglePdf pdf_rev;  ///< of sampling wo given wi
+    SolidAnglePdf pdf_fwd;  ///< density of sampling wi given wo
+    SolidAnglePdf pdf_rev;  ///< density of sampling wo given wi
 };
 
 /// A sampled direction. For a delta lobe the densities hold P |cos| n^2, where P is the probability
-/// of choosing the lobe and cos and n (refractive index) are those on the side that is sampled
-/// towards. The Dirac factor is left out: it stands in every strategy that can make the path, and
-/// cancels (docs/mis.md).
+/// of choosing the lobe, and cos and n (refractive index) are those on the side of the sampled
+/// direction. The Dirac factor is omitted: it appears in every strategy that can sample the path,
+/// and cancels (docs/mis.md).
 struct BsdfSample {
     Vec3 wi{0.0f};     ///< unit
     Rgb weight{0.0f};  ///< f_cos / pdf_fwd; F/P for a delta lobe  [1]
@@ -35,7 +36,8 @@ struct BsdfSample {
     bool delta = false;
 };
 
-/// The whole sample of a direction that is not a delta lobe's; none where it has no density.
+/// Returns the complete sample of a direction of a lobe that is not delta; nullopt if its density
+/// is zero.
 [[nodiscard]] inline std::optional<BsdfSample> smooth_sample(Vec3 wi, const BsdfEval& value)
 {
     if (!(value.pdf_fwd.value >= std::numeric_limits<float>::min())) {
@@ -45,21 +47,22 @@ struct BsdfSample {
                       false};
 }
 
-/// Nothing scatters closer to the surface: the products of two cosines would vanish.
+/// Tests whether a direction is too close to the surface to scatter: the products of two cosines
+/// would vanish.
 [[nodiscard]] inline bool grazes(Vec3 w)
 {
     return std::abs(w.z) < 1e-15f;
 }
 
-/// Those of a direction to the two normals of a surface.
+/// Cosines of a direction to the two normals of a surface.
 struct Cosines {
     float geometric;
     float shading;
 
-    /// In sign; where they do not, nothing scatters, for light neither leaks through a surface nor
-    /// comes from below it.
+    /// Tests whether the signs agree; otherwise nothing scatters, as light neither leaks through a
+    /// surface nor arrives from below it.
     [[nodiscard]] bool agree() const { return geometric * shading > 0.0f; }
-    /// Where they agree.
+    /// Returns the ratio of the cosines; requires `agree()`.
     [[nodiscard]] float ratio() const { return geometric / shading; }
 };
 

@@ -11,11 +11,11 @@
 
 namespace bdpt {
 
-/// The tables of a material by the colour of light: one for all, or one for each index of
-/// refraction. Refers to them; they must outlive it.
+/// The tables of a material by wavelength: one for all, or one for each index of refraction. Refers
+/// to them; they must outlive this.
 class ChannelAlbedos {
 public:
-    /// No dispersion. Not explicit: a table is a table for all colours.
+    /// No dispersion. Not explicit: one table serves all wavelengths.
     ChannelAlbedos(const SpecularAlbedo& all) : of_{&all, &all, &all} {}
     ChannelAlbedos(const SpecularAlbedo& red, const SpecularAlbedo& green,
                    const SpecularAlbedo& blue)
@@ -32,11 +32,11 @@ private:
     std::array<const SpecularAlbedo*, wavelengths> of_;
 };
 
-/// The index of refraction for each colour, by KHR_materials_dispersion; equal ones for what is not
-/// a solid transmitter.
+/// Returns the index of refraction for each wavelength, by KHR_materials_dispersion; equal ones
+/// unless `desc` is a solid transmitter.
 [[nodiscard]] std::array<float, wavelengths> channel_indices(const MaterialDesc& desc);
 
-/// What is around a body: another one, fog, or nothing.
+/// Surroundings of a body: another body, fog, or nothing.
 struct Exterior {
     std::array<float, wavelengths> indices{1.0f, 1.0f, 1.0f};
     MediumId medium = MediumId::clear;
@@ -44,14 +44,14 @@ struct Exterior {
     friend bool operator==(const Exterior&, const Exterior&) = default;
 };
 
-/// What `desc` is for the bodies within it; `medium` is that of its inside.
+/// Returns the exterior of bodies within a body of material `desc`; `medium` is that of its inside.
 [[nodiscard]] Exterior exterior_within(const MaterialDesc& desc, MediumId medium);
 
-/// Where a solid transmitter lies in something denser it is seen from the other side: as if its
-/// inside were around it.
+/// Relative indices of a boundary. A solid transmitter within a denser one is seen from the other
+/// side: as if its inside were around it.
 struct BoundaryIndices {
     std::array<float, wavelengths> greater_by_less{1.0f, 1.0f, 1.0f};  ///< >= 1
-    std::array<bool, wavelengths> turned{};  ///< is the outside the denser one?
+    std::array<bool, wavelengths> turned{};  ///< true if the outside is denser
 };
 [[nodiscard]] BoundaryIndices boundary_indices(const MaterialDesc& desc, const Exterior& exterior);
 

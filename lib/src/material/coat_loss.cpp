@@ -44,14 +44,14 @@ using Average = CoatLoss::Average;
     return SpecularAlbedo::at_roughness(static_cast<float>(node) / static_cast<float>(nodes - 1));
 }
 
-/// At a node of even sqrt(cosine).
+/// Returns the cosine at a node, evenly spaced in sqrt(cosine).
 [[nodiscard]] float cosine_at(int node, int nodes)
 {
     const float x = static_cast<float>(node) / static_cast<float>(nodes - 1);
     return x * x;
 }
 
-/// Its albedo at the nodes of cosines.
+/// Returns the coat's albedo at the nodes of cosines.
 template <std::size_t Nodes>
 [[nodiscard]] std::array<float, Nodes> coat_row(const SpecularAlbedo& coat,
                                                 SpecularAlbedo::Roughness roughness)
@@ -107,7 +107,7 @@ void CoatLoss::integrate_boundary(const SpecularAlbedo& coat)
 
 void CoatLoss::integrate_below(const SpecularAlbedo& coat)
 {
-    // Midpoints of even sqrt(cosine).
+    // Midpoints evenly spaced in sqrt(cosine).
     constexpr int points = 128;
     for (int c = 0; c < roughness_nodes; ++c) {
         const SpecularAlbedo::Roughness of_coat = roughness_at(c, roughness_nodes);

@@ -14,22 +14,22 @@ namespace bdpt {
 
 class CoatLoss;
 
-/// Tables that all materials share whose surfaces have layers.
+/// Tables shared by all materials with layers.
 struct LayerTables {
-    /// Those that these materials need.
+    /// Computes the tables that these materials need.
     explicit LayerTables(std::span<const MaterialDesc> materials);
     ~LayerTables();
     LayerTables(LayerTables&&) noexcept;
     LayerTables& operator=(LayerTables&&) noexcept;
-    /// Are those here that these materials need?
+    /// Tests whether the tables that these materials need exist.
     [[nodiscard]] bool are_enough_for(std::span<const MaterialDesc> materials) const;
 
-    std::unique_ptr<const SpecularAlbedo> coat;  ///< of index 1.5
-    std::unique_ptr<const CoatLoss> coat_loss;   ///< of the same
+    std::unique_ptr<const SpecularAlbedo> coat;  ///< for index 1.5
+    std::unique_ptr<const CoatLoss> coat_loss;   ///< for index 1.5
     std::unique_ptr<const SheenAlbedo> sheen;
 };
 
-/// What is equal all over a layered material.
+/// Parameters that are constant over a layered material.
 struct LayeredConstants {
     const SpecularAlbedo* base = nullptr;  ///< has the refractive index of the base
     float film_ior = 1.3f;
@@ -37,12 +37,12 @@ struct LayeredConstants {
 };
 
 /// A surface of several layers at one point, from the top: coat, sheen, base; the base's own
-/// parameters are inherited, so that no byte is lost between them and the others. Small, for it
-/// lives in path vertices; `LayeredBsdf` makes a model of it.
+/// parameters are inherited, so that no byte is lost to padding. Compact, as it lives in path
+/// vertices; `LayeredBsdf` makes a model of it.
 struct LayeredParameters : GltfParameters {
-    Unit16 coat{};              ///< share of the surface that is coated
+    Unit16 coat{};              ///< coated fraction of the surface
     Unit16 coat_roughness{};    ///< perceptual
-    Direction16 coat_normal{};  ///< local, as all directions of a `LayeredBsdf`
+    Direction16 coat_normal{};  ///< local, like all directions of a `LayeredBsdf`
     Unit16 sheen_roughness{};
     Color16 sheen{};
     Unit16 anisotropy{};  ///< rougher along x

@@ -10,17 +10,17 @@
 
 namespace bdpt {
 
-/// A scattering model or a lobe on the facet of a normal map. `Model` has `eval` and `sample`;
-/// its directions, and those here, are local to the facet.
+/// A scattering model or a lobe on the facet of a normal map. `Model` has `eval` and `sample`; its
+/// directions, and those here, are local to the facet.
 ///
-/// What the eye sees is worked out in physical roles, so that walks from both ends see the same:
-/// it looks at the facet directly, or by way of the upright one; light that would come through the
-/// surface comes from where `TiltedFacet::raised` says, and has the colour of the surface, which
-/// has scattered it before. So nothing is made, and nothing is lost of a white surface: in even
-/// light it shines like all around it, however much it is tilted. Where facet and surface have one
-/// normal this is the model itself.
+/// Visibility is modelled in physical roles, eye and light, so that walks from both ends agree: the
+/// eye sees the facet directly, or by way of the upright facet; light that would come through the
+/// surface comes from `TiltedFacet::raised` instead, and is tinted by the surface, which has
+/// scattered it before. So no energy is created, and a white surface loses none: in uniform light
+/// it looks the same at any tilt. If facet and surface have the same normal this is the model
+/// itself.
 ///
-/// f_cos has the cosine to the macroscopic normal in the place of that to the facet.
+/// f_cos has the cosine to the macroscopic normal in place of that to the facet.
 template <typename Model>
 class MappedBsdf {
 public:
@@ -42,14 +42,14 @@ public:
     }
 
 private:
-    /// One of two ways to the facet, or from it.
+    /// One of two ways to or from the facet.
     struct Way {
-        Vec3 w{0.0f};  ///< at the facet
+        Vec3 w{0.0f};  ///< direction at the facet
         float share =
-            0.0f;  ///< of the eye: in what it sees; of light: the solid angle at the facet
-        float choice = 0.0f;  ///< probability of samples whose walk comes from the light
+            0.0f;  ///< for the eye: fraction of its view; for light: the solid angle at the facet
+        float choice = 0.0f;  ///< probability for samples whose walk comes from the light
     };
-    /// The plain one first; a share of 0 means that there is no such way.
+    /// Returns the direct way first; a share of 0 means that there is no such way.
     using Ways = std::array<Way, 2>;
 
     [[nodiscard]] Ways eye_ways(Vec3 eye) const noexcept;
@@ -64,7 +64,8 @@ private:
     Rgb color_;
 };
 
-/// A uniform number that decided on something of probability `p` is uniform again.
+/// Result of a random decision with probability `p`, and the remaining random number, again
+/// uniform.
 struct Choice {
     bool taken;
     float u;  ///< [0, 1)
@@ -82,8 +83,7 @@ typename MappedBsdf<Model>::Ways MappedBsdf<Model>::eye_ways(Vec3 eye) const noe
     const float share = facet_.mirrored_share(eye);
     const Vec3 other = facet_.mirrored(eye);
     const float choice = facet_.mirror_choice();
-    // Of the two directions at the facet that a sample could have been meant for, only one may be
-    // in sight.
+    // A sample could stand for two directions at the facet, of which only one may be visible.
     const float plain_choice = facet_.mirrored_share(other) > 0.0f ? 1.0f - choice : 1.0f;
     return {Way{eye, 1.0f - share, share < 1.0f ? plain_choice : 0.0f},
             Way{other, share, share > 0.0f ? choice : 0.0f}};
@@ -142,9 +142,9 @@ BsdfEval MappedBsdf<Model>::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noe
     return {f_cos * std::abs(facet_.height(eye) / facet_.height(light)), of_eye, of_light};
 }
 
-// Densities of delta lobes stand for a Dirac factor that is left out, so only their quotient means
-// something: that of the probabilities times the solid angle of light over that of the eye, of
-// which `share` is where it differs from that at the facet.
+// Densities of delta lobes omit a Dirac factor, so only their ratio matters: that of the
+// probabilities times the solid angle of light over that of the eye; `share` is its ratio to that
+// at the facet.
 
 template <typename Model>
 std::optional<BsdfSample> MappedBsdf<Model>::sample_light(Vec3 eye, float u_lobe,
@@ -187,7 +187,7 @@ std::optional<BsdfSample> MappedBsdf<Model>::sample_eye(Vec3 light, float u_lobe
     std::optional<BsdfSample> sampled =
         model_.sample(from.w, mirror.u, u, TransportMode::importance);
     if (!sampled || !facet_.faces(sampled->wi)) {
-        return std::nullopt;  // no eye is there
+        return std::nullopt;  // no eye direction sees the facet
     }
     const Vec3 other = facet_.mirrored(sampled->wi);
     const bool is_mirrored = mirror.taken && facet_.mirrored_share(other) > 0.0f;

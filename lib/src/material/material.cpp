@@ -19,8 +19,9 @@ namespace {
     return solid ? Body::solid : Body::thin_walled;
 }
 
-/// Those that the base colour is looked up in. What emits or lets light pass is sampled as it is,
-/// and the colours of texels that are not there must not get into those that are.
+/// Returns the images in which the base colour is looked up. Emissive or transparent surfaces use
+/// them at full size: they are sampled exactly, and the colours of invisible texels must not bleed
+/// into visible ones.
 [[nodiscard]] TextureImages color_images(const MaterialDesc& desc, const TextureImages& images)
 {
     const bool as_it_is = desc.unlit || desc.alpha_mode != AlphaMode::opaque;
@@ -74,7 +75,7 @@ Material::Material(const MaterialDesc& desc, const TextureImages& images,
                desc.transmission,
                volume_of(desc)},
       emission_(desc.emission),
-      // What has no inside has the same medium on both sides.
+      // Surfaces without an inside have the same medium on both sides.
       media_{bdpt::has_inside(desc) ? within : exterior.medium, exterior.medium},
       has_inside_(is_solid_transmitter() || !medium_within(desc).is_clear() ||
                   media_.behind != media_.ahead),
@@ -137,7 +138,7 @@ void Material::measure_emission()
 float Material::opacity_of(float alpha) const noexcept
 {
     if (alpha_mode_ == AlphaMode::mask) {
-        // Filtering a texture that is even rounds; texels differ by much more.
+        // Tolerance for the rounding of filtered uniform textures; texels differ by much more.
         constexpr float rounding = 1e-6f;
         return alpha + rounding >= alpha_cutoff_ ? 1.0f : 0.0f;
     }

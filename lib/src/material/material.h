@@ -16,23 +16,24 @@
 
 namespace bdpt {
 
-/// A `MaterialDesc` made ready for lookups. Refers to the images, which must outlive it and its
+/// A `MaterialDesc` prepared for lookups. Refers to the images, which must outlive it and its
 /// copies.
 class Material {
 public:
-    /// `albedos` belong to `boundary_indices(desc, exterior)`; `tables` are needed where
-    /// `has_layers(desc)`; `within` is the scene's name of `medium_within(desc)`. Throws nothing:
+    /// `albedos` belong to `boundary_indices(desc, exterior)`; `tables` are required if
+    /// `has_layers(desc)`; `within` is the scene's id of `medium_within(desc)`. Throws nothing:
     /// `desc` has been validated.
     Material(const MaterialDesc& desc, const TextureImages& images, const ChannelAlbedos& albedos,
              const LayerTables* tables = nullptr, const Exterior& exterior = {},
              MediumId within = MediumId::clear);
 
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
-    /// Does that depend on `ShadingPoint::footprint`?
+    /// Tests whether the BSDF depends on `ShadingPoint::footprint`.
     [[nodiscard]] bool needs_footprint() const noexcept { return needs_footprint_; }
-    /// Does it scatter alike everywhere, but for vertex colours?
+    /// Tests whether the BSDF is constant apart from vertex colours.
     [[nodiscard]] bool is_even() const noexcept { return plain_ && !normal_map_; }
-    /// `bsdf` where it `is_even` and there are no vertex colours; arguments as in `ShadingPoint`.
+    /// Returns `bsdf` if it `is_even` and there are no vertex colours; arguments as in
+    /// `ShadingPoint`.
     [[nodiscard]] Bsdf even_bsdf(Vec3 ng, Vec3 ns, Vec3 wo) const noexcept
     {
         if (const auto* common = std::get_if<Lambertian>(&*plain_)) [[likely]] {
@@ -45,52 +46,51 @@ public:
             *plain_);
     }
 
-    /// The share of rays that meet the surface, in [0, 1]; the others pass as if it were not there.
+    /// Returns the fraction of rays that hit the surface, in [0, 1]; the others pass through.
     [[nodiscard]] float opacity(const TexturePoint& point) const noexcept;
-    /// A bound of `opacity` from below where vertex colours have no alpha.
+    /// Returns a lower bound of `opacity` for vertex colours without alpha.
     [[nodiscard]] float min_opacity() const noexcept { return min_opacity_; }
     [[nodiscard]] AlphaMode alpha_mode() const noexcept { return alpha_mode_; }
 
-    /// Emitted radiance [nit] that a ray finds which meets the surface, equal in all directions of
-    /// an emitting side.
+    /// Returns the emitted radiance [nit] at a hit, equal in all directions of an emitting side.
     [[nodiscard]] Rgb emission(const TexturePoint& point) const noexcept;
-    /// That times `opacity`: what counts for points that no ray was stopped at but that were
-    /// sampled.
+    /// Returns `emission` times `opacity`: for points that were sampled rather than hit.
     [[nodiscard]] Rgb expected_emission(const TexturePoint& point) const noexcept
     {
         return emission(point) * opacity(point);
     }
-    /// Roughly the average of `expected_emission` over its textures, vertex colours left out; zero
-    /// only where it is zero.
+    /// Returns the approximate average of `expected_emission` over its textures, without vertex
+    /// colours; zero only if it is zero everywhere.
     [[nodiscard]] Rgb mean_emission() const noexcept { return mean_emission_; }
-    /// Does `expected_emission` depend on the vertex colours?
+    /// Tests whether `expected_emission` depends on the vertex colours.
     [[nodiscard]] bool emission_needs_color() const noexcept
     {
         return unlit_ || alpha_mode_ != AlphaMode::opaque;
     }
-    /// Does it depend on a texture?
+    /// Tests whether `expected_emission` depends on a texture.
     [[nodiscard]] bool emission_needs_texture() const noexcept
     {
         return (emission_map_ && !unlit_) || (base_color_map_ && emission_needs_color());
     }
-    /// Distance of two places in texels of the finest texture that it depends on; 0 without any.
+    /// Returns the distance of two points in texels of the finest texture that the emission depends
+    /// on; 0 without any.
     [[nodiscard]] float emission_texels(const std::array<Vec2, 2>& a,
                                         const std::array<Vec2, 2>& b) const noexcept;
     [[nodiscard]] bool emits_from_both_sides() const noexcept { return double_sided_; }
 
-    /// Does light of different colours take different ways?
+    /// Tests whether wavelengths are refracted differently.
     [[nodiscard]] bool disperses() const noexcept { return disperses_; }
-    /// Bounds a solid body that light passes through; its inside is on the back of ng.
+    /// Tests whether it bounds a solid transparent body; its inside is on the back of ng.
     [[nodiscard]] bool is_solid_transmitter() const noexcept
     {
         return surface_.body == Body::solid;
     }
-    /// Has an inside that light goes through, refracted or not, and which does not do to it what is
-    /// around does.
+    /// Tests whether it has an inside that light enters, refracted or not, and whose medium differs
+    /// from the surroundings.
     [[nodiscard]] bool has_inside() const noexcept { return has_inside_; }
-    /// On both sides of its surfaces.
+    /// Returns the media on both sides of its surfaces.
     [[nodiscard]] SideMedia media() const noexcept { return media_; }
-    /// Set of texture coordinates that the tangent follows, if the material needs one.
+    /// Returns the set of texture coordinates that the tangent follows, if the material needs one.
     [[nodiscard]] std::optional<int> tangent_uv_set() const noexcept { return tangent_uv_set_; }
 
 private:
@@ -98,7 +98,7 @@ private:
     {
         return normal_map_ ? normal_map_->normal(point) : point.ns;
     }
-    /// `turned`: as seen from the other side.
+    /// Returns the BSDF of one channel; `turned` if seen from the other side.
     [[nodiscard]] Bsdf at(const ShadingPoint& point, const PlainModel& any,
                           bool turned) const noexcept;
     [[nodiscard]] Rgb base_color(const TexturePoint& point,
@@ -107,8 +107,8 @@ private:
     void measure_alpha();
     void measure_emission();
 
-    GltfParameters surface_;           ///< the factors, which textures multiply
-    std::optional<PlainModel> plain_;  ///< of a surface on which nothing varies
+    GltfParameters surface_;           ///< factors, which textures multiply
+    std::optional<PlainModel> plain_;  ///< model of a surface without variation
     Rgb emission_{0.0f};
     Rgb mean_emission_{0.0f};
     SideMedia media_;
@@ -118,10 +118,10 @@ private:
     bool unlit_;
     bool needs_footprint_ = false;
     AlphaMode alpha_mode_;
-    float alpha_;  ///< the factor
+    float alpha_;  ///< factor of alpha
     float alpha_cutoff_;
     float min_opacity_ = 1.0f;
-    float mean_opacity_ = 1.0f;  ///< roughly
+    float mean_opacity_ = 1.0f;  ///< approximate
     ChannelAlbedos albedos_;
     std::array<bool, wavelengths> turned_;
 
@@ -133,7 +133,7 @@ private:
     std::optional<Texture> specular_color_map_;
     std::optional<Texture> transmission_map_;
     std::optional<Texture> glossiness_map_;
-    std::shared_ptr<const MaterialLayers> layers_;  ///< of a material that has any
+    std::shared_ptr<const MaterialLayers> layers_;  ///< set for materials with layers
     std::optional<int> tangent_uv_set_;
 };
 

@@ -11,7 +11,7 @@
 namespace bdpt {
 namespace {
 
-/// A texture's value at a point; ones without a texture.
+/// Returns a texture's value at a point; ones without a texture.
 [[nodiscard]] Vec4 at(const std::optional<Texture>& map, const ShadingPoint& point)
 {
     return map ? map->lookup(point.uv, point.footprint) : Vec4(1.0f);

@@ -14,7 +14,7 @@
 
 namespace bdpt {
 
-/// Does the material need more than a `PlainModel`?
+/// Tests whether the material needs more than a `PlainModel`.
 [[nodiscard]] bool has_layers(const MaterialDesc& desc);
 
 /// The factors and maps of a material's layers. Refers to the images and tables, which must outlive
@@ -24,11 +24,11 @@ public:
     MaterialLayers(const MaterialDesc& desc, const TextureImages& images,
                    const ChannelAlbedos& albedos, const LayerTables& tables);
 
-    /// With `base` below the layers. The normal of `shading` is that of a normal map, or that of
-    /// the point.
+    /// Returns the BSDF of the layers over `base`. The normal of `shading` is that of a normal map,
+    /// or that of the point.
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point, const Frame& shading,
                             const GltfParameters& base) const noexcept;
-    /// Set of texture coordinates that the tangent follows, if the layers need one.
+    /// Returns the set of texture coordinates that the tangent follows, if the layers need one.
     [[nodiscard]] std::optional<int> tangent_uv_set() const noexcept;
 
 private:
@@ -58,7 +58,7 @@ private:
     [[nodiscard]] Frame add_anisotropy(const ShadingPoint& point, const Frame& shading,
                                        LayeredParameters& layers) const noexcept;
 
-    // The factors; their textures are in the maps.
+    // Factors; their textures are in the maps.
     ClearcoatDesc coat_;
     SheenDesc sheen_;
     AnisotropyDesc anisotropy_;

@@ -8,10 +8,10 @@
 namespace bdpt {
 namespace {
 
-/// The coefficient that leaves the attenuation colour after the attenuation distance.
+/// Returns the coefficient for which the attenuation colour remains after the attenuation distance.
 [[nodiscard]] Rgb extinction_of(const MaterialDesc& desc)
 {
-    constexpr float min_color = 1e-20f;      // black keeps a finite coefficient
+    constexpr float min_color = 1e-20f;      // keeps the coefficient of black finite
     constexpr float max_extinction = 1e30f;  // [1/m]
     if (!has_inside(desc) || std::isinf(desc.attenuation_distance)) {
         return Rgb{0.0f};
@@ -41,7 +41,7 @@ Rgb single_scatter_albedo(Rgb multiscatter_color, float anisotropy)
         const float c = multiscatter_color[channel];
         const float root = std::sqrt(9.59217f + 41.6808f * c + 17.7126f * c * c);
         const float s = 4.09712f + 4.20863f * c - root;
-        // The fit is off by 1e-6 at both ends.
+        // The fit has an error of 1e-6 at both ends.
         const float albedo = std::clamp(1.0f - s * s, 0.0f, 1.0f) / (1.0f - anisotropy * s * s);
         result[channel] = c == 0.0f ? 0.0f : std::min(albedo, 1.0f);
     }

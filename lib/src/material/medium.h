@@ -15,19 +15,20 @@ struct Medium {
     friend bool operator==(const Medium&, const Medium&) = default;
 };
 
-/// Does light go through the inside of the body, refracted or not?
+/// Tests whether light enters the inside of the body, refracted or not.
 [[nodiscard]] bool has_inside(const MaterialDesc& desc);
 
-/// The inside of a body: extinction by KHR_materials_volume, scattering by
-/// KHR_materials_volume_scatter. Clear for all that has none. A colour of zero absorbs like 1e-20.
+/// Returns the inside of a body: extinction by KHR_materials_volume, scattering by
+/// KHR_materials_volume_scatter. Clear for materials without these. A colour of zero absorbs like
+/// 1e-20.
 [[nodiscard]] Medium medium_within(const MaterialDesc& desc);
 
-/// Of fog.
+/// Returns the medium of fog.
 [[nodiscard]] Medium medium_of(const MediumDesc& desc);
 
-/// Single-scatter albedo of a medium that looks as bright as `multiscatter_color`, in [0, 1], where
-/// it is dense and lit from outside [Kulla and Conty 2017, "Revisiting Physically Based Shading at
-/// Imageworks", slide 44]. `anisotropy` is g of its phase function, in (-1, 1).
+/// Returns the single-scattering albedo of a medium that looks as bright as `multiscatter_color`,
+/// in [0, 1], where it is dense and lit from outside [Kulla and Conty 2017, "Revisiting Physically
+/// Based Shading at Imageworks", slide 44]. `anisotropy` is g of its phase function, in (-1, 1).
 [[nodiscard]] Rgb single_scatter_albedo(Rgb multiscatter_color, float anisotropy);
 
 }  // namespace bdpt

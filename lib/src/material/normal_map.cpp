@@ -7,7 +7,7 @@
 namespace bdpt {
 namespace {
 
-/// `normal`, turned towards `above` no further than it takes to lie clearly on its side.
+/// Returns `normal`, tilted towards `above` as little as needed to lie clearly on its side.
 [[nodiscard]] Vec3 kept_on_side(Vec3 normal, Vec3 above)
 {
     constexpr float min_cosine = 0.01f;
@@ -18,7 +18,7 @@ namespace {
     const Vec3 along = normal - cosine * above;
     const float length = std::sqrt(dot(along, along));
     if (length < 1e-6f) {
-        return above;  // straight from below: no way to turn is shorter than another
+        return above;  // straight from below: all directions of tilt are equivalent
     }
     return normalize(along * (std::sqrt(1.0f - min_cosine * min_cosine) / length) +
                      min_cosine * above);

@@ -7,8 +7,8 @@
 
 namespace bdpt {
 
-/// The unit tangent and bitangent of a point, at right angles to `ns` [glTF 2.0, sec. 3.9.3]; none
-/// where it has no tangent.
+/// The unit tangent and bitangent of a point, perpendicular to `ns` [glTF 2.0, sec. 3.9.3]; nullopt
+/// if it has no tangent.
 struct TangentAxes {
     Vec3 tangent;
     Vec3 bitangent;
@@ -21,8 +21,8 @@ public:
     /// `scale` multiplies x and y.
     NormalMap(const Texture& map, float scale) : map_(map), scale_(scale) {}
 
-    /// Unit, and clearly on the side of `ns`: what leads below is turned up as little as possible.
-    /// `ns` itself where the point has no tangent.
+    /// Returns a unit normal clearly on the side of `ns`: normals below are tilted up as little as
+    /// possible. `ns` itself if the point has no tangent.
     [[nodiscard]] Vec3 normal(const ShadingPoint& point) const noexcept;
     [[nodiscard]] int uv_set() const noexcept { return map_.uv_set(); }
 
@@ -31,8 +31,8 @@ private:
     float scale_;
 };
 
-/// The map of a slot, if it has one; at full size, as the means of normals are those of a smoother
-/// surface.
+/// Returns the map of a slot, if it has one; at full size, as averaged normals are those of a
+/// smoother surface.
 [[nodiscard]] std::optional<NormalMap> make_normal_map(const std::optional<TextureRef>& ref,
                                                        float scale, const TextureImages& images);
 

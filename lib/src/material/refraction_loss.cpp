@@ -74,8 +74,8 @@ RefractionLoss::Loss RefractionLoss::integrate(const SpecularAlbedo& boundary, S
     if (alpha == 0.0f) {
         return {};
     }
-    // The quadrature of `SpecularAlbedo`, with more points from within, where total reflection has
-    // an edge: errors of 0.001.
+    // The quadrature of `SpecularAlbedo`, with more points from within, where total reflection
+    // causes an edge: errors of 0.001.
     const int points = side == Side::outer ? 24 : 48;
     const float ior = boundary.ior();
     const float eta = side == Side::outer ? 1.0f / ior : ior;

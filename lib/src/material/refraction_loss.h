@@ -6,35 +6,36 @@ namespace bdpt {
 
 class SpecularAlbedo;
 
-/// What single scattering by the rough boundary of a transparent body neither reflects nor lets
-/// through, as other microfacets are in the way, for one refractive index. About 20 kB; refer to
-/// it, do not copy it.
+/// Loss of single scattering at the rough boundary of a transparent body: light that is neither
+/// reflected nor transmitted, as other microfacets mask it, for one refractive index. About 20 kB;
+/// refer to it, do not copy it.
 class RefractionLoss {
 public:
-    /// The side that light comes from.
+    /// The side from which light arrives.
     enum class Side { outer, inner };
 
     /// Integrates the tables, which takes some hundred milliseconds.
     explicit RefractionLoss(const SpecularAlbedo& boundary);
 
-    /// Of light with this cosine in [0, 1], in [0, 1]. `f0`, `f90`: the reflectance at normal and
-    /// at grazing incidence on the outer side. `roughness` is perceptual, in [0, 1].
+    /// Returns the loss of light with this cosine in [0, 1], in [0, 1]. `f0` and `f90` are the
+    /// reflectances at normal and at grazing incidence on the outer side. `roughness` is
+    /// perceptual, in [0, 1].
     [[nodiscard]] float directional(Side side, float cosine, float roughness, float f0,
                                     float f90) const noexcept;
-    /// Its cosine-weighted average over the hemisphere.
+    /// Returns the cosine-weighted average of the loss over the hemisphere.
     [[nodiscard]] float average(Side side, float roughness, float f0, float f90) const noexcept;
 
 private:
     static constexpr int cosine_nodes = 32;
     static constexpr int roughness_nodes = 24;
 
-    /// The loss is linear in both reflectances.
+    /// Coefficients of the loss, which is linear in both reflectances.
     struct Loss {
-        float none = 0.0f;  ///< without any
+        float none = 0.0f;  ///< loss for zero reflectance
         float per_f0 = 0.0f;
         float per_f90 = 0.0f;
     };
-    /// Rows of even roughness, in them nodes of even sqrt(cosine).
+    /// Rows of evenly spaced roughness; within them nodes evenly spaced in sqrt(cosine).
     struct Table {
         std::array<Loss, roughness_nodes * cosine_nodes> directional;
         std::array<Loss, roughness_nodes> average;

@@ -9,7 +9,7 @@
 
 namespace bdpt {
 
-/// What a material needs to know of a surface point.
+/// Properties of a surface point that a material needs.
 struct ShadingPoint {
     Vec3 ng{0.0f, 0.0f, 1.0f};  ///< unit, front side
     Vec3 ns{0.0f, 0.0f, 1.0f};  ///< unit, interpolated; in the hemisphere of ng
@@ -17,12 +17,12 @@ struct ShadingPoint {
     std::array<Vec2, 2> uv{};
     Vec4 color{1.0f};  ///< vertex colour, linear
     Wavelength wavelength = Wavelength::green;
-    Vec3 wo{0.0f, 0.0f, 1.0f};  ///< unit, towards where the walk came from
-    /// What a pixel covers of the textures, where they are mip-mapped.
+    Vec3 wo{0.0f, 0.0f, 1.0f};  ///< unit, towards the origin of the walk
+    /// Texture footprint of a pixel, for mip-mapped textures.
     const UvFootprint* footprint = nullptr;
 };
 
-/// What textures and vertex colours are looked up by.
+/// Coordinates for the lookup of textures and vertex colours.
 struct TexturePoint {
     std::array<Vec2, 2> uv{};
     Vec4 color{1.0f};  ///< vertex colour, linear

@@ -12,16 +12,16 @@
 namespace bdpt {
 namespace {
 
-/// The masking functions of the paper end at the horizon, where its fit grows without bound.
+/// Minimum cosine of the paper's masking functions: near the horizon its fit grows without bound.
 constexpr float min_cosine = 1e-5f;
 
-/// x^y for x > 0.
+/// Returns x^y for x > 0.
 [[nodiscard]] float power(float x, float y)
 {
     return exp_exact(y * log_exact(x));
 }
 
-/// The fit of the paper's section 4, between its two columns.
+/// Returns the fit of the paper's section 4, interpolated between its two columns.
 [[nodiscard]] float fitted(float x, float alpha)
 {
     const float share = (1.0f - alpha) * (1.0f - alpha);
@@ -33,7 +33,7 @@ constexpr float min_cosine = 1e-5f;
     return a / (1.0f + b * power(x, c)) + d * x + e;
 }
 
-/// Smith's Lambda.
+/// Returns Smith's Lambda.
 [[nodiscard]] float lambda(float cosine, float alpha)
 {
     if (cosine < 0.5f) {
@@ -43,7 +43,7 @@ constexpr float min_cosine = 1e-5f;
     return exp_exact(2.0f * fitted(0.5f, alpha) - fitted(rest, alpha));
 }
 
-/// D(h) of a half vector of any length.
+/// Returns D(h) of a half vector of any length.
 [[nodiscard]] float distribution(Vec3 h, float alpha)
 {
     constexpr float min_sine2 = 1e-30f;
@@ -60,7 +60,7 @@ constexpr float min_cosine = 1e-5f;
 }
 
 /// Integrates the formula times `factor(cos_i)` over all wi, by midpoints of the azimuth over one
-/// half of its symmetric course and of the root of the cosine.
+/// half of its symmetric range and of the root of the cosine.
 template <typename Factor>
 [[nodiscard]] float integrate(float cosine, float alpha, const Factor& factor)
 {
@@ -90,7 +90,7 @@ template <typename Factor>
 
 SheenAlbedo::SheenAlbedo()
 {
-    constexpr float between_nodes = 1.002f;  // an albedo may be greater than at its neighbours
+    constexpr float between_nodes = 1.002f;  // an albedo may be larger than at its neighbours
     const auto for_each_node = [&](const auto& visit) {
         for (int row = 0; row < roughness_nodes; ++row) {
             const float share = static_cast<float>(row) / (roughness_nodes - 1);

@@ -11,11 +11,11 @@
 
 namespace bdpt {
 
-/// A number in [0, 1] in 16 bits: twice as fine as what a material can be told to be needs.
+/// A number in [0, 1] in 16 bits: twice the precision that material parameters need.
 class Unit16 {
 public:
     Unit16() = default;
-    /// Clamped.
+    /// Clamps `value` to [0, 1].
     explicit Unit16(float value)
         : bits_(static_cast<std::uint16_t>(std::clamp(value, 0.0f, 1.0f) * 65535.0f + 0.5f))
     {}
@@ -38,7 +38,7 @@ private:
     Unit16 b_;
 };
 
-/// A pointer that needs no alignment of its own, so that it leaves no gap among numbers.
+/// A pointer without alignment requirement, so that it causes no padding among numbers.
 template <typename T>
 class PackedPointer {
 public:
@@ -53,7 +53,7 @@ private:
     Bits bits_{};
 };
 
-/// A unit vector in 48 bits; exact along the axes, else right to 3e-5 rad.
+/// A unit vector in 48 bits; exact along the axes, otherwise accurate to 3e-5 rad.
 class Direction16 {
 public:
     Direction16() = default;

@@ -28,8 +28,8 @@ SpecularAlbedo::SpecularAlbedo(float ior, Below below)
     }
 }
 
-/// 2 c dc = 4 x^3 dx, and the albedo is linear in x between nodes: integrated exactly, so that the
-/// average fits the directional values as they are looked up.
+/// Integrates 2 c dc = 4 x^3 dx exactly, for the albedo is linear in x between nodes, so that the
+/// average is consistent with the interpolated directional values.
 Split SpecularAlbedo::average_of_row(int row) const
 {
     constexpr double step = 1.0 / (cosine_nodes - 1);

@@ -10,9 +10,9 @@
 
 namespace bdpt {
 
-/// What single scattering by a rough dielectric boundary reflects in all, for one refractive index:
-/// tables over cosine and roughness, in constant time. With it the diffuse light below the boundary
-/// gets just what the boundary lets through. About 16 kB; refer to it, do not copy it.
+/// Albedo of single scattering by a rough dielectric boundary, for one refractive index: tables
+/// over cosine and roughness, in constant time. With it the diffuse light below the boundary is
+/// exactly the transmitted light. About 16 kB; refer to it, do not copy it.
 class SpecularAlbedo {
 public:
     /// The coefficients of F0 and F90 in an albedo E = F0 f0 + F90 f90.
@@ -21,7 +21,7 @@ public:
         float f90 = 0.0f;
     };
 
-    /// What lies below the boundary.
+    /// The kind of base below the boundary.
     enum class Below { base, transparent_body };
 
     /// Integrates the tables, which takes some milliseconds, and more for transparent bodies. `ior`
@@ -29,34 +29,34 @@ public:
     explicit SpecularAlbedo(float ior, Below below = Below::base);
 
     [[nodiscard]] float ior() const noexcept { return ior_; }
-    /// Reflectance at normal incidence, ((ior - 1) / (ior + 1))^2.
+    /// Returns the reflectance at normal incidence, ((ior - 1) / (ior + 1))^2.
     [[nodiscard]] float normal_reflectance() const noexcept { return r0_; }
 
-    /// g in F = F0 + (F90 - F0) g: the course of Fresnel's equations from 0 at normal to 1 at
+    /// Returns g in F = F0 + (F90 - F0) g: Fresnel's equations normalised from 0 at normal to 1 at
     /// grazing incidence, by the cosine on the side of the lower index.
     [[nodiscard]] float fresnel_course(float cos_outer) const noexcept
     {
         return std::clamp((fresnel_dielectric(cos_outer, ior_) - r0_) * inv_range_, 0.0f, 1.0f);
     }
 
-    /// Null where no transparent body is below.
+    /// Returns the loss of refraction; null without a transparent body below.
     [[nodiscard]] const RefractionLoss* refraction_loss() const noexcept { return loss_.get(); }
 
-    /// Where a roughness lies in the tables.
+    /// Position of a roughness in the tables.
     struct Roughness {
         float row = 0.0f;
 
-        /// Perceptual, in [0, 1].
+        /// Returns the perceptual roughness, in [0, 1].
         [[nodiscard]] float value() const { return row / (roughness_nodes - 1); }
     };
 
-    /// Of a perceptual roughness in [0, 1].
+    /// Returns the position of a perceptual roughness in [0, 1].
     [[nodiscard]] static Roughness at_roughness(float roughness)
     {
         return {scaled(roughness, roughness_nodes)};
     }
 
-    /// Of light from a direction with this cosine in [0, 1].
+    /// Returns the albedo for light from a direction with this cosine in [0, 1].
     [[nodiscard]] Split directional(float cosine, Roughness roughness) const noexcept
     {
         const Position p = position(scaled(std::sqrt(cosine), cosine_nodes), cosine_nodes);
@@ -67,7 +67,7 @@ public:
                    r.fraction);
     }
 
-    /// The cosine-weighted average of `directional` over the hemisphere.
+    /// Returns the cosine-weighted average of `directional` over the hemisphere.
     [[nodiscard]] Split average(Roughness roughness) const noexcept
     {
         const Position r = position(roughness.row, roughness_nodes);
@@ -79,7 +79,8 @@ private:
     static constexpr int cosine_nodes = 64;
     static constexpr int roughness_nodes = 32;
 
-    /// Where a value in [0, 1] lies among evenly spaced nodes: between which two, and how far.
+    /// Position of a value in [0, 1] among evenly spaced nodes: the node before it, and the
+    /// fraction of the interval.
     struct Position {
         int node;
         float fraction;
@@ -106,7 +107,7 @@ private:
     float ior_;
     float r0_;
     float inv_range_;  ///< 1 / (1 - r0)
-    /// Rows of even roughness, in them nodes of even sqrt(cosine).
+    /// Rows of evenly spaced roughness; within them nodes evenly spaced in sqrt(cosine).
     std::array<Split, roughness_nodes * cosine_nodes> table_;
     std::array<Split, roughness_nodes> average_;
     std::unique_ptr<const RefractionLoss> loss_;

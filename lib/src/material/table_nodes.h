@@ -5,22 +5,24 @@
 
 namespace bdpt {
 
-/// Where a value lies among evenly spaced nodes: after which one, and how far.
+/// Position of a value among evenly spaced nodes: the node before it, and the fraction of the
+/// interval.
 struct NodePosition {
     std::size_t node;
     float fraction;
 };
 
-/// `scaled` is 0 at the first node and `nodes - 1` at the last one.
+/// Returns the position of `scaled`, which is 0 at the first node and `nodes - 1` at the last one.
 [[nodiscard]] inline NodePosition node_position(float scaled, int nodes)
 {
     const int node = std::clamp(static_cast<int>(scaled), 0, nodes - 2);
     return {static_cast<std::size_t>(node), scaled - static_cast<float>(node)};
 }
 
-/// For the cosine-weighted average over the hemisphere of what is linear in x = sqrt(cosine)
-/// between nodes of even x: calls `visit` with the first node of each interval, the interval's
-/// share of the average (2 c dc = 4 x^3 dx), and how far in it the value lies that counts.
+/// Visits the intervals of the cosine-weighted average over the hemisphere of a function that is
+/// linear in x = sqrt(cosine) between evenly spaced nodes in x: calls `visit` with the first node
+/// of each interval, the interval's weight in the average (2 c dc = 4 x^3 dx), and the fraction of
+/// the interval at which the function is evaluated.
 template <typename Visit>
 void for_each_cosine_interval(int nodes, const Visit& visit)
 {

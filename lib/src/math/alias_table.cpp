@@ -27,8 +27,8 @@ AliasTable::AliasTable(std::span<const float> weights)
     const std::size_t count = weights.size();
     buckets_.resize(count);
 
-    // Each share is scaled to a mean of one, then every bucket is filled to exactly one: an index
-    // with too little takes the rest from one that has too much.
+    // Weights are scaled to a mean of one, then every bucket is filled to exactly one: an index
+    // with too little weight takes the rest from one with too much.
     std::vector<double> level(count);
     std::vector<std::uint32_t> too_little;
     std::vector<std::uint32_t> too_much;
@@ -53,8 +53,8 @@ AliasTable::AliasTable(std::span<const float> weights)
             too_little.push_back(rich);
         }
     }
-    // Rounding may leave a few whose level is one but for the last digits; they stay full. A weight
-    // of zero among them must not.
+    // Rounding may leave a few whose level is almost one; they stay full. A weight of zero among
+    // them must not.
     for (const std::uint32_t i : too_little) {
         if (buckets_[i].probability == 0.0f) {
             buckets_[i].threshold = 0.0f;

@@ -12,8 +12,8 @@
 
 namespace bdpt {
 
-/// Two random floats of 24 bits as one number in [0, 1) of 48 bits: for choices among so many items
-/// that 24 bits would be too coarse.
+/// Combines two random floats of 24 bits to one number in [0, 1) of 48 bits: for choices among so
+/// many items that 24 bits would be too coarse.
 [[nodiscard]] inline double fine_uniform(Vec2 u)
 {
     return static_cast<double>(u.x) + static_cast<double>(u.y) * 0x1p-24;
@@ -30,19 +30,20 @@ public:
     };
 
     AliasTable() = default;
-    /// Weights that are negative or not finite count as zero, and so do those whose share would
-    /// not be a normal float. Without any weight left the table is empty.
+    /// Builds the table. Weights that are negative or not finite count as zero, and so do those
+    /// whose probability would not be a normal float. If no weight is left the table is empty.
     explicit AliasTable(std::span<const float> weights);
 
     [[nodiscard]] bool empty() const noexcept { return buckets_.empty(); }
     [[nodiscard]] std::size_t size() const noexcept { return buckets_.size(); }
-    /// Sum of the weights.
+    /// Returns the sum of the weights.
     [[nodiscard]] double total() const noexcept { return total_; }
 
-    /// `u` in [0, 1). A float has 24 bits, enough for some thousand items; give `fine_uniform` for
-    /// more. Never draws an index of zero weight. An empty table gives index 0 of probability 0.
+    /// Draws an index by `u` in [0, 1). A float has 24 bits, enough for some thousand items; use
+    /// `fine_uniform` for more. Never draws an index of zero weight. An empty table gives index 0
+    /// of probability 0.
     [[nodiscard]] Choice sample(double u) const noexcept;
-    /// The same for tables of a few items that are not empty, where `u` has digits enough.
+    /// Draws an index of a small table that is not empty, for which a float has enough digits.
     [[nodiscard, gnu::always_inline]] inline Choice sample_coarse(float u) const noexcept
     {
         constexpr float below_one = 1.0f - 0x1p-24f;
@@ -51,14 +52,14 @@ public:
         const std::int32_t slot = std::min(static_cast<std::int32_t>(scaled), last);
         const Bucket& bucket = buckets_[static_cast<std::size_t>(slot)];
         const float within = scaled - static_cast<float>(slot);
-        // Which part it is is up to chance, so it must not be a branch.
+        // The branch would be random, so this must not be one.
         const bool own = within < bucket.threshold;
         const std::uint32_t index = own ? static_cast<std::uint32_t>(slot) : bucket.alias;
         const float start = select(own, 0.0f, bucket.threshold);
         const float size = select(own, bucket.threshold, 1.0f - bucket.threshold);
         return {index, buckets_[index].probability, std::min((within - start) / size, below_one)};
     }
-    /// Of drawing `index`, which is less than size().
+    /// Returns the probability of `index`, which is less than size().
     [[nodiscard]] float probability(std::size_t index) const noexcept
     {
         return buckets_[index].probability;
@@ -66,8 +67,8 @@ public:
 
 private:
     struct Bucket {
-        float threshold;      ///< the part of the bucket that belongs to its own index
-        std::uint32_t alias;  ///< the index that owns the rest
+        float threshold;      ///< part of the bucket that belongs to its own index
+        std::uint32_t alias;  ///< index that owns the rest
         float probability;
     };
 

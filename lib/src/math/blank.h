@@ -2,8 +2,8 @@
 
 namespace bdpt {
 
-/// A T with default values, to be copied. Where a larger T is made anew for every vertex, g++ would
-/// clear it by `rep stos`, which takes longer to start than such a copy takes.
+/// A T with default values, to be copied. Where a larger T is constructed for every vertex, g++
+/// would clear it by `rep stos`, whose start-up takes longer than such a copy.
 template <typename T>
 inline constexpr T blank{};
 

@@ -6,7 +6,7 @@
 namespace bdpt {
 namespace {
 
-/// Cumulative sums from 0 to exactly 1 of `weights`; uniform steps when all are zero.
+/// Appends cumulative sums from 0 to exactly 1 of `weights`; uniform steps if all are zero.
 void append_cdf(std::span<const float> weights, std::vector<float>& cdf)
 {
     double total = 0.0;

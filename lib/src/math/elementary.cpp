@@ -5,7 +5,7 @@
 namespace bdpt {
 
 // The coefficients are ours: interpolation at the Chebyshev nodes of the interval, which comes
-// within a few percent of the best polynomial of that degree.
+// within a few per cent of the best polynomial of that degree.
 
 float atan2_exact(float y, float x)
 {

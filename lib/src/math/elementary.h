@@ -7,10 +7,10 @@
 
 namespace bdpt {
 
-// The C library picks its variant of these functions by the CPU, and the last bit differs between
-// variants. An image must be the same on all machines, so whatever reaches the film uses these
-// instead: polynomials in IEEE arithmetic that every CPU rounds alike. Sine, cosine and e^x are
-// inline because they stand in every walk.
+// The C library selects its variant of these functions by the CPU, and the last bit differs between
+// variants. An image must be bit-identical on all machines, so everything that reaches the film
+// uses these instead: polynomials in IEEE arithmetic that every CPU rounds alike. Sine, cosine and
+// e^x are inline because every walk uses them.
 
 inline constexpr float pi = 3.14159265358979f;
 inline constexpr float inv_pi = 0.31830988618379f;
@@ -20,10 +20,10 @@ struct SinCos {
     float cos;
 };
 
-/// Sine and cosine of `r` in [-pi/4, pi/4] [rad].
+/// Returns sine and cosine of `r` in [-pi/4, pi/4] [rad].
 [[nodiscard]] inline SinCos sin_cos_eighth(float r)
 {
-    // Taylor series: the first terms left out are below 2e-9 and 3e-8.
+    // Taylor series: the first omitted terms are below 2e-9 and 3e-8.
     const float r2 = r * r;
     const float s =
         r + r * r2 * (-1.0f / 6 + r2 * (1.0f / 120 + r2 * (-1.0f / 5040 + r2 * (1.0f / 362880))));
@@ -32,8 +32,8 @@ struct SinCos {
     return {s, c};
 }
 
-/// Sine and cosine of `x` [rad]; absolute error below 1e-6 for |x| <= 1e9. Beyond that, where a
-/// float has no digits left for the angle, and for NaN: those of 0.
+/// Returns sine and cosine of `x` [rad]; absolute error below 1e-6 for |x| <= 1e9. Beyond that,
+/// where a float has no digits left for the angle, and for NaN: those of 0.
 [[nodiscard]] inline SinCos sin_cos(float x)
 {
     constexpr double two_over_pi = 0.63661977236758134308;
@@ -41,7 +41,7 @@ struct SinCos {
     if (!(std::abs(x) <= 1e9f)) {
         return {0.0f, 1.0f};
     }
-    // The nearest multiple of pi/2 is taken off in double, so that r keeps all its digits.
+    // Subtracts the nearest multiple of pi/2 in double, so that r keeps full precision.
     const double wide = static_cast<double>(x);
     const auto quadrant = static_cast<std::int32_t>(wide * two_over_pi + std::copysign(0.5, wide));
     const auto r = static_cast<float>(wide - static_cast<double>(quadrant) * half_pi);
@@ -52,7 +52,7 @@ struct SinCos {
     return {(quadrant & 2) != 0 ? -sine : sine, ((quadrant + 1) & 2) != 0 ? -cosine : cosine};
 }
 
-/// e^x; relative error below 1e-6; 0 below -87, infinite above 88, NaN for NaN.
+/// Returns e^x; relative error below 1e-6; 0 below -87, infinite above 88, NaN for NaN.
 [[nodiscard]] inline float exp_exact(float x)
 {
     constexpr double inv_ln2 = 1.44269504088896340736;
@@ -63,21 +63,23 @@ struct SinCos {
     const double wide = static_cast<double>(x);
     const auto k = static_cast<std::int32_t>(wide * inv_ln2 + std::copysign(0.5, wide));
     const auto r = static_cast<float>(wide - static_cast<double>(k) * ln2);
-    // Taylor series on |r| <= ln(2)/2; the first term left out is below 6e-9.
+    // Taylor series on |r| <= ln(2)/2; the first omitted term is below 6e-9.
     const float tail =
         1.0f / 6 + r * (1.0f / 24 + r * (1.0f / 120 + r * (1.0f / 720 + r * (1.0f / 5040))));
     const float fraction = 1.0f + r * (1.0f + r * (0.5f + r * tail));
     return fraction * std::bit_cast<float>((k + 127) << 23);
 }
 
-/// Angle of the vector (x, y) [rad] in [-pi, pi]; absolute error below 1e-6; 0 for (0, 0).
+/// Returns the angle of the vector (x, y) [rad] in [-pi, pi]; absolute error below 1e-6; 0 for (0,
+/// 0).
 [[nodiscard]] float atan2_exact(float y, float x);
 
-/// Angle [rad] in [0, pi] of a cosine, which is clamped to [-1, 1]; absolute error below 1e-6.
+/// Returns the angle [rad] in [0, pi] of a cosine, which is clamped to [-1, 1]; absolute error
+/// below 1e-6.
 [[nodiscard]] float acos_exact(float cosine);
 
-/// Natural logarithm of x > 0 (normal floats); absolute error below 1e-6 relative to max(1, |log
-/// x|).
+/// Returns the natural logarithm of x > 0 (normal floats); absolute error below 1e-6 relative to
+/// max(1, |log x|).
 [[nodiscard]] float log_exact(float x);
 
 }  // namespace bdpt

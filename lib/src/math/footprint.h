@@ -9,14 +9,14 @@
 
 namespace bdpt {
 
-/// How wide a pixel is where a point is, seen straight from the camera, whatever lies between: a
-/// function of the point and the camera alone, so that all walks that meet a point agree.
+/// Width of a pixel at a point, as seen directly from the camera, ignoring occlusion: a function of
+/// the point and the camera alone, so that all walks through a point agree.
 struct PixelCone {
     Vec3 eye{0.0f};
-    float width = 0.0f;   ///< of a pixel at the eye [m]
-    float spread = 0.0f;  ///< that it gains a metre of distance
+    float width = 0.0f;   ///< width of a pixel at the eye [m]
+    float spread = 0.0f;  ///< increase of the width per metre of distance
 
-    /// [m]
+    /// Returns the width of a pixel at a point [m].
     [[nodiscard]] float width_at(Vec3 point) const noexcept
     {
         const Vec3 way = point - eye;
@@ -24,14 +24,14 @@ struct PixelCone {
     }
 };
 
-/// How far texture coordinates go over the width of a pixel, in two directions at right angles on
-/// the surface.
+/// Change of texture coordinates over the width of a pixel, in two perpendicular directions on the
+/// surface.
 struct UvSteps {
     Vec2 along{0.0f};
     Vec2 across{0.0f};
 };
 
-/// What a pixel covers of each set of texture coordinates.
+/// Footprint of a pixel in each set of texture coordinates.
 using UvFootprint = std::array<UvSteps, 2>;
 
 }  // namespace bdpt

@@ -8,14 +8,14 @@
 
 namespace bdpt {
 
-/// Orthonormal basis, right-handed. Always inlined: who needs one coordinate pays for one.
+/// Right-handed orthonormal basis. Always inlined: callers that need one coordinate compute one.
 struct Frame {
     Vec3 x{1.0f, 0.0f, 0.0f};
     Vec3 y{0.0f, 1.0f, 0.0f};
     Vec3 z{0.0f, 0.0f, 1.0f};
 
-    /// Any basis whose z axis is the unit vector `n` [Duff et al. 2017, "Building an Orthonormal
-    /// Basis, Revisited"].
+    /// Returns a basis whose z axis is the unit vector `n` [Duff et al. 2017, "Building an
+    /// Orthonormal Basis, Revisited"].
     [[nodiscard, gnu::always_inline]] static inline Frame from_normal(Vec3 n)
     {
         const float sign = std::copysign(1.0f, n.z);

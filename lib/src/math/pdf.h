@@ -13,13 +13,13 @@ struct AreaPdf {
     float value = 0.0f;
 };
 
-/// Probability density per unit area [1/m^2] of the plane that parallel rays of a light at infinity
-/// cross at right angles.
+/// Probability density per unit area [1/m^2] of the plane perpendicular to the parallel rays of a
+/// light at infinity.
 struct PlanarPdf {
     float value = 0.0f;
 };
 
-/// The only quotient MIS needs: how much likelier one way of sampling a vertex is than another.
+/// Returns the only ratio that MIS needs: that of two densities of the same vertex.
 [[nodiscard]] constexpr float operator/(AreaPdf a, AreaPdf b)
 {
     return a.value / b.value;
@@ -35,15 +35,15 @@ struct PlanarPdf {
     return {pdf.value * probability};
 }
 
-/// Change of variables from directions at one point to area at another: dw = cos dA / d^2
-/// [Veach 1997, sec. 8.2.2.2].
+/// Converts a density of directions at one point to area at another: dw = cos dA / d^2 [Veach 1997,
+/// sec. 8.2.2.2].
 [[nodiscard]] constexpr AreaPdf to_area(SolidAnglePdf pdf, float abs_cos_at_target,
                                         float distance_squared)
 {
     return {pdf.value * abs_cos_at_target / distance_squared};
 }
 
-/// From a plane across parallel rays to the surface that they meet.
+/// Converts a density on the plane perpendicular to parallel rays to the surface that they hit.
 [[nodiscard]] constexpr AreaPdf to_area(PlanarPdf pdf, float abs_cos_at_target)
 {
     return {pdf.value * abs_cos_at_target};

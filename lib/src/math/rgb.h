@@ -9,7 +9,7 @@
 
 namespace bdpt {
 
-/// Rec. 709 luminance.
+/// Returns the Rec. 709 luminance.
 [[nodiscard]] inline float luminance(Rgb c)
 {
     return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;

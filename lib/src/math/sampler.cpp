@@ -17,9 +17,9 @@ constexpr std::uint32_t high_word(std::uint64_t bits)
     return static_cast<std::uint32_t>(bits >> 32U);
 }
 
-/// The index of a point (bits reversed) in the order of a set, so that the sets of a sample are not
-/// correlated. Points change places within blocks of 65536, which spares most renders half of the
-/// table: each block is a net by itself.
+/// Returns the index of a point (bits reversed) in the order of a set, so that the sets of a sample
+/// are not correlated. Points are permuted within blocks of 65536, so that most renders need only
+/// half of the table: each block is a net by itself.
 constexpr std::uint32_t shuffled(std::uint32_t reversed_index, std::uint32_t seed)
 {
     constexpr std::uint32_t block = 0xffffU;
@@ -43,8 +43,8 @@ Sampler::Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_
                                 static_cast<std::uint32_t>(x);
     std::uint64_t stream = index;
     if (kind == SamplerKind::sobol) {
-        // Bit 0 says which half of the film; what the 32 bits of a point's index cannot hold makes
-        // another sequence.
+        // Bit 0 selects the half of the film; bits beyond the 32 of a point's index select another
+        // sequence.
         constexpr std::uint64_t point_bits = 0x1fffffffeU;
         reversed_index_ = reverse_bits(low_word((index & point_bits) >> 1U));
         stream = index & ~point_bits;
@@ -58,7 +58,7 @@ Sampler::Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_
 {
     std::uint64_t pair = bits(next_set_ - 1, first / 2);
     if (kind_ == SamplerKind::sobol) {
-        // Reversed together the two change places.
+        // Reversing both words together swaps them.
         pair = reverse_bits(std::uint64_t{permute_upwards(low_word(point), low_word(pair))} << 32U |
                             permute_upwards(high_word(point), high_word(pair)));
     }

@@ -12,25 +12,27 @@
 
 namespace bdpt {
 
-/// What random numbers are for. Each use of each path vertex has dimensions of its own, so that
-/// what one part of a sample consumes cannot shift another.
+/// Purpose of random numbers. Each use at each path vertex has dimensions of its own, so that the
+/// consumption of one part of a sample cannot shift another.
 enum class SampleUse : std::uint32_t {
-    film,         ///< where in the pixel; at a light vertex: which pixel its splat counts for
+    film,         ///< position in the pixel; at a light vertex: pixel that receives its splat
     camera_walk,  ///< scattering at a vertex of the camera subpath
-    next_event,   ///< a light point for a vertex of the camera subpath
-    light_start,  ///< of the light subpath: point and choice of the light (0), direction (1)
+    next_event,   ///< point on a light for a vertex of the camera subpath
+    light_start,  ///< start of the light subpath: point and choice of the light (0), direction (1)
     light_walk,   ///< scattering at a vertex of the light subpath
-    lens,         ///< a lens point: of the camera subpath (0), for a vertex of the light subpath
-    ground,       ///< a light (even numbers) or a direction (odd) for the ground under the scene
-    scatter_distance,  ///< where a medium scatters a camera path (even) or a light path (odd)
-    /// A light, and a point of the fog for it, on a segment of the camera path. Path tracing alone
-    /// has it: its numbers at a vertex are those of `film` at the next, which only splats have.
+    /// Point on the lens: of the camera subpath (0), for a vertex of the light subpath.
+    lens,
+    ground,  ///< light (even numbers) or direction (odd) for the ground under the scene
+    /// Scattering distance in a medium of a camera path (even) or a light path (odd).
+    scatter_distance,
+    /// A light, and a point in the fog for it, on a segment of the camera path. Only path tracing
+    /// uses it: its numbers at a vertex are those of `film` at the next, which only splats use.
     fog,
 };
 
-/// The index of number `which` of `count` subsamples of sample `index`. With such indices the
-/// subsamples of all samples of one half of the film are one sequence, and those of the other half
-/// another.
+/// Returns the index of number `which` of `count` subsamples of sample `index`. With such indices
+/// the subsamples of all samples of one half of the film form one sequence, and those of the other
+/// half another.
 [[nodiscard]] constexpr std::int64_t subsample_index(std::int64_t index, int count, int which)
 {
     return 2 * (index / 2 * count + which) + index % 2;
@@ -40,10 +42,10 @@ enum class SampleUse : std::uint32_t {
 /// vertex): equal arguments give equal sequences on every machine and thread. All are multiples of
 /// 2^-24 in [0, 1).
 ///
-/// They come in sets of four, each set scrambled and put in order by itself ("padding"). What a
-/// use asks for first it gets from the two best distributed dimensions of its set, so ask for the
-/// pair that matters most before anything else. Whoever asks for more than a set has left goes on
-/// with the first dimensions of another.
+/// They come in sets of four, each set scrambled and permuted independently ("padding"). The first
+/// pair that a use requests has the two best distributed dimensions of its set, so request the most
+/// important pair first. Requests beyond the end of a set continue with the first dimensions of
+/// another.
 ///
 /// With `SamplerKind::sobol` the samples of even index are one sequence and those of odd index
 /// another, independent of it, as the two halves of the film must be.
@@ -66,8 +68,8 @@ public:
         return {set_[first], set_[first + 1]};
     }
 
-    /// A single dimension with 48 bits, as `fine_uniform` takes it: the upper 24 in x, the lower,
-    /// which are pure noise, in y.
+    /// Returns a single dimension with 48 bits, in the format of `fine_uniform`: the upper 24 in x,
+    /// the lower, which are pure noise, in y.
     [[nodiscard]] Vec2 next_fine()
     {
         const std::size_t at = reserve(1);
@@ -75,12 +77,13 @@ public:
         return {set_[at], to_float(static_cast<std::uint32_t>(lower >> 32U))};
     }
 
-    /// Of the segment that has `s` vertices on the light's side and `t` on the camera's: (s, t) of
-    /// a join, (0, t) where the camera subpath goes on from its t vertices, (s, 0) likewise of the
-    /// light subpath. Its numbers are independent of those of other segments and of `next_1d`.
+    /// Returns the key of the segment with `s` vertices on the light's side and `t` on the
+    /// camera's: (s, t) for a connection, (0, t) where the camera subpath continues from its t
+    /// vertices, (s, 0) likewise for the light subpath. Its numbers are independent of those of
+    /// other segments and of `next_1d`.
     [[nodiscard, gnu::always_inline]] inline SegmentKey segment_key(int s, int t) const
     {
-        // Sets have numbers of less than 63 bits, so those of segments are never the same.
+        // Set numbers have less than 63 bits, so they never equal those of segments.
         const std::uint64_t number = std::uint64_t{1} << 63U |
                                      std::uint64_t{static_cast<std::uint32_t>(s)} << 32U |
                                      static_cast<std::uint32_t>(t);
@@ -92,21 +95,21 @@ private:
     static constexpr std::uint64_t uses = 8;
     static constexpr std::uint64_t sets_per_use = 64;
     static constexpr std::uint64_t hashes_per_set = 8;
-    static constexpr std::uint64_t fine_hashes = 4;  ///< the first of those for `next_fine`
+    static constexpr std::uint64_t fine_hashes = 4;  ///< first hash for `next_fine`
 
-    /// The upper 24 bits: all floats of that spacing in [0, 1).
+    /// Converts the upper 24 bits: all floats of that spacing in [0, 1).
     [[nodiscard]] static constexpr float to_float(std::uint32_t bits)
     {
         return static_cast<float>(static_cast<std::int32_t>(bits >> 8U)) * 0x1p-24f;
     }
 
-    /// One of the `hashes_per_set` random words of a set.
+    /// Returns one of the `hashes_per_set` random words of a set.
     [[nodiscard]] std::uint64_t bits(std::uint64_t set, std::uint64_t number) const
     {
         return split_mix(key_ + golden_ratio_64 * (set * hashes_per_set + number));
     }
 
-    /// Where in the set `count` unused dimensions begin.
+    /// Returns the first of `count` unused dimensions in the set.
     [[nodiscard]] std::size_t reserve(std::size_t count)
     {
         if (next_ + count > set_size) {
@@ -120,19 +123,19 @@ private:
         return first;
     }
 
-    /// Draws the first pair of the next set, which is often all that is asked for.
+    /// Draws the first pair of the next set, which is often all that is needed.
     void begin_set();
     void fill_second_pair();
-    /// Dimensions `first` and `first` + 1 from coordinates of a point with reversed bits.
+    /// Computes dimensions `first` and `first` + 1 from coordinates of a point with reversed bits.
     void fill_pair(std::size_t first, std::uint64_t point);
 
     std::uint64_t key_;
-    std::uint64_t segments_;      ///< the key of all segments
-    std::uint64_t next_set_ = 0;  ///< the set in use is the one before
+    std::uint64_t segments_;      ///< key of all segments
+    std::uint64_t next_set_ = 0;  ///< the current set is the one before
     std::size_t next_ = set_size;
-    std::size_t filled_ = 0;            ///< dimensions of the set in use that have been drawn
-    std::uint32_t shuffled_index_ = 0;  ///< of the point in the order of the set in use
-    std::uint32_t reversed_index_ = 0;  ///< of the point in its sequence
+    std::size_t filled_ = 0;            ///< dimensions of the current set that have been drawn
+    std::uint32_t shuffled_index_ = 0;  ///< index of the point in the order of the current set
+    std::uint32_t reversed_index_ = 0;  ///< bit-reversed index of the point in its sequence
     SamplerKind kind_;
     std::array<float, set_size> set_{};
 };

@@ -7,21 +7,21 @@
 
 namespace bdpt {
 
-/// Names one segment of one sample among all others (`Sampler::segment_key`). What happens to a ray
-/// on its way, where it may pass surfaces, is a function of the key and of the surface alone.
+/// Identifies one segment of one sample among all others (`Sampler::segment_key`). The outcome of a
+/// ray at surfaces that it may pass is a function of the key and of the surface alone.
 struct SegmentKey {
-    std::uint64_t value = 0;                    ///< mixed only when a surface asks
-    Wavelength wavelength = Wavelength::green;  ///< of the whole sample
-    float time = 0.0f;  ///< of the whole sample, in [0, 1] while the shutter is open
+    std::uint64_t value = 0;                    ///< mixed only when a surface needs it
+    Wavelength wavelength = Wavelength::green;  ///< wavelength of the sample
+    float time = 0.0f;  ///< time of the sample within the shutter interval, in [0, 1]
 
-    /// A key of a segment for which the number of every surface is 0: it passes none that takes any
-    /// light away.
+    /// Returns a key for which the number of every surface is 0: the segment passes no surface that
+    /// blocks any light.
     [[nodiscard]] constexpr SegmentKey without_chance() const noexcept
     {
         return {.value = no_chance, .wavelength = wavelength, .time = time};
     }
 
-    /// Uniform in [0, 1), a multiple of 2^-24: the number of a surface for this segment.
+    /// Returns the number of a surface for this segment: uniform in [0, 1), a multiple of 2^-24.
     [[nodiscard]] constexpr float at_surface(std::uint32_t instance,
                                              std::uint32_t triangle) const noexcept
     {

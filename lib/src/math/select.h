@@ -5,7 +5,7 @@
 
 namespace bdpt {
 
-/// `a` if so, else `b`, without a branch.
+/// Returns `condition` ? `a` : `b` without a branch.
 [[nodiscard]] inline float select(bool condition, float a, float b)
 {
     const auto mask = static_cast<std::uint32_t>(-static_cast<std::int32_t>(condition));

@@ -4,9 +4,9 @@
 
 namespace bdpt {
 
-/// Names a medium of a scene.
+/// Identifies a medium of a scene.
 enum class MediumId : std::uint32_t {
-    clear  ///< light passes as if there were nothing
+    clear  ///< neither absorbs nor scatters
 };
 
 /// The media on both sides of a surface.
@@ -14,7 +14,7 @@ struct SideMedia {
     MediumId behind = MediumId::clear;
     MediumId ahead = MediumId::clear;
 
-    /// Of a point that lies on no surface.
+    /// Returns the media of a point that is not on a surface.
     [[nodiscard]] static constexpr SideMedia around(MediumId medium) { return {medium, medium}; }
     [[nodiscard]] constexpr bool are_clear() const
     {

@@ -6,8 +6,8 @@
 
 namespace bdpt {
 
-/// The coordinates of a point of the four-dimensional Sobol sequence as 32-bit binary fractions,
-/// or one number for each of them.
+/// Coordinates of a point of the four-dimensional Sobol sequence as 32-bit binary fractions, or one
+/// number per dimension.
 using Sobol4 = std::array<std::uint32_t, 4>;
 
 /// Reverses the order of the bits.
@@ -28,9 +28,9 @@ using Sobol4 = std::array<std::uint32_t, 4>;
     return (x & 0x5555555555555555U) << 1U | (x >> 1U & 0x5555555555555555U);
 }
 
-/// A random permutation in which bits are changed by those below them alone: between two
-/// reversals of bits it is a nested uniform scramble [Owen 1995, "Randomly Permuted (t,m,s)-Nets
-/// and (t,s)-Sequences"]. The idea is that of Laine and Karras [2011, "Stratified Sampling for
+/// Permutes `x` at random such that each bit depends on lower bits alone: between two bit reversals
+/// it is a nested uniform scramble [Owen 1995, "Randomly Permuted (t,m,s)-Nets and
+/// (t,s)-Sequences"]. The idea is that of Laine and Karras [2011, "Stratified Sampling for
 /// Stochastic Transparency", sec. 3], the use for Sobol points of Burley [2020, "Practical
 /// Hash-based Owen Scrambling"], the constants of Vegdahl [2021, "Building a Better LK Hash"].
 [[nodiscard]] constexpr std::uint32_t permute_upwards(std::uint32_t x, std::uint32_t seed)
@@ -43,13 +43,13 @@ using Sobol4 = std::array<std::uint32_t, 4>;
     return x;
 }
 
-/// Columns of the generator matrices of the first four dimensions: entry [d][k] is what bit k of
-/// the index adds to coordinate d. Direction numbers of Joe and Kuo [2008, "Constructing Sobol
-/// Sequences with Better Two-Dimensional Projections"].
+/// Returns the columns of the generator matrices of the first four dimensions: entry [d][k] is the
+/// contribution of bit k of the index to coordinate d. Direction numbers of Joe and Kuo [2008,
+/// "Constructing Sobol Sequences with Better Two-Dimensional Projections"].
 [[nodiscard]] constexpr std::array<std::array<std::uint32_t, 32>, 4> sobol_columns()
 {
     struct Dimension {
-        std::size_t degree;                  // of the primitive polynomial
+        std::size_t degree;                  // degree of the primitive polynomial
         std::uint32_t inner;                 // its coefficients without the first and the last
         std::array<std::uint32_t, 3> first;  // odd, entry k below 2^(k + 1)
     };
@@ -75,9 +75,9 @@ using Sobol4 = std::array<std::uint32_t, 4>;
     return columns;
 }
 
-/// Sobol points by table: both the index and the coordinates have their bits reversed, which is
-/// how `permute_upwards` takes and gives them. Four bits of the index at a time bring four
-/// coordinates at once; two kilobytes, which leave the first-level cache to the scene.
+/// Sobol points by table lookup: both the index and the coordinates are bit-reversed, as
+/// `permute_upwards` requires. Four bits of the index at a time give four coordinates at once; two
+/// kilobytes, which leave the first-level cache to the scene.
 class SobolTable {
 public:
     constexpr SobolTable()
@@ -98,12 +98,12 @@ public:
         }
     }
 
-    /// Coordinates 0 (low word) and 1.
+    /// Returns coordinates 0 (low word) and 1.
     [[nodiscard]] std::uint64_t first_pair(std::uint32_t reversed_index) const
     {
         return pair(reversed_index, 0);
     }
-    /// Coordinates 2 (low word) and 3.
+    /// Returns coordinates 2 (low word) and 3.
     [[nodiscard]] std::uint64_t second_pair(std::uint32_t reversed_index) const
     {
         return pair(reversed_index, 1);
@@ -117,7 +117,7 @@ public:
     }
 
 private:
-    /// Coordinates 0 and 1, and 2 and 3: added two at a time.
+    /// Coordinates 0 and 1, and 2 and 3: combined two at a time.
     using Pairs = std::array<std::uint64_t, 2>;
 
     static constexpr std::size_t group_bits = 4;

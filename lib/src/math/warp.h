@@ -11,16 +11,16 @@
 
 namespace bdpt {
 
-// Maps from the unit square, u in [0, 1)^2, that keep neighbours neighbours, and their densities.
-// Directions are about +z.
+// Continuous maps from the unit square, u in [0, 1)^2, and their densities. Directions are around
+// +z.
 
-/// Uniform on the unit disk [Shirley and Chiu 1997, "A Low Distortion Map Between Disk and
+/// Maps to the unit disk uniformly [Shirley and Chiu 1997, "A Low Distortion Map Between Disk and
 /// Square"].
 [[nodiscard]] inline Vec2 square_to_disk(Vec2 u)
 {
     const float a = 2.0f * u.x - 1.0f;
     const float b = 2.0f * u.y - 1.0f;
-    // Which is larger is up to chance, so it must not be a branch.
+    // The larger one is random, so this must not be a branch.
     const bool wide = std::abs(a) > std::abs(b);
     const float radius = select(wide, a, b);
     const float divisor = select(radius == 0.0f, 1.0f, radius);
@@ -35,7 +35,7 @@ namespace bdpt {
     return {inv_pi};
 }
 
-/// In proportion to the cosine, z >= 0 [Malley's method].
+/// Maps to cosine-weighted directions, z >= 0 [Malley's method].
 [[nodiscard]] inline Vec3 square_to_cosine_hemisphere(Vec2 u)
 {
     const Vec2 p = square_to_disk(u);
@@ -47,15 +47,15 @@ namespace bdpt {
     return {cosine > 0.0f ? cosine * inv_pi : 0.0f};
 }
 
-/// Barycentric weights of the first two corners of a triangle, uniform by area [Heitz 2019, "A
-/// Low-Distortion Map Between Triangle and Square"].
+/// Maps to barycentric weights of the first two vertices of a triangle, uniform by area [Heitz
+/// 2019, "A Low-Distortion Map Between Triangle and Square"].
 [[nodiscard]] inline Vec2 square_to_triangle(Vec2 u)
 {
     const float half = 0.5f * std::min(u.x, u.y);
     return {u.x - half, u.y - half};
 }
 
-/// The inverse of `square_to_triangle`.
+/// Inverts `square_to_triangle`.
 [[nodiscard]] inline Vec2 triangle_to_square(Vec2 barycentrics)
 {
     const float sum = barycentrics.x + barycentrics.y;
@@ -68,18 +68,19 @@ namespace bdpt {
     return {1.0f / area};
 }
 
-/// 1 - cos of an angle in [0, pi/2] from the square of its sine, with all digits for small angles.
+/// Returns 1 - cos of an angle in [0, pi/2] from the square of its sine, precise for small angles.
 [[nodiscard]] inline float one_minus_cos(float sin_squared)
 {
     return sin_squared / (1.0f + std::sqrt(std::max(0.0f, 1.0f - sin_squared)));
 }
 
-/// Uniform in the cone whose half angle has the given 1 - cos, in (0, 2]: a narrow cone keeps its
-/// digits, 1 is the hemisphere and 2 the sphere.
+/// Maps uniformly to the cone whose half angle has the given 1 - cos, in (0, 2]: precise for narrow
+/// cones; 1 is the hemisphere and 2 the sphere.
 [[nodiscard]] inline Vec3 square_to_cone(Vec2 u, float one_minus_cos_max)
 {
     const Vec2 p = square_to_disk(u);
-    // By Archimedes 1 - cos is uniform, like r^2 on the disk, and sin^2 = (1 - cos)(1 + cos).
+    // By Archimedes' theorem 1 - cos is uniform, like r^2 on the disk, and sin^2 = (1 - cos)(1 +
+    // cos).
     const float depth = one_minus_cos_max * std::min(1.0f, p.x * p.x + p.y * p.y);
     const float scale = std::sqrt(one_minus_cos_max * (2.0f - depth));
     return {p.x * scale, p.y * scale, 1.0f - depth};

@@ -6,14 +6,14 @@
 
 namespace bdpt {
 
-/// Which colour of light refracts as its glass says, where the index depends on the wavelength: one
+/// The channel whose index of refraction applies, where the index depends on the wavelength: one
 /// choice for a whole sample, camera and light paths alike [KHR_materials_dispersion has one index
 /// for each channel].
 enum class Wavelength : std::uint8_t { red, green, blue };
 
 inline constexpr int wavelengths = 3;
 
-/// One of them in a third of the samples each, from a number that is uniform in [0, 1).
+/// Chooses each channel in a third of the samples, from a number that is uniform in [0, 1).
 [[nodiscard]] constexpr Wavelength choose_wavelength(float u)
 {
     return u < 1.0f / 3.0f   ? Wavelength::red
@@ -21,7 +21,8 @@ inline constexpr int wavelengths = 3;
                              : Wavelength::blue;
 }
 
-/// What a path counts that has met dispersion: its own channel, for the two others.
+/// Returns the weight of a path that has been dispersed: three times its own channel, and none of
+/// the others.
 [[nodiscard]] inline Rgb spectral_weight(Wavelength wavelength)
 {
     Rgb weight(0.0f);

@@ -16,12 +16,12 @@ void prefer_huge_pages(void* begin, std::size_t bytes) noexcept
     if (bytes < huge_page) {
         return;
     }
-    // The kernel takes whole pages, and makes large ones where such fit in.
+    // The kernel accepts whole pages, and creates large ones where they fit.
     const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
     const auto address = reinterpret_cast<std::uintptr_t>(begin);
     const std::uintptr_t first = (address + page - 1) / page * page;
     const std::uintptr_t end = (address + bytes) / page * page;
-    // Where it fails, pages stay as they are.
+    // If it fails, pages are unchanged.
     static_cast<void>(
         madvise(static_cast<char*>(begin) + (first - address), end - first, MADV_HUGEPAGE));
 }

@@ -12,21 +12,22 @@
 namespace bdpt {
 namespace {
 
-/// Area density of the neighbour of the end of `path`, sampled from the end with the given density
-/// of directions; none without a neighbour.
+/// Returns the area density of the neighbour of the end of `path`, sampled from the end with the
+/// given density of directions; zero without a neighbour.
 AreaPdf at_neighbor(SolidAnglePdf pdf, std::span<const PathVertex> path)
 {
     return path.size() < 2 ? AreaPdf{}
                            : AreaPdf{pdf.value * path[path.size() - 2].area_per_solid_angle};
 }
 
-/// Density of sampling `end` from a point at squared distance `distance_squared`; `w` joins them.
+/// Returns the density of sampling `end` from a point at squared distance `distance_squared` in
+/// direction `w`.
 AreaPdf at_end(SolidAnglePdf pdf, const SegmentEnd& end, Vec3 w, float distance_squared)
 {
     return to_area(pdf, abs_cosine(end, w), distance_squared);
 }
 
-/// The transmission between a vertex and the one that a walk went on to, or a light at infinity.
+/// Returns the transmission between a vertex and the next one of its walk, or a light at infinity.
 SegmentTransmission walked_transmission(const World& world, const PathVertex& vertex,
                                         const PathVertex& other)
 {
@@ -41,7 +42,7 @@ SegmentTransmission walked_transmission(const World& world, const PathVertex& ve
     return world.media().transmission(vertex.end, other.end, along, std::sqrt(dot(along, along)));
 }
 
-/// The transmission between the ends of a join, unless something is in the way.
+/// Returns the transmission of the segment that connects two subpaths; nullopt if it is blocked.
 std::optional<SegmentTransmission> joining_transmission(const SampleContext& sample,
                                                         std::span<const PathVertex> light,
                                                         std::span<const PathVertex> camera)
@@ -61,8 +62,9 @@ std::optional<SegmentTransmission> joining_transmission(const SampleContext& sam
                : sample.world.transmission(z.end, y.end, segment);
 }
 
-/// Joins the ends of a light and a camera path unless something is in the way: `value_of()` comes
-/// through, `densities()` are those of the join, without the transmission between its ends.
+/// Connects the ends of a light and a camera subpath unless the segment is blocked: `value_of()` is
+/// the unattenuated value, `densities()` are those of the connection, excluding the transmission
+/// between its ends.
 template <typename Value, typename Densities>
 std::optional<Contribution> join_if_open(const SampleContext& sample,
                                          std::span<const PathVertex> light,
@@ -88,7 +90,7 @@ std::optional<Contribution> join_if_open(const SampleContext& sample,
                         .dispersed = y.dispersed || z.dispersed};
 }
 
-/// The same with a value that is known.
+/// Connects the subpaths with a known value.
 template <typename Densities>
 std::optional<Contribution> join(const SampleContext& sample, std::span<const PathVertex> light,
                                  std::span<const PathVertex> camera, Rgb value,
@@ -100,7 +102,7 @@ std::optional<Contribution> join(const SampleContext& sample, std::span<const Pa
                      sample, light, camera, [value] { return value; }, weigher, densities);
 }
 
-/// The vertex at a fresh point of light `id`.
+/// Returns the vertex at a new point on light `id`.
 PathVertex light_vertex(const World& world, LightId id, const IncidentSample& incident)
 {
     PathVertex x0 = blank<PathVertex>;
@@ -116,7 +118,7 @@ PathVertex light_vertex(const World& world, LightId id, const IncidentSample& in
     return x0;
 }
 
-/// The random point on the lens of the strategy with `s` light vertices.
+/// Draws the random point on the lens of the strategy with `s` light vertices.
 Vec2 random_lens_point(SampleContext& sample, std::size_t s)
 {
     sample.sampler.start(SampleUse::lens, static_cast<std::uint32_t>(s));
@@ -204,7 +206,7 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
 
 std::optional<Contribution> connect_light_to_lens(SampleContext& sample, PathWeigher& weigher)
 {
-    // The lens is the receiver; where on it is settled before the light is chosen.
+    // The lens is the receiver; its point is sampled before the light is chosen.
     const Vec2 u_lens = random_lens_point(sample, 1);
     const Vec3 receiver = sample.camera.generate_ray(Vec2(0.0f), u_lens).lens.p;
     const Vec2 u = first_light_sample(sample, 1);

@@ -10,11 +10,11 @@
 
 namespace bdpt {
 
-/// The segment as the light sees it.
+/// The segment as seen from the light.
 struct FogSampling::Angles {
-    float along;  ///< distance on the ray of the point that is nearest to the light
-    float away;   ///< distance from there
-    float begin;  ///< angles of the ends, as the light sees them from that point on [rad]
+    float along;  ///< ray distance of the point nearest to the light
+    float away;   ///< distance of that point from the light
+    float begin;  ///< angles of the ends as seen from the light, relative to that point [rad]
     float end;
 };
 
@@ -29,11 +29,11 @@ FogSampling::FogSampling(const World& world, LightSampling lights)
     }
 }
 
-/// None where all points of the segment count alike.
+/// Returns nullopt if sampling is uniform along the segment.
 std::optional<FogSampling::Angles> FogSampling::angles(const FogSegment& fog,
                                                        LightId light) const noexcept
 {
-    // What a float tells of angles, and of tangents near a right angle, ends about here.
+    // Limits of float precision for angles, and for tangents near a right angle.
     constexpr float min_angle = 1e-3f;
     constexpr float min_offset = 1e-3f;
     const Ball& ball = balls_[static_cast<std::size_t>(light)];
@@ -45,7 +45,7 @@ std::optional<FogSampling::Angles> FogSampling::angles(const FogSegment& fog,
                          min_offset * (fog.span.end - fog.span.begin));
     seen.begin = atan2_exact(fog.span.begin - seen.along, seen.away);
     seen.end = atan2_exact(fog.span.end - seen.along, seen.away);
-    // Not so for a light at infinity, whose angles are zero.
+    // False for a light at infinity, whose angles are zero.
     return seen.end - seen.begin > min_angle ? std::optional(seen) : std::nullopt;
 }
 

@@ -6,23 +6,24 @@
 
 namespace bdpt {
 
-/// How many light paths a render traces, and how many of them each camera path is joined to.
+/// Number of light paths that a render traces, and of those that each camera path is connected to.
 struct LightPathCounts {
-    /// `options` have been checked.
+    /// Computes the counts from valid `options`.
     explicit LightPathCounts(const RenderOptions& options);
 
-    double per_camera_path;  ///< light paths; a whole number of them for the whole image
-    double connections;      ///< mean number of light paths that a camera path is joined to
-    bool merged;             ///< each camera path merges with all of the set (vcm)
-    /// All camera paths of a sample index take their light paths from one set; else each has its
-    /// own, which are as many as `connections`.
+    /// Light paths per camera path; a whole number of them for the whole image.
+    double per_camera_path;
+    double connections;  ///< mean number of light paths that a camera path is connected to
+    bool merged;         ///< each camera path merges with the whole set (vcm)
+    /// True if all camera paths of a sample index share one set of light paths; otherwise each has
+    /// its own, `connections` in number.
     bool shared;
-    /// Vertices of the set are wanted after their splats.
+    /// Tests whether vertices of the set are needed after their splats.
     [[nodiscard]] bool kept() const { return shared && (merged || connections > 0.0); }
-    /// Size of a bundle of the set: neighbouring light paths with one time and one wavelength, so
-    /// that a camera path can be joined to all of them.
+    /// Size of a bundle of the set: adjacent light paths with one time and one wavelength, so that
+    /// a camera path can be connected to all of them.
     int bundle = 1;
-    std::int64_t bundles = 0;  ///< in the set
+    std::int64_t bundles = 0;  ///< number of bundles in the set
 };
 
 }  // namespace bdpt

@@ -24,8 +24,8 @@ std::optional<Contribution> merge(const SampleContext& sample, std::span<const P
     if (cosine == 0.0f || is_black(f.f_cos)) {
         return std::nullopt;
     }
-    // Flux that arrives has the cosine at the surface already, so that of f_cos is taken off. Both
-    // walks were stopped here by the surface's opacity, of which the path has one.
+    // Incident flux includes the cosine at the surface, so that of f_cos is removed. The surface's
+    // opacity affected both walks, but counts once in the path.
     const Rgb value = z.beta * f.f_cos * y.beta * (1.0f / (cosine * z.opacity * merging.disk()));
     if (is_black(value)) {
         return std::nullopt;

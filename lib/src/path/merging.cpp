@@ -14,7 +14,7 @@ Merging::Merging(const RenderOptions& options, const LightPathCounts& counts,
     if (!counts.merged) {
         return;
     }
-    // Below these, positions have no digits left, or squares of distances are no numbers.
+    // Below these values positions lose all digits, or squared distances underflow.
     const float least = std::max(1e-7f * scene.radius, std::sqrt(coincident));
     const float exponent = 0.5f * (static_cast<float>(options.bidirectional.merge_alpha) - 1.0f);
     const float first = static_cast<float>(options.bidirectional.merge_radius) * scene.radius;

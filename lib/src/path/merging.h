@@ -9,21 +9,23 @@
 
 namespace bdpt {
 
-/// Photon mapping as a strategy [Georgiev et al. 2012]: in one sample index, light vertices
-/// (photons) closer to a camera vertex than `radius` merge with it. By default none does.
+/// Photon mapping as a strategy [Georgiev et al. 2012]: within a sample index, light vertices
+/// (photons) closer to a camera vertex than `radius` merge with it. Disabled by default.
 struct Merging {
     Merging() = default;
-    /// As the options say for sample `index` of a scene in that sphere; they have been checked.
+    /// Computes the merging of sample `index` of a scene with that bounding sphere from valid
+    /// `options`.
     Merging(const RenderOptions& options, const LightPathCounts& counts,
             const BoundingSphere& scene, std::int64_t index);
 
     float radius = 0.0f;       ///< [m]
-    float light_paths = 0.0f;  ///< that each camera path may merge with
+    float light_paths = 0.0f;  ///< light paths that each camera path may merge with
 
-    /// Area of the disk in which vertices merge [m^2].
+    /// Returns the area of the merge disk [m^2].
     [[nodiscard]] float disk() const;
-    /// The number of light paths times the area of the merge disk [m^2]: times the area density of
-    /// light vertices at a point, it is the expected number of vertices that merge there.
+    /// Returns the number of light paths times the area of the merge disk [m^2]: times the area
+    /// density of light vertices at a point, it is the expected number of vertices that merge
+    /// there.
     [[nodiscard]] double weight() const
     {
         return static_cast<double>(light_paths) * static_cast<double>(disk());

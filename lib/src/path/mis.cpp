@@ -6,8 +6,9 @@ namespace bdpt {
 
 namespace {
 
-/// Weights of the heuristics that compare all strategies with the best one. The densities of all
-/// are products in the same order whoever asks, so that ties are broken alike for all.
+/// Returns the weight of the heuristics that compare all strategies with the best one. The
+/// densities of all are products in the same order for every caller, so that ties are broken
+/// consistently.
 float compared_weight(const PathDensities& path, std::size_t used, Heuristic heuristic)
 {
     const std::size_t n = path.from_light.size();
@@ -37,17 +38,17 @@ float compared_weight(const PathDensities& path, std::size_t used, Heuristic heu
     return sum > 0.0L ? static_cast<float>(share(density(used)) / sum) : 0.0f;
 }
 
-/// The sum over strategies in the balance and power heuristics, relative to the one in use. Every
-/// divisor is a density that it really sampled, so it is never zero.
+/// Sum over strategies in the balance and power heuristics, relative to the strategy in use. Every
+/// divisor is a density with which it sampled, so it is never zero.
 class RelativeSum {
 public:
-    /// `own`: the number of samples of the strategy in use, if it is not in the ratios.
+    /// `own` is the number of samples of the strategy in use, if it is not in the ratios.
     RelativeSum(const PathDensities& path, Heuristic heuristic, float own)
         : path_(path), squares_(heuristic == Heuristic::power), own_(own)
     {}
 
-    /// Hands vertices from, from + 1, ... over to the light, one at a time; `ratio` is what was
-    /// done before.
+    /// Moves vertices from, from + 1, ... to the light subpath, one at a time; `ratio` is that of
+    /// the vertices already moved.
     void hand_to_light(std::size_t from, double ratio)
     {
         const auto& light = path_.from_light;
@@ -63,7 +64,7 @@ public:
             }
         }
     }
-    /// Hands vertices from - 1, from - 2, ... over to the camera; x_0 is sampled with density
+    /// Moves vertices from - 1, from - 2, ... to the camera subpath; x_0 is sampled with density
     /// `start`.
     void hand_to_camera(std::size_t from, double ratio, AreaPdf start)
     {
@@ -94,8 +95,8 @@ public:
     }
 
 private:
-    /// Measure of sampling x_i from both sides: `other` is the density of the side that did not
-    /// sample it.
+    /// Adds the term of sampling x_i from both sides: `other` is the density of the side that did
+    /// not sample it.
     void add_merge(std::size_t i, double ratio, AreaPdf other)
     {
         if (!path_.merge_weights.empty() && path_.merge_weights[i] > 0.0f) {
@@ -106,7 +107,8 @@ private:
     const PathDensities& path_;
     bool squares_;
     float own_;
-    double sum_ = 1.0;  // in double, for the products over a long path leave the range of float
+    double sum_ = 1.0;  // in double, because the products over a long path exceed the range of
+                        // float
 };
 
 }  // namespace
@@ -173,7 +175,7 @@ float merge_weight(const PathDensities& path, int i, Heuristic heuristic)
     const double count = static_cast<double>(path.merge_weights[merged]);
     assert(count > 0.0 && merged > 0 && merged + 1 < path.from_light.size());
     RelativeSum sum(path, heuristic, 1.0f);
-    // Without x_i from the camera, or without it from the light.
+    // Without sampling x_i from the camera, or from the light.
     const double by_light = 1.0 / (count * static_cast<double>(path.from_camera[merged].value));
     const double by_camera = 1.0 / (count * static_cast<double>(path.from_light[merged].value));
     sum.add(counts[merged + 1], by_light);

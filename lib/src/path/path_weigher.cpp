@@ -136,8 +136,8 @@ void PathWeigher::gather_sample_counts(std::span<const PathVertex> light,
     const auto vertex = [&](std::size_t i) -> const PathVertex& {
         return i < s ? light[i] : camera[size_ - 1 - i];
     };
-    // Is vertex i an end that a strategy can join? The two ends of a join are known to be, and so
-    // are the light that a path has hit and the vertex that merged.
+    // Tests whether a strategy can connect at vertex i. The two ends of a connection are known to
+    // be connectible, and so are the light that a path has hit and the merged vertex.
     const auto is_joinable = [&](std::size_t i) {
         const bool end = made == Made::by_hit    ? i == 0
                          : made == Made::by_join ? i == s || i + 1 == s

@@ -13,7 +13,7 @@ namespace bdpt {
 
 class Camera;
 
-/// Gathers the densities of joined paths and weighs their strategies. Holds the arrays, so that a
+/// Gathers the densities of complete paths and computes MIS weights. Holds the arrays, so that a
 /// thread allocates them once.
 class PathWeigher {
 public:
@@ -21,35 +21,35 @@ public:
     PathWeigher(const World& world, const Camera& camera, const StrategySet& strategies,
                 Heuristic heuristic, int max_vertices, double merge_weight = 0.0);
 
-    /// Sums up once what the weights of all prefixes of a subpath share, where that is possible.
-    /// From then on every call of `weight` must be for such prefixes; without, each call gathers
-    /// all densities.
+    /// Precomputes the sums that the weights of all prefixes of a subpath share, where possible.
+    /// Afterwards every call of `weight` must be for such prefixes; otherwise each call gathers all
+    /// densities.
     void begin_camera_path(std::span<PathVertex> path);
     void begin_light_path(std::span<PathVertex> path);
 
-    /// From now on `shares()` may be called.
+    /// Enables `shares()`.
     void keep_paths() { keeps_paths_ = true; }
 
-    /// Weight of having joined the first s light vertices to the first t camera vertices. For s = 0
-    /// the last camera vertex is x_0.
+    /// Returns the weight of connecting the first s light vertices to the first t camera vertices.
+    /// For s = 0 the last camera vertex is x_0.
     [[nodiscard]] float weight(std::span<const PathVertex> light,
                                std::span<const PathVertex> camera, const JoinDensities& join);
-    /// Weight of a light walk of n - 1 vertices having hit the lens by chance (t = 0).
+    /// Returns the weight of a light walk of n - 1 vertices that hits the lens (t = 0).
     [[nodiscard]] float weight_of_hit(std::span<const PathVertex> light, const PathVertex& lens,
                                       const JoinDensities& join);
 
-    /// Weight of having merged the last of the first s light vertices with the last of the first t
-    /// camera vertices, of which the path keeps the latter; `join` is that of the light vertices
-    /// before it and the camera vertices.
+    /// Returns the weight of merging the last of the first s light vertices with the last of the
+    /// first t camera vertices; the path keeps the latter. `join` connects the light vertices
+    /// before it to the camera vertices.
     [[nodiscard]] float weight_of_merge(std::span<const PathVertex> light,
                                         std::span<const PathVertex> camera,
                                         const JoinDensities& join);
 
-    /// The densities behind the last weight(), if no subpath was begun or paths are kept.
+    /// Returns the densities behind the last weight(), if no subpath was begun or paths are kept.
     [[nodiscard]] PathDensities last_path() const;
-    /// Balance heuristic of all strategies of the last path, by their number of light vertices,
-    /// straight from the definition [Veach 1997, eq. 9.8]; what is missing to one merges. Valid
-    /// until the next path.
+    /// Returns the balance heuristic of all strategies of the last path, by number of light
+    /// vertices, computed from the definition [Veach 1997, eq. 9.8]; the difference of their sum
+    /// from one is the share of merging. Valid until the next path.
     [[nodiscard]] std::span<const float> shares();
 
     [[nodiscard]] NextEventSampling next_event_sampling() const
@@ -79,7 +79,8 @@ private:
     std::optional<WeightSums> sums_;
     bool uses_sums_ = false;
     bool keeps_paths_ = false;
-    std::vector<long double> densities_;  ///< of strategies, behind `shares_`
+    /// Densities of strategies, from which `shares_` is computed.
+    std::vector<long double> densities_;
     std::vector<float> shares_;
 };
 

@@ -14,7 +14,7 @@
 namespace bdpt {
 namespace {
 
-/// Camera walks end on the environment, which light walks cannot see.
+/// Appends the environment, where camera walks end; light walks cannot hit it.
 void append_environment(const World& world, const WalkStep& step, const SegmentSample& event,
                         Subpath& path)
 {
@@ -58,19 +58,19 @@ void append_point(const SurfacePoint& point, float distance_squared, const WalkS
             : cosine_before / distance_squared * pdf_of_end(previous, event.transmission);
 }
 
-/// Everything of a walk that does not change on its way.
+/// Constant parameters of a walk.
 struct Walk {
     TransportMode mode;
     SampleUse use;
     WalkLimits limits;
-    std::uint64_t& rays;  ///< counts those of this walk
+    std::uint64_t& rays;  ///< counts the rays of this walk
 
     [[nodiscard]] bool from_camera() const { return mode == TransportMode::radiance; }
 };
 
-/// Ends a walk by chance in proportion to what it has lost since its throughput was `full`, but
-/// lets it go on with a probability of at least `least`. The survivors are worth more in return; no
-/// density knows of it, so that all strategies are treated alike.
+/// Applies Russian roulette: the survival probability is the throughput relative to `full`, at
+/// least `least`. Survivors are reweighted; the densities exclude it, so that all strategies are
+/// treated alike.
 bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
 {
     const float survival = std::max(max_component(beta) / max_component(full), least);
@@ -84,8 +84,8 @@ bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
     return true;
 }
 
-/// The interaction at the end of the segment, stored as the next vertex of `path`; null if there is
-/// none.
+/// Returns the interaction at the end of the segment, stored as the next vertex of `path`; null if
+/// there is none.
 const SurfacePoint* shade(const SampleContext& sample, const WalkStep& step,
                           const SegmentSample& event, SegmentKey segment, Subpath& path)
 {
@@ -97,19 +97,19 @@ const SurfacePoint* shade(const SampleContext& sample, const WalkStep& step,
         [&] { return make_interaction(sample, event, *step.origin, step.direction, segment); });
 }
 
-/// Goes on from the first vertex until the path is full, leaves the scene or is absorbed.
+/// Continues from the first vertex until the path is full, leaves the scene or is absorbed.
 void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path)
 {
-    Rgb full = step.beta;  // what roulette compares with
+    Rgb full = step.beta;  // reference throughput of Russian roulette
     const bool watches_lens = !rules.from_camera() && sample.camera.has_finite_lens();
     const int max_vertices = rules.limits.max_vertices;
-    // A walk whose vertices are full may still cross the lens.
+    // A walk with the maximum number of vertices may still cross the lens.
     while (path.size() < max_vertices || (watches_lens && path.size() == max_vertices)) {
         ++rules.rays;
         const SegmentKey segment =
             rules.from_camera() ? sample.segment(0, path.size()) : sample.segment(path.size(), 0);
-        // It may take the place of the vertex after the last, which the lens alone is looked for
-        // from.
+        // The interaction may lie beyond the last vertex; then it only bounds the search for the
+        // lens.
         const SegmentSample event =
             sample_segment(sample, *step.origin, step.direction, segment,
                            {.from_camera = rules.from_camera(), .vertices = path.size()});

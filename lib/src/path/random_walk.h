@@ -7,23 +7,24 @@
 
 namespace bdpt {
 
-/// The limits of a random walk.
+/// Limits of a random walk.
 struct WalkLimits {
-    int max_vertices = 1;  ///< of the subpath, the lens or the light included
+    int max_vertices = 1;  ///< vertices of the subpath, including the lens or the light
     int rr_start = std::numeric_limits<int>::max();  ///< edges before Russian roulette
-    float rr_survival = 0.0f;                        ///< its least probability of going on
+    /// Minimum survival probability of Russian roulette.
+    float rr_survival = 0.0f;
 };
 
 // Walks begin and end in Phase::walk.
 
-/// Fills `path` from the lens through `raster`; the first vertex is on the lens, and the last may
-/// be at infinity on the environment.
+/// Traces a camera subpath from the lens through `raster` into `path`; the first vertex is on the
+/// lens, and the last may be on the environment at infinity.
 void trace_camera_subpath(SampleContext& sample, Vec2 raster, const WalkLimits& limits,
                           Subpath& path);
 
-/// Fills `path` from a randomly chosen light; the first vertex is on the light. Records where the
-/// walk crosses the camera's finite lens. Empty when no light has power. `sampling` is that of
-/// next-event estimation, whose density it notes.
+/// Traces a light subpath from a randomly chosen light into `path`; the first vertex is on the
+/// light. Records where the walk crosses the camera's finite lens. Empty if no light has power.
+/// `sampling` is that of next-event estimation, whose density it stores.
 void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
                          NextEventSampling sampling, Subpath& path);
 

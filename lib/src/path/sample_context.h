@@ -11,18 +11,18 @@
 
 namespace bdpt {
 
-/// The state of one sample of a pixel, which all of its paths share.
+/// State of one sample of a pixel, shared by all of its paths.
 struct SampleContext {
     const World& world;
-    const Camera& camera;  ///< as it is at `time`
+    const Camera& camera;  ///< camera at `time`
     Sampler sampler;
-    float time;  ///< in [0, 1] while the shutter is open
+    float time;  ///< time within the shutter interval, in [0, 1]
     Wavelength wavelength;
     RayCounts& rays;    ///< counts the rays that are traced
-    PhaseClock* clock;  ///< null if this sample is not clocked
+    PhaseClock* clock;  ///< null if this sample is not timed
 
-    /// Names the segment with `s` vertices on the light's side and `t` on the camera's; see
-    /// `Sampler::segment_key`.
+    /// Returns the key of the segment with `s` vertices on the light's side and `t` on the
+    /// camera's; see `Sampler::segment_key`.
     [[nodiscard]] SegmentKey segment(int s, int t) const
     {
         SegmentKey key = sampler.segment_key(s, t);
@@ -30,7 +30,7 @@ struct SampleContext {
         key.time = time;
         return key;
     }
-    /// From here on, time counts for `phase`.
+    /// Attributes time to `phase` from now on.
     void enter(Phase phase) const noexcept
     {
         if (clock != nullptr) [[unlikely]] {

@@ -7,7 +7,7 @@
 namespace bdpt {
 namespace {
 
-/// Is the ray, to which nothing but its surface is known, scattered before that?
+/// Samples scattering in media before the surface, which is all that `event` contains so far.
 void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction, SegmentKey segment,
                 const WalkPlace& place, SegmentSample& event)
 {

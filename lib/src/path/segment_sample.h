@@ -7,29 +7,30 @@
 
 namespace bdpt {
 
-/// A segment sample: the first interaction along a ray, which is a scattering point in a medium or
-/// a volume, a surface, or nothing; and the segment's transmittance and densities.
+/// A segment sample: the first interaction along a ray (a scattering event in a medium or a volume,
+/// a surface, or nothing), and the segment's transmittance and densities.
 struct SegmentSample {
-    /// With the surface alone, which `find_surface()` finds.
+    /// Constructs a sample with the surface alone, which `find_surface()` finds.
     template <typename FindSurface>
     explicit SegmentSample(const FindSurface& find_surface) : surface(find_surface())
     {}
 
     std::optional<MediumEvent> in_medium;
     std::optional<VolumeEvent> in_volume;
-    Rgb volume_weight{1.0f};            ///< of `VolumePassage`
-    std::optional<RayHit> surface;      ///< of the ray, whether or not it gets there
-    std::optional<FogSpan> fog;         ///< on the way there, scattered or not
-    SegmentTransmission transmission;   ///< to where it ends
-    MediumId around = MediumId::clear;  ///< of a point in a volume
+    Rgb volume_weight{1.0f};  ///< weight of `VolumePassage`
+    /// Surface hit of the ray, even if the walk scatters before it.
+    std::optional<RayHit> surface;
+    std::optional<FogSpan> fog;         ///< fog on the segment, whether or not it scatters
+    SegmentTransmission transmission;   ///< transmission to the end of the segment
+    MediumId around = MediumId::clear;  ///< medium around a scattering event in a volume
 
-    /// Probability of reaching the surface, or density of scattering along the ray. Transmittance
-    /// and extinction of volumes are left out.
+    /// Returns the probability of reaching the surface, or the density of scattering along the ray.
+    /// Excludes transmittance and extinction of volumes.
     [[nodiscard]] float probability() const
     {
         return transmission.pdf_of_end(in_medium.has_value());
     }
-    /// The factor of the throughput: transmittance over probability.
+    /// Returns the factor of the throughput: transmittance over probability.
     [[nodiscard]] Rgb weight() const
     {
         return transmission.transmittance / probability() * volume_weight;
@@ -43,7 +44,7 @@ struct SegmentSample {
     }
 };
 
-/// Which walk it is, and how many vertices it has.
+/// Identifies the walk and its number of vertices.
 struct WalkPlace {
     bool from_camera = true;
     int vertices = 1;
@@ -54,7 +55,7 @@ struct WalkPlace {
                                            Vec3 direction, SegmentKey segment,
                                            const WalkPlace& place);
 
-/// The interaction at the end of the segment, if there is one: the walk's next vertex.
+/// Constructs the interaction at the end of the segment, if there is one: the walk's next vertex.
 [[nodiscard]] inline SurfacePoint make_interaction(const SampleContext& sample,
                                                    const SegmentSample& event,
                                                    const SegmentEnd& origin, Vec3 direction,

@@ -13,7 +13,7 @@ bool is_switched_on(const RenderOptions& options, Strategy strategy)
     return by_integrator && std::find(disabled.begin(), disabled.end(), strategy) == disabled.end();
 }
 
-/// Paths of one edge are weighed by themselves.
+/// Paths of one edge are weighted separately.
 bool has_more_edges_than_one(Strategy strategy)
 {
     return strategy.s + strategy.t > 2;
@@ -33,7 +33,7 @@ StrategySet::StrategySet(const RenderOptions& options, const EnvironmentVisibili
                              options.bidirectional.disabled.end(), has_more_edges_than_one) &&
                 max_camera_depth_ >= max_depth_ && max_light_depth_ >= max_depth_),
       merges_(light_paths_.merged),
-      // Images of single strategies show what each finds by itself.
+      // Images of single strategies show the estimate of each strategy alone.
       next_event_sampling_{
           .environments = options.bidirectional.strategy_depth > 0 ? EnvironmentSampling::plain
                                                                    : options.sampling.environment,
@@ -47,7 +47,8 @@ StrategySet::StrategySet(const RenderOptions& options, const EnvironmentVisibili
             if (s + t < 2 || !allows(s + t - 1, s, t) || !is_switched_on(options, {s, t})) {
                 continue;
             }
-            // Fresh light points for each camera vertex (s = 1); the rest comes from light paths.
+            // s = 1 samples new light points for each camera vertex; other strategies use light
+            // paths.
             const double samples = s == 1 && t >= 2 ? next_event_sampling_.samples
                                    : s <= 1         ? 1.0
                                    : t <= 1         ? light_paths()
@@ -57,13 +58,12 @@ StrategySet::StrategySet(const RenderOptions& options, const EnvironmentVisibili
             }
             counts_[static_cast<std::size_t>(s * stride_ + t)] = static_cast<float>(samples);
             camera_vertices_ = std::max(camera_vertices_, t);
-            // A path that hits the lens has it as its last vertex, which is not a vertex of the
-            // walk.
+            // For t = 0 the last vertex is the lens, which is not a vertex of the walk.
             light_vertices_ = std::max(light_vertices_, s < 2 ? 0 : t == 0 ? s - 1 : s);
         }
     }
     if (merges_) {
-        // Of a path of max_depth edges, whose two ends do not merge.
+        // Subpaths of a path of max_depth edges, whose two ends do not merge.
         camera_vertices_ =
             std::max(camera_vertices_, std::min(max_depth_ - 1, max_camera_depth_) + 1);
         light_vertices_ = std::max(light_vertices_, std::min(max_depth_ - 1, max_light_depth_) + 1);

@@ -9,43 +9,45 @@
 
 namespace bdpt {
 
-/// Which strategies (s, t) a render uses, and how many samples each takes for one camera path.
+/// The strategies (s, t) that a render uses, and the number of samples that each takes per camera
+/// path.
 class StrategySet {
 public:
-    /// `options` have been checked. The integrator is bdpt, lt or vcm.
+    /// Selects the strategies of bdpt, lt or vcm. `options` have been checked.
     explicit StrategySet(const RenderOptions& options,
                          const EnvironmentVisibility* visibility = nullptr);
 
-    /// N_s of the strategy; 0 when it is not used.
+    /// Returns N_s of the strategy; 0 if it is not used.
     [[nodiscard]] float count(int s, int t) const
     {
         return counts_[static_cast<std::size_t>(s * stride_ + t)];
     }
     [[nodiscard]] bool uses(int s, int t) const { return count(s, t) > 0.0f; }
-    /// Is the last of s light vertices merged with the last of t camera vertices?
+    /// Tests whether the last of s light vertices is merged with the last of t camera vertices.
     [[nodiscard]] bool merges(int s, int t) const
     {
         return merges_ && s >= 2 && t >= 2 && allows(s + t - 2, s, t);
     }
 
-    /// Does every strategy take part that can make a path of two edges or more? For each camera
-    /// path those with s = 0 take one sample, s = 1 `light_samples` at each vertex, the others
-    /// `light_paths` where t <= 1 and `connections` where t >= 2.
+    /// Tests whether every strategy that can sample a path of two edges or more is used. For each
+    /// camera path those with s = 0 take one sample, s = 1 `light_samples` at each vertex, the
+    /// others `light_paths` where t <= 1 and `connections` where t >= 2.
     [[nodiscard]] bool is_complete() const { return complete_; }
     [[nodiscard]] double light_paths() const { return light_paths_.per_camera_path; }
     [[nodiscard]] double light_samples() const { return next_event_sampling_.samples; }
     [[nodiscard]] double connections() const { return light_paths_.connections; }
 
-    /// How s = 1 samples lights: environments as asked for if s = 0 can make every path that it
-    /// can.
+    /// Returns the light sampling of s = 1: environments as requested if s = 0 can sample every
+    /// path that it can.
     [[nodiscard]] NextEventSampling next_event_sampling() const { return next_event_sampling_; }
 
-    /// Vertices of the longest subpaths that any strategy needs, the lens or the light included.
+    /// Returns the number of vertices of the longest subpaths that any strategy needs, including
+    /// the lens or the light.
     [[nodiscard]] int camera_vertices() const { return camera_vertices_; }
     [[nodiscard]] int light_vertices() const { return light_vertices_; }
 
 private:
-    /// By the lengths of the path and of its two parts.
+    /// Tests the lengths of the path and of its two subpaths.
     [[nodiscard]] bool allows(int edges, int s, int t) const
     {
         return edges >= min_depth_ && edges <= max_depth_ && t - 1 <= max_camera_depth_ &&

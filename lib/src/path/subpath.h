@@ -11,19 +11,19 @@
 
 namespace bdpt {
 
-/// The light subpath crosses the aperture on its way from its last vertex at that time; the
+/// Crossing of the aperture by the light subpath on its way from its last vertex at that time; the
 /// aperture does not block it.
 struct LensCrossing {
-    int light_vertices = 0;  ///< of the walk before the lens
+    int light_vertices = 0;  ///< vertices of the walk before the lens
     PathVertex lens;
     Vec2 raster{0.0f};
-    float importance = 0.0f;      ///< We
-    AreaPdf camera_at_light_end;  ///< the walk's last vertex sampled from the lens
+    float importance = 0.0f;      ///< importance We
+    AreaPdf camera_at_light_end;  ///< density of sampling the walk's last vertex from the lens
 };
 
 static_assert(std::is_trivially_copyable_v<SurfacePoint>);
 
-/// Storage for one walk after another; it allocates only when it is made.
+/// Storage for one walk after another; it allocates only when it is constructed.
 class Subpath {
 public:
     explicit Subpath(int max_vertices)
@@ -37,14 +37,14 @@ public:
         size_ = 0;
         crossings_.clear();
     }
-    /// A vertex with default values at the end. There must be room.
+    /// Appends a vertex with default values. Requires `size()` < `capacity()`.
     PathVertex& append()
     {
         PathVertex& vertex = vertices_[size_++];
         vertex = blank<PathVertex>;
         return vertex;
     }
-    /// Where the surface of the next vertex is put by `make()`, without a copy. There must be room.
+    /// Constructs the surface of the next vertex in place by `make()`. There must be room.
     template <typename Make>
     const SurfacePoint& emplace_surface(const Make& make)
     {
@@ -58,7 +58,7 @@ public:
     [[nodiscard]] PathVertex& back() { return vertices_[size_ - 1]; }
     [[nodiscard]] std::span<const PathVertex> all() const { return first(size()); }
     [[nodiscard]] std::span<PathVertex> all() { return std::span(vertices_).first(size_); }
-    /// The first `count` vertices.
+    /// Returns the first `count` vertices.
     [[nodiscard]] std::span<const PathVertex> first(int count) const
     {
         return std::span(vertices_).first(static_cast<std::size_t>(count));
@@ -66,7 +66,7 @@ public:
 
 private:
     std::vector<PathVertex> vertices_;
-    std::vector<SurfacePoint> surfaces_;  // of the vertex with the same number, and one more
+    std::vector<SurfacePoint> surfaces_;  // surface of the vertex with the same index, and one more
     std::vector<LensCrossing> crossings_;
     std::size_t size_ = 0;
 };

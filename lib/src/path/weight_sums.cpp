@@ -7,7 +7,7 @@
 namespace bdpt {
 namespace {
 
-/// In double, for the products over a long path leave the range of float.
+/// Divides in double, because the products over a long path exceed the range of float.
 double quotient(AreaPdf a, AreaPdf b)
 {
     return static_cast<double>(a.value) / static_cast<double>(b.value);
@@ -32,21 +32,23 @@ WeightSums::WeightSums(const World& world, const Camera& camera, const StrategyS
       light_samples_(raise(strategies.light_samples()))
 {}
 
-/// The heuristic's measure of a quotient of densities, or of counts.
+/// Applies the heuristic's function to a ratio of densities, or to a count.
 double WeightSums::raise(double ratio) const
 {
     return squares_ ? ratio * ratio : ratio;
 }
 
-// Below, every divisor is a density that a walk really sampled, so it is never zero.
+// Every divisor below is a density with which a walk sampled, so it is never zero.
 
-/// The measure of the strategies that join light paths (s >= 2) to the first `t` camera vertices.
+/// Returns the term of the strategies that connect light paths (s >= 2) to the first `t` camera
+/// vertices.
 double WeightSums::camera_term(bool joins, std::size_t t) const
 {
     return !joins ? 0.0 : t == 1 ? splats_ : joins_;
 }
 
-/// The same of camera paths (t >= 2) to the first `s` vertices of the light path from `x0`.
+/// Returns the term of the strategies that connect camera paths (t >= 2) to the first `s` vertices
+/// of the light path from `x0`.
 double WeightSums::light_term(const PathVertex& x0, bool joins, std::size_t s) const
 {
     return !joins   ? 0.0
@@ -54,7 +56,7 @@ double WeightSums::light_term(const PathVertex& x0, bool joins, std::size_t s) c
                     : joins_;
 }
 
-/// The measure of merging at `vertex`, relative to sampling it once, with the density `pdf`.
+/// Returns the term of merging at `vertex`, relative to sampling it once with the density `pdf`.
 double WeightSums::merge_term(const PathVertex& vertex, AreaPdf pdf, bool joins) const
 {
     return joins && vertex.kind == VertexKind::surface
@@ -88,7 +90,7 @@ double WeightSums::light_sum(std::span<const PathVertex> light, std::size_t k, A
 
 void WeightSums::sum_camera_path(std::span<PathVertex> path) const
 {
-    // The last two vertices get their densities from the joins.
+    // The densities of the last two vertices depend on the connection.
     double before = 0.0;
     for (std::size_t k = 0; k + 2 < path.size(); ++k) {
         before = camera_sum(path, k, path[k].pdf_rev, joinable(path[k]), before);
@@ -153,7 +155,7 @@ float WeightSums::weight_of_merge(std::span<const PathVertex> light,
                                   std::span<const PathVertex> camera,
                                   const JoinDensities& join) const
 {
-    // Each side is relative to sampling the merged vertex from there alone.
+    // Each side is relative to sampling the merged vertex from that side alone.
     const std::size_t s = light.size();
     const std::size_t t = camera.size();
     const PathVertex& y = light[s - 1];

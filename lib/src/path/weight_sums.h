@@ -10,8 +10,8 @@ namespace bdpt {
 
 class Camera;
 
-/// The densities that a join of two subpaths adds to those of the walks: those of the ends and of
-/// their neighbours, which now see a new vertex.
+/// Densities that a connection adds to those of the two walks: at the ends and their neighbours,
+/// whose next vertex has changed.
 struct JoinDensities {
     AreaPdf light_at_camera_end;       ///< z_{t-1} sampled from y_{s-1}
     AreaPdf light_at_camera_neighbor;  ///< z_{t-2} sampled from z_{t-1}
@@ -20,42 +20,42 @@ struct JoinDensities {
     AreaPdf next_event;                ///< x_0 sampled from x_1 by next-event estimation
 };
 
-/// The balance and power heuristics in constant time a join: the share of all strategies that a
-/// subpath could hand vertices over to is summed up once for each of its vertices, and a join adds
-/// the two vertices at either end whose densities it changes [Georgiev 2012, "Implementing Vertex
-/// Connection and Merging", sec. 4]. Gives what `mis_weight` gives, up to rounding.
+/// Balance and power heuristics in constant time per connection: for each vertex of a subpath, the
+/// weights of all strategies that move vertices from one subpath to the other are summed once; a
+/// connection adds the two vertices at either end whose densities it changes [Georgiev 2012,
+/// "Implementing Vertex Connection and Merging", sec. 4]. Equals `mis_weight` up to rounding.
 class WeightSums {
 public:
-    /// Can it weigh these strategies?
+    /// Tests whether the strategies can be weighted this way.
     [[nodiscard]] static bool applies(const StrategySet& strategies, Heuristic heuristic);
-    /// It `applies`. `merge_weight` is `Merging::weight`. `world` must outlive this object, which
-    /// nothing changes.
+    /// Requires `applies`. `merge_weight` is `Merging::weight`. `world` must outlive this object,
+    /// which is immutable.
     WeightSums(const World& world, const Camera& camera, const StrategySet& strategies,
                Heuristic heuristic, double merge_weight);
 
-    /// Sum over whole subpaths, whose prefixes can then be weighed.
+    /// Stores the sums of a whole subpath, whose prefixes can then be weighted.
     void sum_camera_path(std::span<PathVertex> path) const;
     void sum_light_path(std::span<PathVertex> path) const;
 
-    /// As `PathWeigher::weight`, for paths of three vertices and more.
+    /// Returns the weight like `PathWeigher::weight`, for paths of three vertices and more.
     [[nodiscard]] float weight(std::span<const PathVertex> light,
                                std::span<const PathVertex> camera, const JoinDensities& join) const;
-    /// As `PathWeigher::weight_of_merge`.
+    /// Returns the weight like `PathWeigher::weight_of_merge`.
     [[nodiscard]] float weight_of_merge(std::span<const PathVertex> light,
                                         std::span<const PathVertex> camera,
                                         const JoinDensities& join) const;
 
 private:
-    // The sum of vertex k of a subpath: over all strategies that sample it from the other side, and
-    // any number of vertices before it, what the heuristic makes of count times density, relative
-    // to sampling them from this side. Strategies that merge at one of these vertices sample it
-    // from both sides. `pdf_rev` is its density from the other side; `joins`: can a strategy join
-    // there; `before` is the sum of vertex k - 1.
+    // Returns the sum of vertex k of a subpath: over all strategies that sample it and any number
+    // of vertices before it from the other side, the heuristic's function of count times density,
+    // relative to sampling them from this side. Strategies that merge at one of these vertices
+    // sample it from both sides. `pdf_rev` is its density from the other side; `joins` tells
+    // whether a strategy can connect there; `before` is the sum of vertex k - 1.
     [[nodiscard]] double camera_sum(std::span<const PathVertex> camera, std::size_t k,
                                     AreaPdf pdf_rev, bool joins, double before) const;
     [[nodiscard]] double light_sum(std::span<const PathVertex> light, std::size_t k,
                                    AreaPdf pdf_rev, bool joins, double before) const;
-    /// That of the vertex before the end of a subpath; 0 if there is none.
+    /// Returns the sum of the vertex before the end of a subpath; 0 if there is none.
     [[nodiscard]] double beyond_camera_end(std::span<const PathVertex> camera,
                                            AreaPdf pdf_rev) const;
     [[nodiscard]] double beyond_light_end(std::span<const PathVertex> light, AreaPdf pdf_rev) const;
@@ -69,9 +69,9 @@ private:
     bool squares_;
     bool finite_lens_;
     double merge_weight_;
-    double splats_;  ///< what the heuristic makes of the number of samples with s >= 2, t <= 1
-    double joins_;   ///< and of those with s >= 2, t >= 2
-    double light_samples_;  ///< and of s = 1, t >= 2; that of s = 0 is one
+    double splats_;  ///< the heuristic's function of the number of samples with s >= 2, t <= 1
+    double joins_;   ///< likewise with s >= 2, t >= 2
+    double light_samples_;  ///< likewise with s = 1, t >= 2; for s = 0 it is one
 };
 
 }  // namespace bdpt

@@ -30,8 +30,8 @@ double CandidateMoments::value(std::size_t k) const
 
 double CandidateMoments::cross_terms(std::size_t k) const
 {
-    // E[(A + (B_1 + ... + B_c) / c)^2] without squares of single paths. Below one connection, all
-    // but the part c of the camera paths have none.
+    // E[(A + (B_1 + ... + B_c) / c)^2] without squares of single paths. Below one connection, only
+    // the fraction c of the camera paths has one.
     const double c = candidates[k].connections;
     const Sum& own = own_[k];
     if (c == 0.0) {

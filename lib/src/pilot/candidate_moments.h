@@ -7,15 +7,15 @@
 
 namespace bdpt {
 
-/// What one camera path of a pilot brings to its own pixel, for all candidates at once.
+/// Contribution of one camera path of a pilot to its own pixel, for all candidates at once.
 class CandidateMoments {
 public:
-    /// `path` was found by a strategy with t >= 2; `shares` are its shares.
+    /// Adds `path`, which was found by a strategy with t >= 2; `shares` are its shares.
     void add(const PathContribution& path, const PathShares& shares);
 
-    /// What the candidate's sample brings.
+    /// Returns the value of the candidate's sample.
     [[nodiscard]] double value(std::size_t candidate) const;
-    /// The second moment of that, without the squares of single paths.
+    /// Returns the second moment of that value, without the squares of single paths.
     [[nodiscard]] double cross_terms(std::size_t candidate) const;
 
 private:
@@ -27,20 +27,21 @@ private:
             total += value;
             squares += value * value;
         }
-        /// Sum of all products of two different values.
+        /// Returns the sum of all products of two different values.
         [[nodiscard]] double products() const { return total * total - squares; }
     };
 
-    PerCandidate<Sum> own_{};  ///< of the camera path alone (s <= 1)
-    /// Of the connections to each light path, as if it were the only one.
+    PerCandidate<Sum> own_{};  ///< contributions of the camera path alone (s <= 1)
+    /// Contributions of the connections to each light path, as if it were the only one.
     std::array<PerCandidate<Sum>, PathShares::pilot_connections> connected_{};
 };
 
-/// Variance of what the camera paths of a pixel bring, from independent samples.
+/// Variance of the contributions of a pixel's camera paths, from independent samples.
 class VarianceOfSamples {
 public:
     void add(const CandidateMoments& sample);
-    /// Without the squares of single paths, after `samples` of them, at least two.
+    /// Returns the variance without the squares of single paths, after `samples` samples, at least
+    /// two.
     [[nodiscard]] double variance(std::size_t candidate, int samples) const;
 
 private:

@@ -4,16 +4,17 @@
 
 namespace bdpt {
 
-/// Numbers of light paths and connections, each for one camera path, that may be chosen; see
-/// `BidirectionalOptions`. The first is next-event estimation without light paths.
+/// Candidate numbers of light paths and connections per camera path; see `BidirectionalOptions`.
+/// The first is next-event estimation without light paths.
 struct Candidate {
     double light_paths = 0.0;
     double connections = 0.0;
 };
 
-/// With fewer than 1/16 light paths, the errors of pixels nearby would show that they share them.
-/// More than one makes caustics smoother, but takes time from the camera paths that find what is
-/// brightest there, such as caustics seen in mirrors, too rarely for a pilot to know.
+/// All candidates. With fewer than 1/16 light paths, sharing them would show in correlated errors
+/// of neighbouring pixels. More than one makes caustics smoother, but takes time from the camera
+/// paths, whose brightest contributions, such as caustics seen in mirrors, are too rare for a pilot
+/// to notice.
 inline constexpr std::array candidates{
     Candidate{0.0, 0.0},    Candidate{0.0625, 0.25}, Candidate{0.0625, 1.0}, Candidate{0.0625, 2.0},
     Candidate{0.0625, 3.0}, Candidate{0.0625, 5.0},  Candidate{0.25, 0.25},  Candidate{0.25, 1.0},

@@ -5,19 +5,19 @@
 namespace bdpt {
 namespace {
 
-/// Fitted to the CPU time of 26 scenes x 8 candidates, up to a factor of each scene (root mean
-/// square of what is left: 5 %). Only their ratios matter [ns].
+/// Cost factors fitted to the CPU time of 26 scenes x 8 candidates, up to one factor per scene
+/// (root mean square residual: 5 %). Only their ratios matter [ns].
 struct CostModel {
     double sample;
-    double segment;  ///< of a walk
-    double shadow;   ///< ray of a join, with its BSDFs and weights
+    double segment;  ///< segment of a walk
+    double shadow;   ///< shadow ray of a connection, with its BSDFs and weights
 };
 constexpr CostModel path_tracing{.sample = 485.0, .segment = 125.0, .shadow = 240.0};
 constexpr CostModel camera_path{.sample = 400.0, .segment = 190.0, .shadow = 320.0};
 constexpr CostModel light_path{.sample = 30.0, .segment = 285.0, .shadow = 250.0};
 constexpr double connection = 180.0;         // its shadow ray
-constexpr double shared_light_path = 330.0;  // to keep it in memory
-constexpr double shared_choice = 70.0;       // to get it from there
+constexpr double shared_light_path = 330.0;  // to store it in memory
+constexpr double shared_choice = 70.0;       // to fetch it from there
 
 double cost(const CostModel& model, double segments, double shadow_rays)
 {

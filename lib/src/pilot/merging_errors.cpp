@@ -13,12 +13,12 @@ constexpr double usual_samples = 64.0;  // per pixel
 
 struct MergedContribution {
     const PathShares* shares;
-    double scale;   // of its square in relMSE
-    double value;   // where a camera path finds such a path, relative to the brightness there
-    double number;  // of such paths in a usual render
+    double scale;   // factor of its square in relMSE
+    double value;   // value if a camera path finds such a path, relative to the local brightness
+    double number;  // expected number of such paths in a usual render
 };
 
-/// Those that some candidate can find, the brightest first.
+/// Returns the contributions that some candidate can find, the brightest first.
 std::vector<MergedContribution> brightest_first(const PilotContributions& contributions,
                                                 const PilotBrightness& brightness)
 {
@@ -36,7 +36,7 @@ std::vector<MergedContribution> brightest_first(const PilotContributions& contri
             }
         }
     }
-    // Equal ones stay in their order, so that sums have the same bits.
+    // Stable, so that sums are bit-identical.
     std::stable_sort(
         merged.begin(), merged.end(),
         [](const MergedContribution& a, const MergedContribution& b) { return a.value > b.value; });

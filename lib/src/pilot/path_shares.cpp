@@ -57,7 +57,7 @@ PathShares::PathShares(const PathContribution& path, Heuristic heuristic, double
         moments_[group] += squares_ ? share * share * share : share;
     }
     if (!(found_by_one_ > 0.0)) {
-        return;  // merging alone does
+        return;  // only merging finds it
     }
     constexpr float often = 0.1f;
     const float of_camera = 1.0f - of_light;

@@ -18,7 +18,7 @@
 namespace bdpt {
 namespace {
 
-/// A point of a light is joined to the lens.
+/// The strategy that connects a point on a light to the lens.
 constexpr Strategy see_lamp{.s = 1, .t = 1};
 
 std::uint64_t cache_bytes(const RenderOptions& options)
@@ -28,8 +28,9 @@ std::uint64_t cache_bytes(const RenderOptions& options)
 
 RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
 {
-    constexpr std::uint64_t seed = 0x70696c6f74;  // one that nobody will choose
-    // Longer paths bring little, and would cost a pilot more time and memory than it is worth.
+    constexpr std::uint64_t seed = 0x70696c6f74;  // a seed that users will hardly choose
+    // Longer paths contribute little, and would cost a pilot more time and memory than they are
+    // worth.
     constexpr int max_path_length = 32;  // [edges]
     const std::uint64_t memory = options.bidirectional.light_path_memory;
     options.integrator = IntegratorKind::vcm;
@@ -38,13 +39,13 @@ RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
     options.sampling.seed = seed;
     options.transport.max_depth = std::min(options.transport.max_depth,
                                            std::max(max_path_length, options.transport.min_depth));
-    // By which it tells what merging finds; candidates have that which was asked for.
+    // Required to detect light found by merging alone; candidates use the requested heuristic.
     options.transport.heuristic = Heuristic::balance;
     options.bidirectional = {};
     options.bidirectional.connections = PathShares::pilot_connections;
     options.bidirectional.merge_radius = 0.005;
     options.bidirectional.merge_alpha = 1.0;
-    // As many as camera paths have connections, if memory allows that.
+    // One light path per connection of camera paths, if memory allows that.
     options.bidirectional.light_paths =
         PathShares::pilot_connections * static_cast<double>(grid.cells()) / grid.pixels();
     const auto wanted = static_cast<double>(cache_bytes(options));
@@ -69,8 +70,8 @@ RenderOptions with_candidate(RenderOptions options, const Candidate& candidate, 
     return options;
 }
 
-/// relMSE that is worth telling from none: less is noise of the pilot, and images without any are
-/// best where they cost least.
+/// Returns the error, at least the smallest relMSE that is distinguishable from zero: smaller
+/// values are noise of the pilot, and images without error are best where they cost least.
 double error_of(const PilotResult& pilot, std::size_t candidate, bool sees_lamps)
 {
     constexpr double least = 1e-4;
@@ -92,8 +93,8 @@ bool fits(const RenderOptions& options, const PilotResult& pilot)
            options.bidirectional.light_path_memory;
 }
 
-/// Traces the light paths of sample `index`, and then the camera paths that meet them; some of them
-/// once `abandon` is requested.
+/// Traces the light paths of sample `index`, and then the camera paths that are connected to them;
+/// incomplete once `abandon` is requested.
 void add_sample(std::int64_t index, Heuristic heuristic, BidirectionalIntegrator& integrator,
                 PilotContributions& contributions, const std::stop_token& abandon)
 {
@@ -146,7 +147,7 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
                        .costs = {},
                        .merging_alone = share_of_merging_alone(contributions, brightness),
                        .stats = {}};
-    // Rays to lamps that are seen are none of next-event estimation.
+    // Shadow rays to directly visible lights are not part of next-event estimation.
     std::uint64_t to_lamps = 0;
     for (const PilotRow& row : contributions.rows) {
         result.stats += row.stats();
@@ -170,7 +171,7 @@ RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         for (const bool sees_lamps : {false, true}) {
             if (sees_lamps && candidates[k].light_paths == 0.0) {
-                continue;  // path tracing does not
+                continue;  // path tracing has no such strategy
             }
             const double product = error_of(pilot, k, sees_lamps) *
                                    (pilot.costs[k] + (sees_lamps ? visible_light_cost : 0.0));

@@ -5,10 +5,11 @@
 namespace bdpt {
 namespace {
 
-constexpr int reach = 1;  // [cells] on every side
+constexpr int reach = 1;  // on every side [cells]
 constexpr int around = (2 * reach + 1) * (2 * reach + 1);
 
-/// Means over the cells around each; beyond the edge of the image the last row or column counts.
+/// Returns the means over the cells around each; beyond the edge of the image the last row or
+/// column is repeated.
 std::vector<double> averaged(const PilotGrid& grid, const std::vector<double>& values)
 {
     std::vector<double> result;
@@ -60,7 +61,7 @@ PilotBrightness::PilotBrightness(const PilotContributions& contributions)
 
 double PilotBrightness::scale_of(std::size_t cell, double less) const
 {
-    constexpr double epsilon = 0.01;  // relative to the mean's square, as the harness has it
+    constexpr double epsilon = 0.01;  // relative to the mean's square, as in the test harness
     const double mean = camera_[cell] + std::max(0.0, splats_[cell] - less);
     const double square = mean * mean + epsilon * average_ * average_;
     return square > 0.0 ? 1.0 / square : 0.0;

@@ -6,32 +6,32 @@
 
 namespace bdpt {
 
-/// How bright the image is in each cell and those around it, by what a pilot found: errors are
-/// relative to it. A cell alone has too few samples: where they happen to be dark, errors that
-/// splats bring would count far too much.
+/// Brightness of the image in each cell and its neighbourhood, estimated from a pilot's
+/// contributions: errors are relative to it. A single cell has too few samples: if they happened to
+/// be dark, errors of splats would be overestimated by far.
 class PilotBrightness {
 public:
     explicit PilotBrightness(const PilotContributions& contributions);
 
-    /// What relMSE multiplies a square of an error by [1/nit^2]; 0 in black images.
+    /// Returns the factor of squared errors in relMSE [1/nit^2]; 0 in black images.
     [[nodiscard]] double scale(std::size_t cell) const { return scale_of(cell, 0.0); }
-    /// The same for an error that comes from that splat of a light path. What it brings itself does
-    /// not count: rare splats would hide their own error.
+    /// Returns that factor for the error of a splat of a light path. The splat's own brightness is
+    /// excluded: rare splats would hide their own error.
     [[nodiscard]] double scale(const PilotContribution& splat) const
     {
         return scale_of(splat.cell, splat.shares.splat_mean() * share_of_splat_);
     }
 
-    /// Mean of the image, but for light that merging alone finds [nit].
+    /// Returns the mean of the image, excluding light that only merging finds [nit].
     [[nodiscard]] double average() const { return average_; }
 
 private:
     [[nodiscard]] double scale_of(std::size_t cell, double less) const;
 
-    std::vector<double> camera_;  ///< by camera paths [nit]
-    std::vector<double> splats_;  ///< by splats [nit]
-    double share_of_splat_;       ///< of one splat in these
-    double average_ = 0.0;        ///< of the image [nit]
+    std::vector<double> camera_;  ///< from camera paths [nit]
+    std::vector<double> splats_;  ///< from splats [nit]
+    double share_of_splat_;       ///< fraction of one splat in `splats_`
+    double average_ = 0.0;        ///< mean of the image [nit]
 };
 
 }  // namespace bdpt

@@ -8,19 +8,20 @@
 
 namespace bdpt {
 
-/// All that a pilot has found.
+/// All contributions that a pilot has found.
 struct PilotContributions {
     PilotGrid grid;
-    double light_paths;  ///< for each pixel of the image
+    double light_paths;  ///< light paths per pixel of the image
     std::vector<PilotRow> rows;
-    std::vector<PilotSplats> parts;  ///< of its light paths
+    std::vector<PilotSplats> parts;  ///< splats of its light paths
 
-    /// A find of camera paths counts for one of so many samples of a pixel.
+    /// Returns the number of camera paths over which their contributions are averaged.
     [[nodiscard]] double camera_paths() const
     {
         return static_cast<double>(grid.cells()) * PilotRow::samples_of_cell;
     }
-    /// A splat of a light path counts for one of so many: all pixels have got it in each sample.
+    /// Returns the number of pixel samples over which splats of light paths are averaged: each
+    /// sample covers all pixels.
     [[nodiscard]] double splatted_pixels() const
     {
         return grid.pixels() * PilotRow::samples_of_cell;

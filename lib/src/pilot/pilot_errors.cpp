@@ -20,7 +20,7 @@ void add(const PerCandidate<double>& errors, double times, PerCandidate<double>&
     }
 }
 
-/// Of a row of the grid.
+/// Returns the errors of a row of the grid.
 PerCandidate<double> errors_of(const PilotRow& row, std::size_t first_cell,
                                const PilotContributions& contributions,
                                const PilotBrightness& brightness)
@@ -54,7 +54,7 @@ PerCandidate<double> errors_of(const PilotSplats& part, const PilotContributions
     return errors;
 }
 
-/// Summed up in the same order by any threads, so that sums have the same bits.
+/// Sums in the same order for any number of threads, so that sums are bit-identical.
 PerCandidate<double> errors_of(const PilotContributions& contributions,
                                const PilotBrightness& brightness)
 {
@@ -74,11 +74,11 @@ PerCandidate<double> errors_of(const PilotContributions& contributions,
     return sum;
 }
 
-/// Adds what rare paths that no pilot finds may bring to any candidate, so that a small gain does
-/// not pay for a much dearer one.
+/// Adds the expected error of rare paths that no pilot finds to all candidates, so that a small
+/// gain does not justify a much more expensive one.
 PerCandidate<double> with_unseen(PerCandidate<double> errors)
 {
-    constexpr double share = 0.2;  // of the error of one light path of its own for each camera path
+    constexpr double share = 0.2;  // fraction of the error with one light path per camera path
     const auto one = std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) {
         return c.light_paths == 1.0 && c.connections == 1.0;
     });

@@ -4,7 +4,7 @@
 
 namespace bdpt {
 
-/// relMSE of one sample per pixel, but for light that is seen directly.
+/// Returns the relMSE of one sample per pixel, excluding directly visible light.
 [[nodiscard]] PerCandidate<double> predicted_errors(const PilotContributions& contributions,
                                                     const PilotBrightness& brightness);
 

@@ -12,7 +12,7 @@
 
 namespace bdpt {
 
-/// A grid of cells over the whole image, of each of which a pilot looks at one pixel.
+/// A grid of cells over the whole image; a pilot samples one pixel of each cell.
 class PilotGrid {
 public:
     PilotGrid(int width, int height) : width_(width), height_(height)
@@ -26,7 +26,7 @@ public:
     }
     [[nodiscard]] int columns() const { return columns_; }
     [[nodiscard]] int rows() const { return rows_; }
-    /// Of the image.
+    /// Returns the number of pixels of the image.
     [[nodiscard]] double pixels() const
     {
         return static_cast<double>(width_) * static_cast<double>(height_);
@@ -37,12 +37,12 @@ public:
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                static_cast<std::size_t>(column);
     }
-    /// The cell at `raster`.
+    /// Returns the cell at `raster`.
     [[nodiscard]] std::size_t cell_at(Vec2 raster) const
     {
         return index(cell(raster.x, columns_, width_), cell(raster.y, rows_, height_));
     }
-    /// The pixel of a cell, anywhere in it.
+    /// Returns the pixel of a cell, at a random position in it.
     [[nodiscard]] Tile pixel(int column, int row) const
     {
         const std::uint64_t random = split_mix(golden_ratio_64 * (index(column, row) + 1));

@@ -17,7 +17,7 @@ PilotLamp seen_lamp(const PathContribution& path, const PathShares& shares, std:
             .y = static_cast<int>(std::floor(path.raster.y)),
             .cell = cell,
             .value = value,
-            // What s = 0 would bring if it were alone.
+            // The estimate of s = 0 if it were alone.
             .radiance = value * static_cast<double>(path.shares[1] / path.shares[0]),
             .weight = shares.weights().front(),
             .mean = shares.splat_mean()};

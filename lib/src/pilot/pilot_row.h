@@ -7,40 +7,40 @@
 
 namespace bdpt {
 
-/// What the camera paths in the pixel of a cell found.
+/// Contributions of the camera paths in the pixel of a cell.
 struct PilotCell {
-    double mean = 0.0;         ///< of what they find well [nit]
+    double mean = 0.0;         ///< mean of the paths that they find well [nit]
     VarianceOfSamples direct;  ///< of paths of two edges
     VarianceOfSamples indirect;
 };
 
-/// A point of a lamp that is seen through the lens (s = t = 1).
+/// A point on a light seen through the lens (s = t = 1).
 struct PilotLamp {
-    int x;  ///< of its pixel
+    int x;  ///< pixel column
     int y;
     std::size_t cell;
-    double value;     ///< what it brings to the pixel, if this strategy were alone [nit]
-    double radiance;  ///< of the lamp there [nit]
-    double weight;    ///< of this strategy
-    double mean;      ///< what it adds to the brightness of its cell [nit]
+    double value;     ///< contribution to the pixel if this strategy were alone [nit]
+    double radiance;  ///< radiance of the light there [nit]
+    double weight;    ///< MIS weight of this strategy
+    double mean;      ///< contribution to the brightness of its cell [nit]
 };
 
 /// The cells of one row of a pilot's grid.
 class PilotRow {
 public:
-    /// The fewest from which the square of a mean can be told.
+    /// Minimum number of samples from which the square of a mean can be estimated.
     static constexpr int samples_of_cell = 2;
 
     /// Adds sample `index` of every cell. `integrator` connects each camera path to
-    /// `PathShares::pilot_connections` of the light paths that it has traced, of which there are
-    /// `light_paths` for each pixel of the image, and merges it with all.
+    /// `PathShares::pilot_connections` of its traced light paths, of which there are `light_paths`
+    /// per pixel of the image, and merges it with all.
     void render(const Integrator& integrator, const PilotGrid& grid, Heuristic heuristic, int row,
                 std::int64_t index, double light_paths);
 
     [[nodiscard]] const std::vector<PilotCell>& cells() const { return cells_; }
-    /// Paths of two edges and more.
+    /// Returns paths of two edges and more.
     [[nodiscard]] const std::vector<PilotContribution>& joined() const { return joined_; }
-    /// Paths that were found by merging.
+    /// Returns paths that were found by merging.
     [[nodiscard]] const std::vector<PilotContribution>& merged() const { return merged_; }
     [[nodiscard]] const std::vector<PilotLamp>& lamps() const { return lamps_; }
     [[nodiscard]] const RenderStats& stats() const { return stats_; }

@@ -10,17 +10,18 @@
 
 namespace bdpt {
 
-/// A path that a pilot found, for the pixels of a cell.
+/// A path that a pilot found, attributed to the pixels of a cell.
 struct PilotContribution {
     std::size_t cell;
     PathShares shares;
 };
 
-/// What a part of a pilot's light paths splat. They are for the whole image, while the camera paths
-/// of a pilot are in one pixel of each cell.
+/// Splats of a part of a pilot's light paths. They cover the whole image, while the camera paths of
+/// a pilot are in one pixel of each cell.
 class PilotSplats {
 public:
-    /// Traces those of sample `index`; the pilot has `light_paths` for each pixel of the image.
+    /// Traces the light paths of sample `index`; the pilot has `light_paths` per pixel of the
+    /// image.
     void trace(Integrator& integrator, std::int64_t part, std::int64_t index, const PilotGrid& grid,
                Heuristic heuristic, double light_paths);
 

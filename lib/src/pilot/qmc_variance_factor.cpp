@@ -6,14 +6,15 @@
 namespace bdpt {
 namespace {
 
-// Sobol points leave a part of the variance of independent samples, as measured in the project's
-// scenes with 32 samples: little of direct light, more of the rest; splats gain nothing.
+// Sobol points leave a fraction of the variance of independent samples, as measured in the
+// project's scenes with 32 samples: a small one for direct light, a larger one for the rest; splats
+// do not benefit.
 constexpr double left_of_direct = 0.25;
 constexpr double left_of_connections = 0.3;
 
-/// Of what camera paths find alone: all of what is rare, for nothing is evenly spread that is found
-/// once. `value` is what such a path brings, relative to the brightness of the place: at most one
-/// in so many samples finds one.
+/// Returns the remaining fraction for paths that camera paths find alone: 1 for rare paths, as a
+/// single sample is not stratified. `value` is the path's contribution relative to the local
+/// brightness: at most one in that many samples finds one.
 double left_of_own(double value)
 {
     constexpr double least = 0.3;
@@ -21,8 +22,8 @@ double left_of_own(double value)
     return least + (1.0 - least) * value / (value + rare);
 }
 
-/// More connections of a sample are more points of one sequence, which leave less of the variance
-/// of each.
+/// Returns the remaining fraction by number of connections: more connections of a sample are more
+/// points of one sequence, which reduce the remaining variance of each.
 PerCandidate<double> left_by_more_connections()
 {
     PerCandidate<double> result;
@@ -39,7 +40,7 @@ PerCandidate<double> remaining_errors(const PathShares& shares, double scale)
     constexpr int direct_edges = 2;
     PerCandidate<double> result{};
     if (shares.edges() < direct_edges) {
-        return result;  // light that is seen directly counts apart
+        return result;  // directly visible light is accounted for separately
     }
     const bool direct = shares.edges() == direct_edges;
     const double per_brightness = std::sqrt(scale);

@@ -4,11 +4,11 @@
 
 namespace bdpt {
 
-/// What a path adds to the errors that are left when random numbers are well spread: relMSE, where
-/// `scale` is what relMSE multiplies squares by [1/nit^2].
+/// Returns the contribution of a path to the errors that remain with well-distributed random
+/// numbers: relMSE, where `scale` is the factor of squared errors in relMSE [1/nit^2].
 [[nodiscard]] PerCandidate<double> remaining_errors(const PathShares& shares, double scale);
 
-/// The parts of the variances of sums that are left.
+/// Remaining fractions of the variances of sums.
 inline constexpr double left_of_direct_sums = 0.25;
 inline constexpr double left_of_indirect_sums = 0.4;
 

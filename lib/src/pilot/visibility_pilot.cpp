@@ -25,23 +25,23 @@ namespace {
 
 using Trials = std::vector<EnvironmentVisibility::Trial>;
 
-/// Camera paths along each side of the image: as many as a sample of each pixel has, up to a number
-/// beyond which more of them bring nothing.
+/// Camera paths along each side of the image: one per pixel, up to a number beyond which more have
+/// no benefit.
 constexpr int min_side = 16;
 constexpr int max_side = 128;
-/// Later vertices lie where earlier ones do, and bring less light.
+/// Later vertices lie where earlier ones do, and carry less light.
 constexpr int visibility_edges = 8;
-constexpr std::uint64_t visibility_seed = 0x7669736962;  // one that nobody will choose
-/// Where a greater share of rays reaches the environment, tiles without what was learned do as well
-/// and take less time: a shader ball gains at 0.76, a car in a studio does not at 0.80.
+constexpr std::uint64_t visibility_seed = 0x7669736962;  // a seed that users will hardly choose
+/// If a larger fraction of rays reaches the environment, tiles without learned visibility do as
+/// well and take less time: a shader ball gains at 0.76, a car in a studio does not at 0.80.
 constexpr double max_visible = 0.78;
-/// Where a smaller share does, all is hidden alike and there is nothing to learn.
+/// If a smaller fraction does, everything is hidden equally and there is nothing to learn.
 constexpr double min_visible = 1e-3;
 
-/// Can learned visibility help this render?
+/// Tests whether learned visibility can help this render.
 bool may_help(const World& world, const RenderOptions& options)
 {
-    // In fog, points of segments are sampled for a light, without a receiver.
+    // In fog, points on segments are sampled for a light, without a receiver.
     return options.sampling.environment == EnvironmentSampling::learned &&
            options.integrator != IntegratorKind::pt && options.integrator != IntegratorKind::nee &&
            options.integrator != IntegratorKind::lt && options.transport.max_depth >= 2 &&

@@ -14,18 +14,18 @@ std::vector<PilotLamp> by_pixel(const PilotContributions& contributions)
     for (const PilotRow& row : contributions.rows) {
         lamps.insert(lamps.end(), row.lamps().begin(), row.lamps().end());
     }
-    // Equal ones stay in their order, so that sums have the same bits.
+    // Stable, so that sums are bit-identical.
     std::stable_sort(lamps.begin(), lamps.end(), [](const PilotLamp& a, const PilotLamp& b) {
         return std::pair(a.y, a.x) < std::pair(b.y, b.x);
     });
     return lamps;
 }
 
-/// Variance of hits in one pixel, which the lamp fills in part, as far as Sobol points leave it
-/// [nit^2].
+/// Returns the variance of hits in one pixel that the light partly fills, as far as Sobol points
+/// leave it [nit^2].
 double variance_of_hits(std::span<const PilotLamp> pixel, double points_per_pixel)
 {
-    constexpr double qmc_variance_factor = 0.25;  // as of direct light
+    constexpr double qmc_variance_factor = 0.25;  // as for direct light
     double light = 0.0;
     double filled = 0.0;
     for (const PilotLamp& lamp : pixel) {

@@ -9,8 +9,8 @@
 
 namespace bdpt {
 
-/// Time in ticks of a fixed but unknown length: the time stamp counter, which takes less than half
-/// of the time of std::chrono's clock, or that clock where there is none.
+/// Returns the time in ticks of a fixed but unknown length: the time stamp counter, which takes
+/// less than half of the time of std::chrono's clock, or that clock if there is none.
 [[nodiscard]] inline std::uint64_t read_ticks() noexcept
 {
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -20,18 +20,18 @@ namespace bdpt {
 #endif
 }
 
-/// Ticks in a phase, in how many pieces.
+/// Ticks in a phase, and the number of intervals.
 struct PhaseTicks {
     std::uint64_t ticks = 0;
     std::uint64_t pieces = 0;
 };
 
-/// Tells how long a thread is in which phase.
+/// Measures how long a thread spends in each phase.
 class PhaseClock {
 public:
     PhaseClock() noexcept : since_(read_ticks()) {}
 
-    /// What was done since the last call counts for the phase that it named.
+    /// Attributes the time since the last call to the current phase, and starts `phase`.
     void enter(Phase phase) noexcept
     {
         const std::uint64_t now = read_ticks();
@@ -42,7 +42,7 @@ public:
         phase_ = phase;
     }
     [[nodiscard]] Phase phase() const noexcept { return phase_; }
-    /// Up to the last call of enter().
+    /// Returns the ticks up to the last call of enter().
     [[nodiscard]] const std::array<PhaseTicks, all_phases.size()>& spent() const noexcept
     {
         return spent_;
@@ -54,7 +54,7 @@ private:
     Phase phase_ = Phase::walk;
 };
 
-/// Enters a phase, and at its end the one before. Does nothing without a clock.
+/// Enters a phase, and returns to the previous one at its end. Does nothing without a clock.
 class PhaseScope {
 public:
     PhaseScope(PhaseClock* clock, Phase phase) noexcept

@@ -7,10 +7,10 @@
 namespace bdpt {
 namespace {
 
-/// One of so many samples is clocked in phases.
+/// One in this many samples is timed by phase.
 constexpr std::uint64_t clocked_share = 16;
 
-/// By a hash of pixel and index, so that neither rows nor powers of two are preferred.
+/// Chooses by a hash of pixel and index, so that neither rows nor powers of two are preferred.
 bool is_chosen(int x, int y, std::int64_t index) noexcept
 {
     const std::uint64_t pixel = static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32U |
@@ -34,7 +34,7 @@ void SampleTimer::start(std::int64_t index) noexcept
 
 void SampleTimer::finish() noexcept
 {
-    double reads = 1.0;  // of the clock, between begin_ and the end
+    double reads = 1.0;  // clock reads between begin_ and the end
     if (clock_) {
         clock_->enter(Phase::walk);
         ++reads;
@@ -45,7 +45,7 @@ void SampleTimer::finish() noexcept
     const auto elapsed = static_cast<double>(read_ticks() - begin_);
     const double lost = elapsed > sheet_->suspicious_ticks ? sheet_->wait.lost_ticks() : 0.0;
     const double ticks = std::max(elapsed - lost, 0.0);
-    // What is lost to the clocks themselves and to interrupts is far less.
+    // Time lost to the clocks themselves and to interrupts is far less.
     constexpr double min_interruption = 0.1;
     SampleTicks& samples = sheet_->samples;
     if (!clock_) {

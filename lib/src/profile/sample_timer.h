@@ -12,17 +12,17 @@
 
 namespace bdpt {
 
-/// What the samples of a thread took [ticks].
+/// Time of the samples of a thread [ticks].
 struct SampleTicks {
-    std::array<PhaseTicks, all_phases.size()> phases{};  ///< of clocked samples
-    PhaseTicks clocked;  ///< samples that are clocked in phases, a piece each
-    PhaseTicks others;   ///< the others
-    /// Samples that should have been clocked, but whose thread lost the processor meanwhile: nobody
-    /// knows in which phase.
+    std::array<PhaseTicks, all_phases.size()> phases{};  ///< of samples timed by phase
+    PhaseTicks clocked;  ///< samples that are timed by phase, one interval each
+    PhaseTicks others;   ///< all other samples
+    /// Samples that should have been timed, but whose thread was preempted: their phases are
+    /// unknown.
     std::uint64_t interrupted = 0;
 };
 
-/// Ticks of all samples of each pixel of a region. A pixel is one thread's at a time.
+/// Ticks of all samples of each pixel of a region. A pixel belongs to one thread at a time.
 class PixelTicks {
 public:
     explicit PixelTicks(const PixelRect& region)
@@ -40,7 +40,7 @@ public:
         }
     }
     [[nodiscard]] const PixelRect& region() const { return region_; }
-    /// Top row first.
+    /// Returns the ticks, top row first.
     [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
 
 private:
@@ -48,16 +48,16 @@ private:
     std::vector<double> ticks_;
 };
 
-/// Where a thread notes what its samples take.
+/// Storage for the times of a thread's samples.
 struct TimeSheet {
     PixelTicks& pixels;
     SampleTicks& samples;
-    double clock_ticks;       ///< what reading the clock takes
-    double suspicious_ticks;  ///< samples above may have waited for a processor
+    double clock_ticks;       ///< duration of reading the clock
+    double suspicious_ticks;  ///< longer samples may have waited for a processor
     WaitWatch wait{};
 };
 
-/// Times one sample of a pixel, from here to its end, if there is a sheet to note it on.
+/// Times one sample of a pixel, from construction to destruction, if there is a sheet.
 class SampleTimer {
 public:
     SampleTimer(TimeSheet* sheet, int x, int y, std::int64_t index) noexcept
@@ -76,7 +76,7 @@ public:
     SampleTimer(const SampleTimer&) = delete;
     SampleTimer& operator=(const SampleTimer&) = delete;
 
-    /// The clock that this sample is to tell its phases, if it was chosen.
+    /// Returns the clock for the phases of this sample, if it was chosen; else null.
     [[nodiscard]] PhaseClock* clock() noexcept { return clock_ ? &*clock_ : nullptr; }
 
 private:

@@ -6,11 +6,11 @@
 namespace bdpt {
 namespace {
 
-/// Threads that lose their processor do not get it back sooner.
+/// Preempted threads do not get their processor back sooner.
 constexpr double suspicious_seconds = 30e-6;
 
-/// Ticks that PhaseClock::enter() takes: the least mean of several batches, as nothing makes it
-/// faster than it is.
+/// Returns the ticks that PhaseClock::enter() takes: the minimum of the means of several batches,
+/// as disturbances only make it slower.
 double measure_clock()
 {
     constexpr int batches = 16;
@@ -71,12 +71,12 @@ TimeProfile profile_of(const SampleTicks& samples, double clock_ticks, double ti
     result.samples = samples.clocked.pieces + samples.others.pieces + samples.interrupted;
     result.clocked_samples = samples.clocked.pieces;
     const auto all = static_cast<double>(result.samples);
-    // Two reads for each sample, one more for each piece.
+    // Two reads per sample, one more per interval.
     result.clock_seconds = (2.0 * all + pieces) * clock_ticks * tick_seconds;
     if (phase_ticks > 0.0) {
         const double clocked = phase_ticks / static_cast<double>(samples.clocked.pieces);
         const double plain = std::max(mean(samples.others) - clock_ticks, 0.0);
-        // How long a sample takes is told by those that are not clocked, as long as there are any.
+        // The duration of a sample is measured by those not timed by phase, if there are any.
         const double sample = plain > 0.0 ? plain : clocked;
         for (std::size_t i = 0; i < ticks.size(); ++i) {
             result.phase_seconds[i] = ticks[i] / phase_ticks * sample * all * tick_seconds;

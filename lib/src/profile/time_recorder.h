@@ -8,26 +8,26 @@
 
 namespace bdpt {
 
-/// What samples took, from what was noted on the sheets. `clock_ticks`: reading the clock; a tick
-/// takes `tick_seconds`. The times of pixels are not in it.
+/// Computes the profile of samples from the times on the sheets. `clock_ticks` is the duration of
+/// reading the clock; a tick takes `tick_seconds`. Excludes the times of pixels.
 [[nodiscard]] TimeProfile profile_of(const SampleTicks& samples, double clock_ticks,
                                      double tick_seconds);
 
-/// Where all threads of a render note their times, and what comes of it.
+/// Collects the times of all threads of a render.
 class TimeRecorder {
 public:
-    /// Times of the pixels of `region` are kept. Takes some microseconds to see how long reading
-    /// the clock takes.
+    /// Stores times of the pixels of `region`. Takes some microseconds to measure the duration of
+    /// reading the clock.
     explicit TimeRecorder(const PixelRect& region);
 
-    /// That of the calling thread.
+    /// Returns the sheet of the calling thread.
     [[nodiscard]] TimeSheet sheet();
-    /// Of all samples so far; `samples_of_pixel` is how many each pixel has, at least one. No
-    /// thread is at work.
+    /// Returns the profile of all samples so far; `samples_of_pixel` is the number of samples of
+    /// each pixel, at least one. No thread may be at work.
     [[nodiscard]] TimeProfile profile(std::int64_t samples_of_pixel);
 
 private:
-    /// As well as it is known by now.
+    /// Returns the current estimate.
     [[nodiscard]] double seconds_a_tick() const;
 
     std::uint64_t start_ticks_;

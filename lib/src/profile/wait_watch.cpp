@@ -16,7 +16,8 @@ std::int64_t wall_nanoseconds() noexcept
         .count();
 }
 
-/// Without a clock of threads that of the wall: nothing is ever lost.
+/// Returns the CPU time of the thread; without a thread clock the wall time, so that no time is
+/// ever lost.
 std::int64_t thread_nanoseconds() noexcept
 {
 #if defined(CLOCK_THREAD_CPUTIME_ID)

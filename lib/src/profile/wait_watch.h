@@ -4,15 +4,15 @@
 
 namespace bdpt {
 
-/// Tells how long the calling thread had no processor, because others had it. Reading it is a call
-/// of the system, so it is for the rare sample that took suspiciously long.
+/// Measures how long the calling thread was preempted. Reading it is a system call, so it is used
+/// only for rare samples that took suspiciously long.
 class WaitWatch {
 public:
-    /// Watches from now on.
+    /// Starts watching.
     WaitWatch() noexcept { note_now(); }
 
-    /// Ticks since the last call, or the begin, in which the thread did not run; 0 where the system
-    /// has no clock of threads. By the thread that made this object.
+    /// Returns the ticks since the last call, or the start, in which the thread did not run; 0 if
+    /// the system has no thread clock. To be called by the thread that constructed this object.
     [[nodiscard]] double lost_ticks() noexcept;
 
 private:
@@ -20,7 +20,7 @@ private:
 
     std::uint64_t ticks_ = 0;
     std::int64_t wall_ = 0;  // [ns]
-    std::int64_t cpu_ = 0;   // of the thread [ns]
+    std::int64_t cpu_ = 0;   // CPU time of the thread [ns]
 };
 
 }  // namespace bdpt

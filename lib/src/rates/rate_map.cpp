@@ -10,15 +10,15 @@
 namespace bdpt {
 namespace {
 
-// A few samples tell little of one pixel, so that variances are those of a neighbourhood; and rare
-// bright samples are missed in one neighbourhood that the next one has found, so that the greatest
-// of near ones counts. Wider ones blur the borders of small glossy parts.
+// A few samples say little about one pixel, so variances are averaged over a neighbourhood; and
+// rare bright samples missed in one neighbourhood may be found in the next, so the maximum of
+// nearby ones counts. Wider ones blur the boundaries of small glossy parts.
 constexpr int mean_radius = 3;  // 7 x 7 pixels
 constexpr int max_radius = 1;   // 3 x 3 pixels
-constexpr double dark = 0.01;   // of the image's mean luminance, as in noise_of()
-/// Of the mean error: what each pixel has beside what the pilot has seen there. Rare bright paths
-/// are where it has not found them, too; and where they are most of the error, this makes rates
-/// even.
+constexpr double dark = 0.01;   // relative to the image's mean luminance, as in noise_of()
+/// Error that each pixel has beside the pilot's estimate, as a fraction of the mean error. Rare
+/// bright paths also occur where the pilot has not found them; and where they dominate the error,
+/// this makes rates uniform.
 constexpr double unseen_share = 0.25;
 
 using Plane = std::vector<double>;
@@ -28,7 +28,7 @@ struct Size {
     int height;
 };
 
-/// Combines what is at most `radius` pixels away, along rows (`step` 1) or columns (`step` width).
+/// Combines values at most `radius` pixels away, along rows (`step` 1) or columns (`step` width).
 template <typename Combine>
 Plane along(const Plane& plane, Size size, bool rows, int radius, const Combine& combine)
 {
@@ -79,7 +79,7 @@ double mean_of(const Plane& plane)
     return sum / static_cast<double>(plane.size());
 }
 
-/// What the rates should be in proportion to.
+/// Returns values to which the rates should be proportional.
 Plane wanted_rates(const RateEvidence& evidence)
 {
     const Size size{.width = evidence.width, .height = evidence.height};
@@ -98,7 +98,7 @@ Plane wanted_rates(const RateEvidence& evidence)
     return wanted;
 }
 
-/// That of the power of two that is nearest to `rate`, by its logarithm.
+/// Returns the exponent of the power of two nearest to `rate`, by its logarithm.
 std::int8_t exponent_of(double rate)
 {
     constexpr double root = 1.4142135623730951;
@@ -110,7 +110,7 @@ std::int8_t exponent_of(double rate)
     return static_cast<std::int8_t>(exponent);
 }
 
-/// Sum of the rates, if they are `scale` times what was wanted [quarters].
+/// Returns the sum of the rates if they are `scale` times `wanted` [quarters].
 std::int64_t quarters(const Plane& wanted, double scale)
 {
     std::int64_t sum = 0;
@@ -120,7 +120,7 @@ std::int64_t quarters(const Plane& wanted, double scale)
     return sum;
 }
 
-/// Scales for which the mean is not above 1, and above it, as close as they get.
+/// Returns the adjacent scales for which the mean is at most 1, and above 1.
 std::pair<double, double> borders_of_scale(const Plane& wanted)
 {
     constexpr double widest = 0x1p40;
@@ -136,7 +136,8 @@ std::pair<double, double> borders_of_scale(const Plane& wanted)
     return {low, high};
 }
 
-/// Different for all pixels; those with the least ones are evenly spread.
+/// Returns a number that differs for all pixels; those with the smallest ones are evenly
+/// distributed.
 std::uint64_t spread(std::size_t pixel)
 {
     constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15U;
@@ -160,7 +161,8 @@ SampleRates rates_for(const RateEvidence& evidence)
             ties.push_back(i);
         }
     }
-    // Of pixels that want the same, only some can have more: spread over the image.
+    // Of pixels that want the same rate only some can have more: they are distributed over the
+    // image.
     std::sort(ties.begin(), ties.end(),
               [](std::size_t a, std::size_t b) { return spread(a) < spread(b); });
     std::int64_t left = (static_cast<std::int64_t>(wanted.size()) << -SampleRates::min_exponent) -

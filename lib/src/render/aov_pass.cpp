@@ -14,7 +14,7 @@ namespace bdpt {
 
 namespace {
 
-/// Is there a layer that has more of a surface than that a ray met it?
+/// Tests whether a layer needs more of a surface than the fact that a ray hit it.
 bool shows_surfaces(AovSet aovs)
 {
     return aovs.contains(Aov::albedo) || aovs.contains(Aov::normal) ||
@@ -45,7 +45,7 @@ RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm&
                                  IdFilm& ids) const
 {
     RenderStats stats;
-    std::vector<SurfaceIds> met;  // by the rays of a pixel
+    std::vector<SurfaceIds> met;  // ids hit by the rays of a pixel
     met.reserve(names_ ? static_cast<std::size_t>(samples.end - samples.begin) : 0);
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
@@ -65,7 +65,7 @@ RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm&
 void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
                          std::vector<SurfaceIds>& met, RayCounts& rays) const
 {
-    // The random numbers of the integrators' camera rays.
+    // These are the random numbers of the integrators' camera rays.
     SampleStart start(options_, filter_, world_, camera_, x, y, sample_index);
     const TimedCamera timed(camera_, start.moment.time);
     const Camera& camera = timed.get();

@@ -13,25 +13,26 @@
 
 namespace bdpt {
 
-/// Follows the camera rays of a render once more, at their own times, to the first surface or to
-/// the ground only: the same for every integrator.
+/// Traces the camera rays of a render once more, at their own times, up to the first surface or the
+/// ground: the same for every integrator.
 class AovPass {
 public:
-    /// The world and the camera must outlive this.
+    /// Keeps references to `world` and `camera`, which must outlive this.
     AovPass(const World& world, const MovingCamera& camera, const RenderOptions& options);
-    /// Adds the samples of the pixels of `tile` that are in the films' region. Returns the work
-    /// that it was.
+    /// Adds the samples of the pixels of `tile` that are in the films' region. Returns the amount
+    /// of work.
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples, AovFilm& film,
                                           IdFilm& ids) const;
-    /// Of what may be met, if ids were asked for.
+    /// Returns the names of surfaces that rays may hit, if ids were requested.
     [[nodiscard]] IdNames names() const;
 
 private:
-    /// `met` gets the ids of the surface that the ray meets, if ids were asked for.
+    /// Adds a sample; appends to `met` the ids of the surface that the ray hits, if ids were
+    /// requested.
     void add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
                     std::vector<SurfaceIds>& met, RayCounts& rays) const;
 
-    /// What surfaces take away of the light along a camera ray, in [0, 1].
+    /// Returns the fraction of light that surfaces block along a camera ray, in [0, 1].
     [[nodiscard]] float opacity_along(const CameraRay& ray, SegmentKey segment,
                                       RayCounts& rays) const;
 
@@ -41,7 +42,7 @@ private:
     PixelFilter filter_;
     bool needs_surfaces_;
     GroundShadow ground_;
-    std::optional<SceneNames> names_;  // if ids were asked for
+    std::optional<SceneNames> names_;  // set if ids were requested
 };
 
 }  // namespace bdpt

@@ -4,8 +4,8 @@
 
 namespace bdpt {
 
-/// Throws `Error` (usage) when numbers of light paths or connections are out of range or do not fit
-/// each other, or when shared light paths could take more than `light_path_memory`. All other
+/// Throws `Error` (usage) if numbers of light paths or connections are out of range or
+/// inconsistent, or if shared light paths could take more than `light_path_memory`. All other
 /// options have been checked.
 void check_light_paths(const RenderOptions& options);
 

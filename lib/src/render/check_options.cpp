@@ -83,7 +83,7 @@ void check_rates(const RenderOptions& options)
                                       ", " + option_text(range.high) + "]");
 }
 
-/// The ends of ranges of floats are floats: 0.01 as a float is less than 0.01.
+/// Tests a float range with its ends as floats: 0.01 as a float is less than 0.01.
 bool is_in(const Range& range, float value)
 {
     const auto low = static_cast<float>(range.low);
@@ -97,7 +97,7 @@ bool is_in(const Range& range, T value)
     return range.contains(static_cast<double>(value));
 }
 
-/// The values of an option whose numbers have its range.
+/// Checks the values of an option whose numbers have that range.
 template <typename T>
 void check_value(std::string_view name, const Range& range, const T& value)
 {
@@ -127,7 +127,7 @@ void check_within_limit(const std::string& item, const char* what, float value)
     }
 }
 
-/// Of a camera called `item`.
+/// Checks the pose of a camera called `item`.
 void check_pose(const std::string& item, const Mat4& world_from_camera)
 {
     for (int column = 0; column < 4; ++column) {
@@ -178,7 +178,7 @@ void check_options(const RenderOptions& options)
     if (options.film.crop) {
         check_crop(*options.film.crop, options.film.width, options.film.height);
     }
-    // Sample indices have 32 bits in the film's record of defects.
+    // The film's record of defects has sample indices of 32 bits.
     check_range("first sample", options.sampling.samples.begin, 0,
                 std::numeric_limits<std::uint32_t>::max());
     check_range("number of samples", options.sampling.samples.end - options.sampling.samples.begin,

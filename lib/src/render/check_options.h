@@ -5,18 +5,18 @@
 
 namespace bdpt {
 
-/// Throws `Error` (usage) naming the first option out of range and its value.
+/// Throws `Error` (usage) that names the first option out of range and its value.
 void check_options(const RenderOptions& options);
 
-/// Throws `Error` (usage) for integrators that cannot be given rates: lt, whose pixels take no
+/// Throws `Error` (usage) for integrators that do not support rates: lt, whose pixels take no
 /// samples of their own, and vcm, whose merge radius belongs to a sample index.
 void check_takes_rates(IntegratorKind integrator);
 
-/// Throws `Error` (invalid_input) when the camera has no usable view.
+/// Throws `Error` (invalid_input) if the camera has no usable view.
 void check_camera(const CameraDesc& camera);
 
-/// Throws `Error` (invalid_input) when the camera, on its way, is farther than that from the origin
-/// [m], in any coordinate: its rays would meet nothing.
+/// Throws `Error` (invalid_input) if the camera, during its motion, is farther than that from the
+/// origin [m], in any coordinate: its rays would hit nothing.
 void check_camera_distance(const CameraDesc& camera, float farthest);
 
 }  // namespace bdpt

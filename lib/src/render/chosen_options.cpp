@@ -11,8 +11,8 @@
 namespace bdpt {
 namespace {
 
-/// Only bdpt itself knows what to do with strategies that are left out or looked at, and pilots
-/// predict the balance and the power heuristic alone.
+/// Tests for options that only bdpt supports, disabled strategies and strategy images, and for
+/// heuristics that pilots do not predict: they predict balance and power alone.
 bool asks_for_bdpt(const RenderOptions& options)
 {
     constexpr int unlimited = std::numeric_limits<int>::max();

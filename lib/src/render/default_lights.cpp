@@ -18,22 +18,23 @@
 namespace bdpt {
 namespace {
 
-// The key is on the left of who sees the front of things, the rim behind them on the right.
+// The key light is on the left of an observer in front of the objects, the rim light behind them on
+// the right.
 const glm::dvec3 key_towards = glm::normalize(glm::dvec3(-0.5, 1.0, 0.87));
 const glm::dvec3 rim_towards = glm::normalize(glm::dvec3(0.5, 0.36, -0.87));
-constexpr double key_radiance = 5.0;  // before the mean becomes 1 nit, as all of these
+constexpr double key_radiance = 5.0;  // before normalisation to a mean of 1 nit, like all of these
 constexpr double rim_radiance = 1.0;
 
-/// A light as wide as a part of the sky: so soft that it makes next to no noise, and shows in no
-/// mirror as a lamp.
+/// Returns a light as wide as a part of the sky: so soft that it causes hardly any noise, and does
+/// not look like a lamp in mirrors.
 double soft_light(const glm::dvec3& direction, const glm::dvec3& towards, double radiance)
 {
     const double cosine = std::max(glm::dot(direction, towards), 0.0);
     return radiance * cosine * cosine * cosine * cosine * cosine * cosine;
 }
 
-/// A sky that is brightest above, and a ground that goes on from its horizon without an edge, so
-/// that it is a backdrop behind what is seen from above.
+/// Returns a sky that is brightest above, and a ground that continues from its horizon without an
+/// edge, so that it is a backdrop in views from above.
 double even_sky(double sine)
 {
     constexpr double horizon = 0.7;
@@ -43,12 +44,12 @@ double even_sky(double sine)
                       : horizon + (ground - horizon) * smooth_step(-1.5 * sine);
 }
 
-/// Do surfaces that emit light what is framed, when nothing else does?
+/// Tests whether emissive surfaces illuminate the framed view when nothing else does.
 bool is_lit_by_emitters(const Scene& scene, const FramedView& framed, float aspect)
 {
-    // Of the 1 nit that the default sky or lamp would give white cards [nit]. Scenes that were made
-    // for their emitters are well above, models that glow here and there well below: found by
-    // trying both kinds (docs/decisions/0059-light-of-scenes-without-lights.md).
+    // Relative to the 1 nit that the default sky or lamp would give white cards [nit]. Scenes
+    // designed around their emitters are well above, models with glowing details well below: tuned
+    // on both kinds (docs/decisions/0059-light-of-scenes-without-lights.md).
     constexpr double min_outside = 0.03;
     constexpr double min_inside = 0.001;
     std::vector<double> cards = white_cards(scene, framed.camera, {.aspect = aspect});
@@ -60,7 +61,7 @@ bool is_lit_by_emitters(const Scene& scene, const FramedView& framed, float aspe
         std::nth_element(cards.begin(), middle, cards.end());
         return *middle >= min_outside;
     }
-    // The mean, as a room may be dark but for a beam of light.
+    // Uses the mean, as a room may be dark except for a beam of light.
     const double sum = std::accumulate(cards.begin(), cards.end(), 0.0);
     return sum >= min_inside * static_cast<double>(cards.size());
 }
@@ -104,7 +105,7 @@ EnvironmentLightDesc default_environment()
 
 PointLightDesc default_lamp(const FramedView& view)
 {
-    // Keeps the lamp lit when the camera stands in it.
+    // Keeps the lamp lit if the camera is at its position.
     constexpr float shortest = 1e-3f;
     const Vec3 eye(view.camera.world_from_camera[3]);
     const float distance = std::max(glm::distance(eye, view.lamp_position), shortest);

@@ -24,7 +24,7 @@
 namespace bdpt {
 namespace {
 
-/// Adds all options that change bits of samples.
+/// Adds all options that affect bits of samples.
 void add_options(std::vector<IdentityComponent>& result, const RenderOptions& options)
 {
     for_each_option(options, [&result](const auto& option, const auto& value) {
@@ -49,7 +49,7 @@ void add_camera(std::vector<IdentityComponent>& result, const CameraDesc& camera
         using T = std::remove_cvref_t<decltype(value)>;
         const std::string name = "camera: " + std::string(field.name);
         if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<float>>) {
-            return;  // its name, and the shape of image that its author had in mind
+            return;  // name and aspect ratio intended by the author
         } else if constexpr (std::is_arithmetic_v<T>) {
             result.push_back({.name = name, .value = option_text(value)});
         } else {
@@ -58,7 +58,7 @@ void add_camera(std::vector<IdentityComponent>& result, const CameraDesc& camera
     });
 }
 
-/// Names are in no image but those of ids.
+/// Adds names, which affect only id images.
 void add_names(std::vector<IdentityComponent>& result, const SharedSceneDesc& scene, AovSet aovs)
 {
     if (!asks_for_ids(aovs)) {
@@ -75,7 +75,7 @@ void add_names(std::vector<IdentityComponent>& result, const SharedSceneDesc& sc
     }
 }
 
-/// Values by the names of components; of names that come twice the first.
+/// Returns the values by component name; for duplicate names the first.
 std::map<std::string_view, std::string_view> values_by_name(const Identity& identity)
 {
     std::map<std::string_view, std::string_view> result;
@@ -85,7 +85,7 @@ std::map<std::string_view, std::string_view> values_by_name(const Identity& iden
     return result;
 }
 
-/// " (8, not 4)" where people can read both.
+/// Returns " (8, not 4)" if both values are human-readable.
 std::string values_text(std::string_view there, std::string_view here)
 {
     constexpr std::size_t max_length = 80;
@@ -132,7 +132,7 @@ std::optional<std::string> difference(const Identity& here, const Identity& ther
         }
     }
     if (names.empty()) {
-        // Then they can but differ in their order, or in names that come twice.
+        // The difference must be in the order, or in duplicate names.
         return here == there ? std::nullopt : std::optional<std::string>("the order of components");
     }
     std::string result;

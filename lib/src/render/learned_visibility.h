@@ -11,8 +11,8 @@ namespace bdpt {
 
 class World;
 
-/// What `learn_visibility` finds for the whole image of this camera, by the threads that the
-/// options allow. `options` have been checked, and name an integrator.
+/// Returns the result of `learn_visibility` for the whole image of this camera, using the threads
+/// that the options allow. `options` have been checked, and name an integrator.
 [[nodiscard]] std::unique_ptr<const EnvironmentVisibility> learned_visibility(
     const World& world, const CameraDesc& camera, const RenderOptions& options);
 

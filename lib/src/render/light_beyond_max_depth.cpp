@@ -21,13 +21,13 @@ namespace bdpt {
 namespace {
 
 constexpr int default_depth = TransportOptions{}.max_depth;
-/// Whoever asks for longer paths knows why [edges].
+/// Limit from which longer paths are considered intentional [edges].
 constexpr int max_path_length = 512;
 constexpr int samples_of_cell = 2;
 
-/// Sums of luminance by the length of paths.
+/// Sums of luminance by path length.
 struct LightByLength {
-    double within = 0.0;  ///< the limit
+    double within = 0.0;  ///< within the limit
     double beyond = 0.0;
 
     LightByLength& operator+=(const LightByLength& other)
@@ -42,11 +42,13 @@ struct LightByLength {
     }
 };
 
-/// Those of a render that goes on where `asked` ends. Light that is seen directly is left out.
+/// Returns the options of a render whose paths continue where those of `asked` end. Excludes
+/// directly visible light.
 RenderOptions with_longer_paths(const RenderOptions& asked)
 {
-    constexpr std::uint64_t seed = 0x6c656e677468;  // one that nobody will choose
-    constexpr int factor = 4;                       // beyond the limit
+    constexpr std::uint64_t seed = 0x6c656e677468;  // a seed that users will hardly choose
+    constexpr int factor = 4;                       // ratio of the longer limit to the requested
+                                                    // one
     RenderOptions options;
     options.integrator = IntegratorKind::bdpt;
     options.film.width = asked.film.width;
@@ -60,7 +62,7 @@ RenderOptions with_longer_paths(const RenderOptions& asked)
     return options;
 }
 
-/// The light that `integrator` finds in one pixel of each cell of a row.
+/// Returns the light that `integrator` finds in one pixel of each cell of a row.
 LightByLength light_of_row(const Integrator& integrator, const PilotGrid& grid, int row, int limit)
 {
     LightByLength sum;
@@ -81,8 +83,8 @@ LightByLength light_of_row(const Integrator& integrator, const PilotGrid& grid, 
     return sum;
 }
 
-/// The share of the sum of `rows`, or 0 if it is not twice its standard error, which groups of them
-/// tell that leave out one part each (jackknife).
+/// Returns the fraction in the sum of `rows` beyond the limit, or 0 if it is below twice its
+/// standard error, estimated by the jackknife over groups.
 double share_beyond(const std::vector<LightByLength>& rows)
 {
     constexpr std::size_t max_groups = 16;

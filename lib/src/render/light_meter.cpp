@@ -25,15 +25,15 @@ namespace {
 
 constexpr int side_of_grid = 32;  // of a square view [cards]
 constexpr int paths_of_card = 32;
-constexpr int max_walk_vertices = 12;  // [vertices] what comes later is next to nothing
+constexpr int max_walk_vertices = 12;  // [vertices] later vertices contribute next to nothing
 constexpr int roulette_start = 4;      // [vertices]
-constexpr float survival = 0.75f;      // of each vertex from there on
+constexpr float survival = 0.75f;      // survival probability at each vertex from there on
 constexpr NextEventSampling next_event_sampling{.environments = EnvironmentSampling::plain,
                                                 .lights = LightSampling::automatic};
 
 RenderOptions grid_options(const LightMeterOptions& asked)
 {
-    constexpr std::uint64_t seed = 0x6d65746572;  // one that nobody will choose
+    constexpr std::uint64_t seed = 0x6d65746572;  // a seed that users will hardly choose
     constexpr int longest_side = 256;
     const float root = std::sqrt(asked.aspect);
     const auto side = [](float cards) {
@@ -43,20 +43,21 @@ RenderOptions grid_options(const LightMeterOptions& asked)
     RenderOptions options;
     options.film.width = side(side_of_grid * root);
     options.film.height = side(side_of_grid / root);
-    options.sampling.sampler = SamplerKind::sobol;  // noise makes some cards too bright
+    options.sampling.sampler = SamplerKind::sobol;  // random noise makes some cards too bright
     options.sampling.seed = seed;
     options.system.threads = asked.threads;
     return options;
 }
 
-/// Follows paths from white cards to lights, as path tracing with MIS does.
+/// Traces paths from white cards to lights, like path tracing with MIS.
 class CardMeter {
 public:
     CardMeter(const World& world, const MovingCamera& camera, const RenderOptions& options)
         : world_(world), camera_(camera), options_(options), filter_(options.film.filter)
     {}
 
-    /// The luminance of the card that the pixel shows; none: it shows no surface.
+    /// Returns the luminance of the card at the surface that the pixel shows; nullopt if it shows
+    /// none.
     [[nodiscard]] std::optional<double> card(int x, int y) const
     {
         double sum = 0.0;
@@ -100,7 +101,8 @@ private:
         return std::isfinite(found) ? std::optional(found) : std::nullopt;
     }
 
-    /// What the first vertex, and those that a path from it comes to, scatter.
+    /// Returns the light scattered at the first vertex, and at the later vertices of a path from
+    /// it.
     [[nodiscard]] Rgb light_at(SampleContext& sample, SurfacePoint point) const
     {
         Sampler& sampler = sample.sampler;
@@ -148,11 +150,11 @@ private:
         }
     }
 
-    /// Where a ray starts that may meet a light.
+    /// Origin of a ray that may hit a light.
     struct Departure {
         Vec3 p{0.0f};
         SolidAnglePdf pdf;
-        std::optional<LightSampleContext> receiver{};  ///< if lights are sampled there
+        std::optional<LightSampleContext> receiver{};  ///< set if lights are sampled there
     };
 
     [[nodiscard]] Rgb sky(const Departure& from, Vec3 direction) const
@@ -163,7 +165,7 @@ private:
                   : Rgb(0.0f);
     }
 
-    /// What counts of a light that a ray meets; the rest is for light that is sampled.
+    /// Returns the MIS weight of a light that a ray hits, against light sampling.
     [[nodiscard]] float share(const Departure& from, LightId id, const LightPoint& met) const
     {
         if (!from.receiver) {

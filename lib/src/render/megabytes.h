@@ -5,7 +5,7 @@
 
 namespace bdpt {
 
-/// "12 MB", rounded up, for messages.
+/// Formats bytes as "12 MB", rounded up, for messages.
 [[nodiscard]] inline std::string megabytes(std::uint64_t bytes)
 {
     constexpr std::uint64_t megabyte = 1'000'000;

@@ -13,13 +13,14 @@
 namespace bdpt {
 namespace {
 
-constexpr int tile_side = 16;            // [pixels], about
-constexpr double share_of_tiles = 0.95;  // that are not above the noise
-constexpr double dark = 0.01;            // of the image's mean luminance
+constexpr int tile_side = 16;            // approximately [pixels]
+constexpr double share_of_tiles = 0.95;  // fraction of tiles at or below the noise
+constexpr double dark = 0.01;            // relative to the image's mean luminance
 constexpr std::int64_t first_look = 16;
 constexpr std::int64_t max_samples = std::int64_t{1} << 31;
 
-/// Where the tiles of `length` pixels begin, and the end: none is much smaller than the others.
+/// Returns the begins of the tiles of `length` pixels, and the end: none is much smaller than the
+/// others.
 std::vector<int> borders(int length)
 {
     const int tiles = std::max(1, (length + tile_side / 2) / tile_side);
@@ -32,11 +33,11 @@ std::vector<int> borders(int length)
 
 struct NoiseTile {
     double luminance = 0.0;  // sum over its pixels
-    double variance = 0.0;   // of the mean of both halves; sum over its pixels
+    double variance = 0.0;   // variance of the mean of both halves; sum over its pixels
     double pixels = 0.0;
 };
 
-/// The tiles between two borders of rows.
+/// Measures the tiles between two boundaries of rows.
 void measure_row_of_tiles(const Image& even, const Image& odd, int top, int bottom,
                           const std::vector<int>& columns, NoiseTile* tiles)
 {

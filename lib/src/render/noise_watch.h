@@ -10,7 +10,7 @@
 
 namespace bdpt {
 
-/// The noise of the film, at the counts of samples at which it is to be looked at.
+/// Measures the noise of the film at the scheduled sample counts.
 class NoiseWatch {
 public:
     NoiseWatch(const RenderControl& control, SampleRange wanted)
@@ -22,7 +22,7 @@ public:
         }
     }
 
-    /// `samples` or less, so that a pass ends where the goal is looked at.
+    /// Returns `samples` or less, so that a pass ends where the noise is measured.
     [[nodiscard]] std::int64_t at_most(std::int64_t samples, const RenderPart& part) const
     {
         const std::int64_t done = part.samples.count();
@@ -31,8 +31,8 @@ public:
     void look(const RenderPart& part)
     {
         const std::int64_t count = part.samples.count();
-        // A film with gaps is no prefix of the samples: whether it is looked at must not depend on
-        // how it came about.
+        // A film with gaps is no prefix of the samples: whether it is measured must not depend on
+        // how it was rendered.
         const bool due = decides() ? is_noise_look(count) &&
                                          part.samples == SampleSet({.begin = wanted_.begin,
                                                                     .end = wanted_.begin + count})

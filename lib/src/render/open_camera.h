@@ -13,12 +13,12 @@ namespace bdpt {
     return {.x0 = 0, .y0 = 0, .x1 = options.film.width, .y1 = options.film.height};
 }
 
-/// The camera on the film of `options`, which has been checked.
+/// Returns the camera on the film of `options`, which has been checked.
 [[nodiscard]] inline MovingCamera open_camera(const World& world, const CameraDesc& desc,
                                               const RenderOptions& options)
 {
     const PixelRect region = options.film.crop.value_or(whole_image(options));
-    // What counts for a pixel of the region can lie beside it, even beside the image.
+    // Positions that contribute to a pixel of the region can lie beside it, even beside the image.
     const float margin = PixelFilter(options.film.filter).radius() - 0.5f;
     return {desc, Camera(desc, options.film.width, options.film.height,
                          {.min = Vec2(region.x0, region.y0) - margin,

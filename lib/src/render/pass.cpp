@@ -29,7 +29,7 @@ void count_samples(const SampleSchedule& schedule, const Tile& tile, SampleRange
     }
 }
 
-/// The samples of the tile, in all films.
+/// Renders the samples of the tile into all films.
 RenderStats render_tile(const Work& work, const RenderOptions& options, const Tile& tile,
                         SampleRange samples, const Films& films, RenderPart& result)
 {
@@ -46,7 +46,7 @@ RenderStats render_tile(const Work& work, const RenderOptions& options, const Ti
     return stats;
 }
 
-/// What the integrator does for all tiles before them.
+/// Renders the integrator's chunks, which all tiles share.
 void render_parts(const Work& work, SampleRange samples, RenderPart& result,
                   tbb::combinable<RenderStats>& stats_of_threads)
 {

@@ -13,24 +13,24 @@
 
 namespace bdpt {
 
-/// All that works on a tile.
+/// Objects that render a tile.
 struct Work {
     Integrator& integrator;
     const AovPass& aov_pass;
     const std::function<void(const PathContribution&)>& on_path;
-    TimeRecorder* times = nullptr;  ///< if times are recorded
-    /// Told what the samples of each tile were in work, on many threads at once; if it is there.
+    TimeRecorder* times = nullptr;  ///< set if times are recorded
+    /// Receives the amount of work for the samples of each tile, on many threads at once, if set.
     std::function<void(const Tile&, const RenderStats&)> on_tile{};
     std::stop_token abandon{};  ///< ends a pass in its middle
 };
 
-/// Renders `samples` of all pixels into `result`, on the threads that oneTBB gives: at once, or, if
-/// the integrator takes fewer in a pass, one such pass after the other. What is abandoned leaves
-/// `result` with some of the samples, and without a note of them.
+/// Renders `samples` of all pixels into `result`, on the threads that oneTBB provides: at once, or,
+/// if the integrator limits the samples per pass, in several passes. An abandoned pass leaves
+/// `result` with some of the samples, without recording them.
 void render_pass(const Work& work, const RenderOptions& options, SampleRange samples,
                  RenderPart& result);
 
-/// What the film of a render has room for.
+/// Returns the layout of a render's film.
 [[nodiscard]] FilmLayout film_layout(const RenderOptions& options);
 
 }  // namespace bdpt

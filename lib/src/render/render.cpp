@@ -29,7 +29,7 @@
 namespace bdpt {
 namespace {
 
-/// A pass is one unit of progress and of stopping: it grows until it takes about this long.
+/// Target duration of a pass, the unit of progress and of stopping.
 constexpr double pass_seconds = 0.5;
 constexpr std::int64_t max_samples_in_pass = 64;
 
@@ -38,8 +38,7 @@ double seconds_since(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// How many samples passes have, so that one takes about `pass_seconds`. With rates they are groups
-/// of rounds.
+/// Adapts the number of samples per pass to `pass_seconds`. With rates they are groups of rounds.
 class PassSize {
 public:
     PassSize(const Integrator& integrator, const RenderOptions& options)
@@ -51,7 +50,7 @@ public:
         }
     }
     [[nodiscard]] std::int64_t samples() const { return samples_; }
-    /// Takes note of the last pass.
+    /// Updates the size with the duration of the last pass.
     void learn(std::int64_t samples, double seconds)
     {
         seconds_a_sample_ = seconds / static_cast<double>(samples);
@@ -59,7 +58,7 @@ public:
             samples_ = std::min(2 * samples_, most_);
         }
     }
-    /// What the next pass will probably take [s].
+    /// Returns the expected duration of the next pass [s].
     [[nodiscard]] double seconds() const
     {
         return seconds_a_sample_ * static_cast<double>(samples_);
@@ -71,7 +70,7 @@ private:
     double seconds_a_sample_ = 0.0;
 };
 
-/// What is missing of `wanted`, as passes of at most `size` samples.
+/// Returns the next missing samples of `wanted`, at most `size`.
 SampleRange next_pass(const SampleSet& done, const SampleSet& wanted, std::int64_t size)
 {
     const SampleSet missing = done.missing(wanted);
@@ -92,7 +91,7 @@ PixelCounts pixel_counts(const RenderOptions& options)
     return options.sampling.rates ? PixelCounts::own : PixelCounts::equal;
 }
 
-/// A part of the render without any samples.
+/// Returns a part of the render without any samples.
 RenderPart empty_part(Identity identity, const RenderOptions& options, const CameraDesc& camera,
                       const AovPass& aov_pass)
 {
@@ -106,7 +105,7 @@ RenderPart empty_part(Identity identity, const RenderOptions& options, const Cam
             .stats = {}};
 }
 
-/// That `part` is one of this render: files may say so of films that are others.
+/// Checks that `part` is one of this render: files may claim so for films of others.
 void check_part(const RenderPart& part, const Identity& identity, const RenderOptions& options,
                 const CameraDesc& camera, const AovPass& aov_pass)
 {
@@ -142,7 +141,7 @@ RenderResult render(const Scene& scene, const CameraDesc& camera, const RenderOp
     return result_of(render_part(scene, camera, options, {}, control));
 }
 
-/// What the calls of a render have in common. It stays where it is: its members look at each other.
+/// State shared by the calls of a render. Not movable: its members refer to each other.
 class Renderer::Impl {
 public:
     Impl(const Scene& scene, const CameraDesc& camera_desc, const RenderOptions& asked)
@@ -159,13 +158,14 @@ public:
 
     [[nodiscard]] const RenderOptions& options() const { return options_; }
     [[nodiscard]] const RenderPart& part() const { return part_; }
-    /// Begins without samples. Films take memory, so that they are made once, by this or go_on().
+    /// Begins without samples. Films take memory, so that they are created once, by this or
+    /// go_on().
     void begin() { part_ = empty_part(identity_, options_, camera_desc_, *aov_pass_); }
-    /// Nothing is rendered afterwards before begin() or go_on().
+    /// Moves the part out. Nothing may be rendered afterwards before begin() or go_on().
     [[nodiscard]] RenderPart take() { return std::move(part_); }
     [[nodiscard]] double seconds() const { return seconds_; }
 
-    /// Goes on with `part` in place of what is here.
+    /// Continues with `part` in place of the current one.
     void go_on(RenderPart part)
     {
         check_part(part, identity_, options_, camera_desc_, *aov_pass_);
@@ -177,7 +177,7 @@ public:
         merge(part_, part);
     }
 
-    /// The least range of samples from the first one of which `count` are missing.
+    /// Returns the smallest range of samples from the first one that contains `count` missing ones.
     [[nodiscard]] SampleRange next(std::int64_t count) const
     {
         SampleRange range{.begin = options_.sampling.samples.begin,
@@ -189,7 +189,8 @@ public:
         return range;
     }
 
-    /// Renders what is missing of `wanted`. `start` is when the call began, for its limit of time.
+    /// Renders the missing samples of `wanted`. `start` is the start of the call, for its time
+    /// limit.
     std::optional<TimeProfile> run(SampleRange wanted_range, const RenderControl& control,
                                    std::chrono::steady_clock::time_point start, double cpu_start);
 
@@ -213,7 +214,7 @@ std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
                                                double cpu_start)
 {
     if (std::exchange(is_abandoned_, false)) {
-        begin();  // now, as whoever abandons a render may not go on with it
+        begin();  // now, as a caller that abandons a render may not continue it
     }
     Threads threads(options_.system.threads);
     std::optional<TimeRecorder> times;
@@ -262,7 +263,7 @@ std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
             control.on_part(part_);
         }
         pass_size_->learn(pass.end - pass.begin, seconds - before);
-        // What `on_part` took counts, too.
+        // Includes the time of `on_part`.
         if (control.stop.stop_requested() ||
             seconds_since(start) + pass_size_->seconds() > control.time_limit) {
             break;

@@ -19,14 +19,14 @@
 namespace bdpt {
 namespace {
 
-/// Independent of each other, so that their differences are noise.
+/// Number of independent groups of samples, whose differences are noise.
 constexpr int groups = 4;
 constexpr std::int64_t samples_of_group = rate_pilot_samples / groups;
 constexpr std::uint64_t pilot_seed = 0x6a09e667f3bcc908U;
-/// Within which all pixels cost the same [pixels].
+/// Side of tiles in which all pixels are assumed to have the same cost [pixels].
 constexpr int cost_side = 8;
 
-/// What the pilot renders with.
+/// Returns the options of the pilot.
 RenderOptions pilot_options(const RenderOptions& chosen)
 {
     RenderOptions options = chosen;
@@ -38,7 +38,7 @@ RenderOptions pilot_options(const RenderOptions& chosen)
     return options;
 }
 
-/// Sums over groups of samples.
+/// Accumulates sums over groups of samples.
 class PilotSums {
 public:
     explicit PilotSums(const RenderOptions& options)
@@ -52,7 +52,7 @@ public:
           means_(pixels_, 0.0)
     {}
 
-    /// Any thread may, one for each tile.
+    /// Adds the cost of a tile. Safe from any thread, one per tile.
     void add_cost(const Tile& tile, const RenderStats& stats)
     {
         const int pixels = (tile.x_end - tile.x_begin) * (tile.y_end - tile.y_begin);
@@ -65,7 +65,7 @@ public:
         }
     }
 
-    /// Number `group`, from 0 on.
+    /// Adds the samples of group number `group`, starting at 0.
     void add(const Film& film, int group)
     {
         const Image camera = film.develop_camera();

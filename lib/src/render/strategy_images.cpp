@@ -14,7 +14,8 @@
 namespace bdpt {
 namespace {
 
-/// Only a finite lens is hit; parallel rays see no point of a light directly.
+/// Tests whether the camera supports a strategy: only a finite lens can be hit, and s = t = 1 needs
+/// a perspective camera.
 bool camera_allows(const CameraDesc& camera, Strategy strategy)
 {
     const bool perspective = camera.projection == Projection::perspective;

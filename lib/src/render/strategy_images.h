@@ -7,12 +7,13 @@
 
 namespace bdpt {
 
-/// The strategies of a render that get images, shortest paths first, then by s: those that are used
-/// and that the camera allows, up to `strategy_depth`. `options` and `camera` have been checked.
+/// Returns the strategies of a render that get images, shortest paths first, then by s: those that
+/// are used and that the camera supports, up to `strategy_depth`. `options` and `camera` have been
+/// checked.
 [[nodiscard]] std::vector<Strategy> strategies_with_images(const RenderOptions& options,
                                                            const CameraDesc& camera);
 
-/// Throws `Error` (usage) when the images would take more than `strategy_memory`.
+/// Throws `Error` (usage) if the images would take more than `strategy_memory`.
 void check_strategy_memory(const RenderOptions& options, const CameraDesc& camera);
 
 }  // namespace bdpt

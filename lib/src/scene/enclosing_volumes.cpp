@@ -21,14 +21,13 @@
 namespace bdpt {
 namespace {
 
-/// No plane of a usual model holds one of them.
+/// Directions that lie in no plane of usual models.
 const std::array<Vec3, 3> probe_directions{normalize(Vec3{0.4231f, 0.8317f, -0.3589f}),
                                            normalize(Vec3{-0.7411f, 0.2203f, 0.6342f}),
                                            normalize(Vec3{0.1873f, -0.6011f, 0.7769f})};
-/// Triangles that are asked where their mesh lies.
+/// Number of triangles that are tested for where their mesh lies.
 constexpr std::size_t max_probes = 16;
-/// Surfaces along one ray, beyond which nobody wants to know: files that nobody trusts can have any
-/// number of them.
+/// Maximum number of surfaces along one ray: untrusted files can have any number of them.
 constexpr int max_crossings = 1024;
 
 Bounds bounds_of(const PlacedMesh& placed)
@@ -50,7 +49,7 @@ bool is_within(const Bounds& bounds, Vec3 p)
            p.x <= bounds.max.x && p.y <= bounds.max.y && p.z <= bounds.max.z;
 }
 
-/// Bounds of all that the bodies have, and a little more, so that rounding leaves nothing outside.
+/// Returns the bounds of all bodies, slightly enlarged for rounding.
 Bounds around(std::span<const std::size_t> bodies, std::span<const Bounds> bounds)
 {
     Bounds all = bounds[bodies.front()];
@@ -68,7 +67,7 @@ float volume(const Bounds& bounds)
     return size.x * size.y * size.z;
 }
 
-/// Behind a sphere in the way.
+/// Returns a point behind a sphere on the ray.
 Vec3 beyond(const Sphere& sphere, Ray ray)
 {
     constexpr float further = 1.00001f;
@@ -83,7 +82,7 @@ Vec3 beyond(const Sphere& sphere, Ray ray)
     return ray.origin;
 }
 
-/// A point just before the middle of a triangle; none where it has no area.
+/// Returns a point just in front of the centre of a triangle; nullopt if it has no area.
 std::optional<Vec3> before(const PlacedMesh& placed, std::uint32_t triangle)
 {
     const Vec3 normal = placed.area_normal(triangle, 0.0f);
@@ -95,8 +94,8 @@ std::optional<Vec3> before(const PlacedMesh& placed, std::uint32_t triangle)
     return offset_origin(middle.p, middle.error, normal / length, normal);
 }
 
-/// One of `count` triangles: each of a small mesh, else triangles that follow no pattern of the
-/// mesh. Equal steps would meet the same ring of a turned one all the time.
+/// Returns one of `count` triangles: each of a small mesh, else triangles in a pattern unrelated to
+/// the mesh. Equal steps would always hit the same ring of a surface of revolution.
 std::uint32_t probed(std::size_t probe, std::uint32_t count)
 {
     if (count <= max_probes) {
@@ -132,12 +131,12 @@ EnclosingVolumes::EnclosingVolumes(std::span<const PlacedMesh> placed,
                       [&](std::size_t body) { around_[body] = containing(instances_[body]); });
 }
 
-/// Those of `bodies` that a ray leaves more often than it enters.
+/// Returns those of `bodies` that a ray leaves more often than it enters.
 EnclosingVolumes::Set EnclosingVolumes::left_by(Vec3 origin, Vec3 direction,
                                                 const Set& bodies) const
 {
     const Bounds region = around(bodies, bounds_);
-    std::vector<int> balance(bodies.size(), 0);  // +1 each time that the ray leaves the body
+    std::vector<int> balance(bodies.size(), 0);  // +1 for each time the ray leaves the body
     Ray ray{.origin = origin, .direction = direction};
     for (int crossing = 0; crossing < max_crossings && is_within(region, ray.origin); ++crossing) {
         const auto hit = embree_.intersect(ray);
@@ -167,7 +166,7 @@ EnclosingVolumes::Set EnclosingVolumes::left_by(Vec3 origin, Vec3 direction,
     return result;
 }
 
-/// Those of `bodies` that contain the point, by vote.
+/// Returns those of `bodies` that contain the point, by vote.
 EnclosingVolumes::Set EnclosingVolumes::voted(Vec3 p, const Set& bodies) const
 {
     const Set first = left_by(p, probe_directions[0], bodies);
@@ -188,7 +187,7 @@ EnclosingVolumes::Set EnclosingVolumes::voted(Vec3 p, const Set& bodies) const
     return result;
 }
 
-/// Those of `bodies` that contain the point.
+/// Returns those of `bodies` that contain the point.
 EnclosingVolumes::Set EnclosingVolumes::containing(Vec3 p, Set bodies) const
 {
     std::erase_if(bodies, [&](std::size_t body) { return !is_within(bounds_[body], p); });
@@ -206,7 +205,7 @@ EnclosingVolumes::Set EnclosingVolumes::containing(Vec3 p, Set bodies) const
     return result;
 }
 
-/// The bodies that contain all of the instance, itself excepted.
+/// Returns the other bodies that contain all of the instance.
 EnclosingVolumes::Set EnclosingVolumes::containing(std::uint32_t instance) const
 {
     const PlacedMesh& mesh = placed_[instance];
@@ -223,7 +222,7 @@ EnclosingVolumes::Set EnclosingVolumes::containing(std::uint32_t instance) const
     return asked ? common : Set{};
 }
 
-/// That which lies in most others; of two the smaller one.
+/// Returns the body that lies in most others; among equals the smaller one.
 std::optional<std::uint32_t> EnclosingVolumes::innermost(const Set& bodies) const
 {
     if (bodies.empty()) {

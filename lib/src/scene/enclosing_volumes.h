@@ -14,31 +14,31 @@
 
 namespace bdpt {
 
-/// Nested dielectrics: the bodies of a scene that light passes through, and what lies within them.
-/// They are found by rays when the scene is built: a point is in a body when a ray from it leaves
-/// the body once more often than it enters. Of three rays two decide.
+/// Nested dielectrics: the transparent bodies of a scene, and their nesting. They are found by rays
+/// when the scene is built: a point is in a body if a ray from it leaves the body once more often
+/// than it enters. The majority of three rays decides.
 class EnclosingVolumes {
 public:
-    /// The most bodies whose nesting is examined: the work may grow with the square of their
-    /// number.
+    /// Maximum number of bodies whose nesting is examined: the work may grow with the square of
+    /// their number.
     static constexpr std::size_t most = 1024;
-    /// The most bodies that may lie one in the other: the work grows with that for each of them.
+    /// Maximum nesting depth: the work grows with it for each body.
     static constexpr std::size_t max_depth = 64;
 
-    /// `instances` are those whose meshes bound bodies, `most` of them. All else must outlive this,
-    /// but for `embree`, whose filter must only if it concerns any mesh.
-    /// Throws `Error` (invalid_input) if more than `max_depth` lie one in the other.
+    /// `instances` are those whose meshes bound bodies, `most` at most. All other arguments must
+    /// outlive this, except `embree`, whose filter must only if it concerns any mesh. Throws
+    /// `Error` (invalid_input) if more than `max_depth` bodies are nested.
     EnclosingVolumes(std::span<const PlacedMesh> placed, std::vector<std::uint32_t> instances,
                      std::span<const Sphere> spheres, const EmbreeScene& embree);
 
-    /// For each instance the innermost body that all of it lies within, itself excepted. It is
-    /// judged by points on its front all over the mesh.
+    /// Returns for each instance the innermost other body that contains all of it, determined by
+    /// points on its front all over the mesh.
     [[nodiscard]] std::vector<std::optional<std::uint32_t>> around_all() const;
-    /// The innermost body at a point that lies on no surface.
+    /// Returns the innermost body at a point that lies on no surface.
     [[nodiscard]] std::optional<std::uint32_t> at(Vec3 p) const;
 
 private:
-    /// Numbers of bodies in ascending order.
+    /// Sorted indices of bodies.
     using Set = std::vector<std::size_t>;
 
     [[nodiscard]] Set left_by(Vec3 origin, Vec3 direction, const Set& bodies) const;
@@ -53,8 +53,8 @@ private:
     std::vector<std::uint32_t> instances_;
     std::vector<std::optional<std::size_t>> volume_of_instance_;
     Set all_;
-    std::vector<Bounds> bounds_;  // by body
-    std::vector<Set> around_;     // by body: those that it lies in
+    std::vector<Bounds> bounds_;  // one per body
+    std::vector<Set> around_;     // for each body the bodies that contain it
 };
 
 }  // namespace bdpt

@@ -10,10 +10,10 @@
 namespace bdpt {
 namespace {
 
-/// From so many on a tree is worth the time that it takes; docs/decisions/0033 has the figures.
+/// Number of lights from which a tree is worth its time; docs/decisions/0033 has the figures.
 constexpr std::size_t many_lights = 4;
 
-/// What `desc` is as a surface, if it has one.
+/// Returns the sphere of a light, if it has one.
 std::optional<Sphere> sphere_of(const LightDesc& desc)
 {
     return std::visit(
@@ -98,8 +98,8 @@ LightSet::LightSet(std::span<const MaterialId> material_ids, std::span<const Pla
     }
     by_power_ = powers(lights_);
     next_event_ = NextEventLights(lights_);
-    // The power of light from infinity grows with the size of the scene, not with what it brings to
-    // a point: beside the sun a lamp in a large scene would never be chosen by power.
+    // The power of light from infinity grows with the size of the scene, not with its contribution
+    // to a point: besides the sun, a local light in a large scene would never be chosen by power.
     prefers_tree_ = next_event_.placed_count() >= many_lights || next_event_.has_both_kinds();
 }
 
@@ -114,7 +114,7 @@ std::optional<LightSet::Choice> LightSet::choose_for_emission(Vec2 u) const
 
 float LightSet::emission_probability(LightId id) const
 {
-    // Triangles may shine so little that no light has any power in the range of floats.
+    // Triangles may emit so little that no light has any power in the range of floats.
     return by_power_.empty() ? 0.0f : by_power_.probability(static_cast<std::uint32_t>(id));
 }
 

@@ -14,18 +14,18 @@
 
 namespace bdpt {
 
-/// The spheres that point and spot lights with a radius are, in their order; `lights` must outlive
-/// them.
+/// Returns the spheres of the point and spot lights that have a radius, in order; `lights` must
+/// outlive them.
 [[nodiscard]] std::vector<Sphere> light_spheres(std::span<const LightDesc> lights);
 
-/// All lights of a scene and how one of them is chosen. Starting a light path and next-event
-/// estimation are two choices with two densities: the first knows no receiver, the second does.
+/// All lights of a scene and the choice of one of them. Starting a light path and next-event
+/// estimation choose with two different densities: only the second depends on a receiver.
 class LightSet {
 public:
     using Choice = NextEventLights::Choice;
 
-    /// `placed[i]` is of material `material_ids[i]`, and `lights[i]` lies in `media[i]`. All but
-    /// these two lists of numbers must outlive this object.
+    /// `placed[i]` has material `material_ids[i]`, and `lights[i]` lies in `media[i]`. All
+    /// arguments but these two lists must outlive this object.
     LightSet(std::span<const MaterialId> material_ids, std::span<const PlacedMesh> placed,
              std::span<const Material> materials, std::span<const LightDesc> lights,
              std::span<const IntensityProfile> profiles, const BoundingSphere& bounds,
@@ -37,16 +37,16 @@ public:
         return lights_[static_cast<std::size_t>(id)];
     }
 
-    /// In proportion to power; nothing when no light has any.
+    /// Chooses a light in proportion to power; nullopt if no light has any.
     [[nodiscard]] std::optional<Choice> choose_for_emission(Vec2 u) const;
-    /// A light, and for a point on it the numbers that are left, uniform in [0, 1)^2.
+    /// A light, and the remaining random numbers for a point on it, uniform in [0, 1)^2.
     struct ChoiceAndNumbers {
         LightId id{};
         float probability = 0.0f;
         Vec2 u{0.0f};
     };
-    /// The same where there are so few lights that `u` can do for both; else `draw_fine()` gives
-    /// the number that chooses.
+    /// Chooses a light by `u` and reuses the remainder if there are few lights; otherwise by the
+    /// number from `draw_fine()`.
     template <typename DrawFine>
     [[nodiscard]] std::optional<ChoiceAndNumbers> choose_for_emission(
         Vec2 u, const DrawFine& draw_fine) const
@@ -65,18 +65,18 @@ public:
     }
     [[nodiscard]] float emission_probability(LightId id) const;
 
-    /// A point of a light, as next-event estimation samples it.
+    /// A point on a light sampled by next-event estimation.
     struct NextEvent {
         LightId light{};
-        float probability = 0.0f;  ///< of this light
-        /// Densities and weight are for the light given. Nothing where no light is found that can
-        /// shine at the receiver.
+        float probability = 0.0f;  ///< probability of this light
+        /// Densities and weight are conditional on the light. nullopt if no light that can
+        /// illuminate the receiver was found.
         std::optional<IncidentSample> incident;
 
-        /// What `next_event_pdf` tells of the point, if there is one.
+        /// Returns `next_event_pdf` of the point, if there is one.
         [[nodiscard]] AreaPdf pdf() const { return incident->pdf * probability; }
     };
-    /// `draw_fine()` as for emission.
+    /// Samples a point on a light. `draw_fine()` as for emission.
     template <typename DrawFine>
     [[nodiscard]] NextEvent sample_next_event(const LightSampleContext& receiver, Vec2 u,
                                               const DrawFine& draw_fine,
@@ -86,15 +86,15 @@ public:
         if (!choice) {
             return {};
         }
-        // Made in its place: a copy would take longer than the choice.
+        // Constructed in place: a copy would take longer than the choice.
         return {.light = choice->id,
                 .probability = choice->probability,
                 .incident = (*this)[choice->id].sample_incident(
                     with_visibility(receiver, choice->id, sampling), choice->u,
                     sampling.environments, time)};
     }
-    /// The density of next-event estimation at the receiver taking the point `x0` of light `id`; in
-    /// the measure of `IncidentSample::pdf`.
+    /// Returns the density with which next-event estimation at the receiver samples the point `x0`
+    /// on light `id`; in the measure of `IncidentSample::pdf`.
     [[nodiscard]] AreaPdf next_event_pdf(LightId id, const LightPoint& x0,
                                          const LightSampleContext& receiver,
                                          const NextEventSampling& sampling) const
@@ -104,14 +104,14 @@ public:
                context_probability(id, receiver, sampling.lights);
     }
 
-    /// The first half of it: a light for the receiver.
+    /// Chooses a light for the receiver, the first step of next-event estimation.
     [[nodiscard]] std::optional<Choice> choose_for_context(const LightSampleContext& receiver,
                                                            Vec2 u, LightSampling sampling) const
     {
         return uses_tree(sampling) ? next_event_.choose(receiver, fine_uniform(u))
                                    : choose_for_emission(u);
     }
-    /// The same, with numbers as for emission.
+    /// Chooses a light for the receiver and returns the remaining random numbers, as for emission.
     template <typename DrawFine>
     [[nodiscard]] std::optional<ChoiceAndNumbers> choose_for_context(
         const LightSampleContext& receiver, Vec2 u, const DrawFine& draw_fine,
@@ -124,42 +124,43 @@ public:
         return choice ? std::optional(ChoiceAndNumbers{choice->id, choice->probability, u})
                       : std::nullopt;
     }
-    /// One of the lights that have a place, by the tree, as if there were no others.
+    /// Chooses one of the lights with a position by the tree, as if there were no others.
     [[nodiscard]] std::optional<Choice> choose_placed(const LightSampleContext& receiver,
                                                       double u) const
     {
         return next_event_.choose_placed(receiver, u);
     }
-    /// Is there any that has power?
+    /// Tests whether any light with a position has power.
     [[nodiscard]] bool has_placed() const { return next_event_.placed_count() > 0; }
-    /// Of choosing light `id` so; positive if it can shine at the receiver.
+    /// Returns the probability of choosing light `id` for the receiver; positive if it can
+    /// illuminate the receiver.
     [[nodiscard]] float context_probability(LightId id, const LightSampleContext& receiver,
                                             LightSampling sampling) const
     {
         return uses_tree(sampling) ? next_event_.probability(id, receiver)
                                    : emission_probability(id);
     }
-    /// Is `automatic` the tree?
+    /// Tests whether lights are chosen by the tree, resolving `automatic`.
     [[nodiscard]] bool uses_tree(LightSampling sampling) const
     {
         return sampling == LightSampling::tree ||
                (sampling == LightSampling::automatic && prefers_tree_);
     }
 
-    /// The light that rays find which leave the scene.
+    /// Returns the light of rays that leave the scene.
     [[nodiscard]] std::optional<LightId> environment() const { return environment_; }
-    /// The light that a triangle is, if it is one.
+    /// Returns the light of an emissive triangle; nullopt for others.
     [[nodiscard]] std::optional<LightId> of_triangle(std::uint32_t instance,
                                                      std::uint32_t triangle) const;
-    /// The light that sphere `sphere` of `light_spheres` is.
+    /// Returns the light of sphere `sphere` of `light_spheres`.
     [[nodiscard]] LightId of_sphere(std::uint32_t sphere) const { return spheres_[sphere]; }
 
 private:
-    /// With so many a float has more than enough digits for a choice and a point.
+    /// Maximum number of lights for which one float has enough digits for a choice and a point.
     static constexpr std::size_t few_lights = 64;
 
-    /// The receiver, with what is visible from it if light `id` is an environment whose visibility
-    /// was learned.
+    /// Returns the receiver, with its learned visibility if light `id` is an environment that has
+    /// it.
     [[nodiscard]] LightSampleContext with_visibility(LightSampleContext receiver, LightId id,
                                                      const NextEventSampling& sampling) const
     {

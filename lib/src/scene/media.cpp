@@ -11,13 +11,13 @@
 namespace bdpt {
 namespace {
 
-/// The side of `end` that a ray in direction `w` leaves to.
+/// Returns the medium on the side of `end` towards which a ray in direction `w` leaves.
 MediumId medium_towards(const SegmentEnd& end, Vec3 w)
 {
     return dot(end.ng, w) < 0.0f ? end.media.behind : end.media.ahead;
 }
 
-/// Beer-Lambert.
+/// Returns the transmittance by the Beer-Lambert law.
 Rgb attenuate(Rgb optical_depth)
 {
     return {exp_exact(-optical_depth.r), exp_exact(-optical_depth.g), exp_exact(-optical_depth.b)};
@@ -37,7 +37,7 @@ MediumId Media::add(const Medium& medium)
     }
     const auto known = std::find(media_.begin() + 1, media_.end(), medium);
     const auto id = static_cast<MediumId>(known - media_.begin());
-    // Fog ends somewhere; a body that is filled with the same does not.
+    // Fog is bounded; a body filled with the same medium is not.
     if (known != media_.end() && id != fog_) {
         return id;
     }
@@ -134,7 +134,7 @@ std::optional<MediumEvent> Media::draw_event(const SegmentEnd& a, const SegmentE
     const int channel = std::min(static_cast<int>(3.0f * u.y), 2);
     const float extinction = (*this)[id].extinction[channel];
     const float way = -log_exact(1.0f - u.x);
-    // Not a quotient, which may be infinite.
+    // Avoids a ratio that may be infinite.
     if (!(way < extinction * (span.end - span.begin))) {
         return std::nullopt;
     }

@@ -12,9 +12,9 @@
 
 namespace bdpt {
 
-/// One of all lights, for a receiver: those at a place by a tree, and beside it each one at
-/// infinity. Between these, half of the choice is by power and half is even, for none of them can
-/// be told to be hidden from the receiver.
+/// Chooses a light for a receiver: lights with a position by a tree, or one of those at infinity.
+/// Among the tree and these, half of the probability is proportional to power and half is uniform,
+/// for none of them is known to be hidden from the receiver.
 class NextEventLights {
 public:
     struct Choice {
@@ -25,24 +25,24 @@ public:
     NextEventLights() = default;
     explicit NextEventLights(std::span<const Light> lights);
 
-    /// `u` in [0, 1). Nothing where no light can shine.
+    /// Chooses a light. `u` in [0, 1). nullopt if no light can illuminate the receiver.
     [[nodiscard]] std::optional<Choice> choose(const LightSampleContext& receiver,
                                                double u) const noexcept;
-    /// The same of those at a place alone.
+    /// Chooses among the lights with a position only.
     [[nodiscard]] std::optional<Choice> choose_placed(const LightSampleContext& receiver,
                                                       double u) const noexcept;
     [[nodiscard]] float probability(LightId id, const LightSampleContext& receiver) const noexcept;
 
-    /// Lights that have a place and power.
+    /// Returns the number of lights that have a position and power.
     [[nodiscard]] std::size_t placed_count() const noexcept { return placed_.size(); }
-    /// Are there lights at infinity beside them?
+    /// Tests whether there are both lights with a position and lights at infinity.
     [[nodiscard]] bool has_both_kinds() const noexcept
     {
         return !placed_.empty() && !infinite_.empty();
     }
 
 private:
-    /// Where a light is found: its number among those of its group.
+    /// Location of a light: its index within its group.
     struct Slot {
         enum class Group : std::uint8_t { none, placed, infinite };
         Group group = Group::none;
@@ -52,11 +52,11 @@ private:
     /// Sets the probabilities of the tree and of each light at infinity.
     void share_out(std::span<const float> infinite_powers, double placed_power);
 
-    std::vector<Slot> slots_;  ///< of each light
+    std::vector<Slot> slots_;  ///< one per light
     LightTree tree_;
-    std::vector<LightId> placed_;    ///< of the tree's numbers
-    std::vector<LightId> infinite_;  ///< of the table's numbers
-    AliasTable infinite_table_;      ///< one of those, if it is not the tree
+    std::vector<LightId> placed_;    ///< ids of the tree's indices
+    std::vector<LightId> infinite_;  ///< ids of the table's indices
+    AliasTable infinite_table_;      ///< chooses a light at infinity, if the tree is not chosen
     double placed_share_ = 0.0;      ///< probability of the tree
 };
 

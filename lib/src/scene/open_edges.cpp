@@ -9,7 +9,7 @@
 namespace bdpt {
 namespace {
 
-/// For each vertex the first one, in an order of places, that has its place.
+/// Returns for each vertex the first one, in a fixed order, at the same position.
 std::vector<std::uint32_t> welded(const std::vector<Vec3>& positions)
 {
     const auto place = [&](std::uint32_t i) {
@@ -30,7 +30,7 @@ std::vector<std::uint32_t> welded(const std::vector<Vec3>& positions)
 struct Edge {
     std::uint32_t low;
     std::uint32_t high;
-    int way;  ///< +1 from low to high
+    int way;  ///< +1 from the lower to the higher vertex
 };
 
 }  // namespace

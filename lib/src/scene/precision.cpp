@@ -28,15 +28,15 @@ MeshBox transformed(const MeshBox& box, const Mat4& m)
                     abs(Vec3(m[2])) * box.half.z};
 }
 
-/// An instance, and how inexact the points on it are.
+/// An instance, and the error of the points on it.
 struct Placed {
     std::size_t instance = 0;
     MeshBox box;
-    float distance = 0.0f;  ///< of its farthest point from the origin, in one coordinate [m]
+    float distance = 0.0f;  ///< maximum coordinate of its points [m]
     float error = 0.0f;     ///< [m]
 
     [[nodiscard]] float size() const { return 2.0f * greatest(box.half); }
-    /// All of it is near one plane along the axes.
+    /// Tests whether all of it is near one axis-aligned plane.
     [[nodiscard]] bool is_flat() const
     {
         return std::min({box.half.x, box.half.y, box.half.z}) < error;
@@ -84,11 +84,11 @@ std::string known_to(const Placed& placed)
 std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
                                             const SceneGeometry& geometry)
 {
-    constexpr float min_exact = 0.1f;  // of its size
+    constexpr float min_exact = 0.1f;  // fraction of its size
     std::vector<std::string> warnings;
     const std::vector<Placed> all = place(desc, geometry.boxes);
     const Placed* coarsest = nullptr;
-    const Placed* vaguest = nullptr;  // of those that are small
+    const Placed* vaguest = nullptr;  // the worst of those that are small
     std::size_t vague = 0;
     for (const Placed& placed : all) {
         if (placed.error > min_exact * placed.size()) {

@@ -7,9 +7,9 @@
 
 namespace bdpt {
 
-/// Where single precision is too coarse for a valid scene, one line each: meshes that are small for
-/// their distance from the origin, and lamps that are too near to a vast plane. `geometry` fits
-/// `desc`.
+/// Returns warnings about insufficient single precision in a valid scene, one line each: meshes
+/// that are small relative to their distance from the origin, and lights that are too near to a
+/// vast plane. `geometry` fits `desc`.
 [[nodiscard]] std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
                                                           const SceneGeometry& geometry);
 

@@ -11,7 +11,7 @@
 namespace bdpt {
 namespace {
 
-/// The number of the only item of that name; `kind` is for messages.
+/// Returns the index of the only item with that name; `kind` is for messages.
 template <typename T>
 std::size_t number_of(const SharedList<T>& list, std::string_view kind, std::string_view name)
 {

@@ -97,7 +97,7 @@ MeshDesc sphere_mesh(float radius, unsigned segments)
 
 CameraDesc look_at(Vec3 from, Vec3 to, float vertical_fov)
 {
-    // Nearer to the vertical than this, +y is no longer up in the image; -z is then.
+    // Closer to the vertical than this, -z is up in the image instead of +y.
     constexpr float vertical = 0.9999f;
     const Vec3 forward = to - from;
     if (!(glm::dot(forward, forward) > 0.0f)) {

@@ -54,7 +54,7 @@ Bounds bounds_of(std::span<const PlacedMesh> placed, std::span<const Sphere> sph
 BoundingSphere sphere_around(const Bounds& bounds)
 {
     const float radius = 0.5f * glm::length(bounds.max - bounds.min);
-    // A little more, so that rounding leaves no corner outside.
+    // Slightly enlarged for rounding.
     return {.center = 0.5f * (bounds.min + bounds.max),
             .radius = radius > 0.0f ? 1.0001f * radius : 1.0f};
 }

@@ -19,31 +19,31 @@ struct MeshBox {
     Vec3 half{0.0f};
 };
 
-/// What rays meet: meshes and spheres at their places, whatever they are made of. An edited scene
-/// shares it with the scene that it was made from, if these stay.
+/// Everything that rays hit: placed meshes and spheres, without materials. An edited scene shares
+/// it with the original scene if it is unchanged.
 struct SceneGeometry {
-    /// Of a valid description, without trees.
+    /// Constructs the geometry of a valid description, without BVHs.
     explicit SceneGeometry(const SharedSceneDesc& desc);
     SceneGeometry(const SceneGeometry&) = delete;
     SceneGeometry& operator=(const SceneGeometry&) = delete;
 
-    /// Would it be the same for `desc`, but for trees?
+    /// Tests whether the geometry of `desc` would be the same, apart from BVHs.
     [[nodiscard]] bool fits(const SharedSceneDesc& desc) const;
-    /// Makes the trees, and takes over those of meshes from `like` that did not change.
+    /// Builds the BVHs, and reuses those of unchanged meshes from `like`.
     void build(const AnyHitFilter& filter, Isa isa, const SceneGeometry* like);
 
-    // What the others refer to.
+    // Data that the other members refer to.
     SharedList<MeshDesc> meshes;
     SharedList<InstanceDesc> instances;
     SharedList<LightDesc> lights;
     SharedList<VolumeDesc> volumes;
 
-    std::vector<PlacedMesh> placed;  // by instance
+    std::vector<PlacedMesh> placed;  // one per instance
     std::vector<Sphere> spheres;
-    std::vector<std::optional<MeshBox>> boxes;  // by mesh; of those with triangles
+    std::vector<std::optional<MeshBox>> boxes;  // one per mesh; nullopt without triangles
     Bounds bounds;
     BoundingSphere sphere;
-    SceneCounts counts;  // lights left out
+    SceneCounts counts;  // excluding lights
     std::optional<EmbreeScene> trees;
 };
 

@@ -14,7 +14,8 @@
 namespace bdpt {
 namespace {
 
-/// Of all names that images show [bytes]: as JSON they still fit the header of a part's file.
+/// Maximum size of all names that images show [bytes]: as JSON they still fit the header of a
+/// part's file.
 constexpr std::size_t max_text_bytes = std::size_t{4} << 20;
 
 std::string name_or_place(const std::string& name, std::string_view kind, std::size_t index)

@@ -20,7 +20,7 @@ Volume::Volume(const VolumeDesc& desc)
       channel_shares_(max_extinction_ > 0.0f ? desc.extinction / max_extinction_ : Rgb(1.0f))
 {
     majorants_.resize(std::size_t{blocks_.x} * blocks_.y * blocks_.z);
-    // Between centres a density belongs to voxels on both sides.
+    // A density between centres affects the voxels on both sides.
     const auto blocks_of = [](std::uint32_t i, std::uint32_t count) {
         const std::uint32_t first = i == 0 ? 0 : (i - 1) / block;
         return UVec3(first, std::min((i + 1) / block, count - 1), 0);
@@ -86,7 +86,7 @@ template <typename Visit>
 void Volume::for_each_collision(Vec3 origin, Vec3 direction, float distance, VolumeNoise& noise,
                                 const Visit& visit) const noexcept
 {
-    // In blocks; t stays in metres.
+    // In units of blocks; t stays in metres.
     constexpr float per_block = 1.0f / static_cast<float>(block);
     const Vec3 o = per_block * Vec3(grid_from_world_ * Vec4(origin, 1.0f));
     const Vec3 d = per_block * Vec3(grid_from_world_ * Vec4(direction, 0.0f));
@@ -113,7 +113,7 @@ void Volume::for_each_collision(Vec3 origin, Vec3 direction, float distance, Vol
         cell[axis] = std::clamp(static_cast<int>(std::floor(entry[axis])), 0, last);
     }
     while (t < end) {
-        // Where the ray leaves the block, and across which side.
+        // Distance and side at which the ray leaves the block.
         int side = 0;
         float leave = std::numeric_limits<float>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
@@ -130,9 +130,8 @@ void Volume::for_each_collision(Vec3 origin, Vec3 direction, float distance, Vol
                                               blocks_.x +
                                           static_cast<std::size_t>(cell[0])];
         const float rate = majorant * max_extinction_;
-        // What is left to the next collision is as long whatever came before: each block draws
-        // anew.
-        // In double, for a step may be less than a float can tell so far from the origin.
+        // The distance to the next collision is memoryless, so each block draws it again. In
+        // double, as a step may be too small for a float so far from the origin.
         double at = static_cast<double>(t);
         while (rate > 0.0f) {
             at += static_cast<double>(-log_exact(1.0f - noise.next()) / rate);
@@ -172,13 +171,13 @@ Rgb Volume::relative_pass_probability(Vec3 origin, Vec3 direction, float distanc
 {
     Rgb probability(1.0f);
     for_each_collision(origin, direction, distance, noise, [&](const VolumeEvent& at, Rgb share) {
-        static_cast<void>(noise.next());  // what `draw_event` decides by
+        static_cast<void>(noise.next());  // the number that decides in `draw_event`
         if (at.distance >= distance) {
             return false;
         }
         probability *= max(1.0f - share, Rgb(0.0f));
-        probability /=
-            max_component(probability);  // or many of them would leave the range of floats
+        probability /= max_component(probability);  // otherwise the product of many would leave the
+                                                    // range of floats
         return true;
     });
     return probability;
@@ -187,7 +186,7 @@ Rgb Volume::relative_pass_probability(Vec3 origin, Vec3 direction, float distanc
 Rgb Volume::transmittance(Vec3 origin, Vec3 direction, float distance,
                           VolumeNoise noise) const noexcept
 {
-    constexpr float low = 0.1f;  // where one in two is ended, and the other counts twice
+    constexpr float low = 0.1f;  // below, Russian roulette with probability 1/2
     Rgb left(1.0f);
     for_each_collision(origin, direction, distance, noise, [&](const VolumeEvent&, Rgb share) {
         left *= max(1.0f - share, Rgb(0.0f));
@@ -211,7 +210,7 @@ Volumes::Volumes(std::span<const VolumeDesc> descs)
 VolumePassage Volumes::walk(Vec3 origin, Vec3 direction, float distance,
                             SegmentKey segment) const noexcept
 {
-    // A number of its own, beside those of the volumes.
+    // A random number independent of those of the volumes.
     const float u = VolumeNoise(segment, static_cast<std::uint32_t>(volumes_.size())).next();
     const int channel = std::min(static_cast<int>(3.0f * u), 2);
     VolumePassage passage;
@@ -232,7 +231,7 @@ VolumePassage Volumes::walk(Vec3 origin, Vec3 direction, float distance,
     return passage;
 }
 
-/// What gets through, over the mean of what the channels' walks make of it.
+/// Returns the transmittance over the mean of the channels' walk probabilities.
 Rgb Volumes::colour_weight(Vec3 origin, Vec3 direction, float distance,
                            const std::optional<VolumeEvent>& event,
                            SegmentKey segment) const noexcept

@@ -17,7 +17,7 @@
 namespace bdpt {
 namespace {
 
-/// Where a medium scatters a ray; `around`: the medium at that point.
+/// Constructs a scattering point of a medium or volume; `around` is the medium at that point.
 SurfacePoint scattering_point(Vec3 p, Vec3 direction, MediumId around,
                               const HenyeyGreenstein& phase)
 {
@@ -29,7 +29,7 @@ SurfacePoint scattering_point(Vec3 p, Vec3 direction, MediumId around,
     return point;
 }
 
-/// A type of its own, as that of a plain function would be visible from outside of the library.
+/// A type of its own, because the type of a plain function would be visible outside of the library.
 struct ForRowsAtOnce {
     void operator()(int count, const std::function<void(int, int)>& work) const
     {
@@ -86,7 +86,7 @@ bool World::is_passed(const AnyHit& crossing) const noexcept
 {
     const Material& material = material_of(crossing.instance);
     if (material.alpha_mode() == AlphaMode::opaque) {
-        return false;  // an instance of a mesh that others share
+        return false;  // instance of a shared mesh
     }
     const float opacity = material.opacity(
         texture_point(placed_[crossing.instance], crossing.triangle, crossing.barycentrics));
@@ -124,7 +124,7 @@ SurfacePoint World::surface_at(const RayHit& hit, Vec3 direction, SegmentKey seg
     return mesh_point(hit, direction, segment, pixel);
 }
 
-/// Spheres are lights: they emit from their outside and reflect nothing.
+/// Constructs a point on a sphere, which is a light: it emits on its outside and reflects nothing.
 SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) const noexcept
 {
     const LightId id = lights_->of_sphere(hit.sphere);
@@ -137,7 +137,7 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) 
     return result;
 }
 
-/// The BSDF where something varies over the surface: textures, vertex colours, tangents.
+/// Returns the BSDF of a surface that varies: textures, vertex colours, tangents.
 Bsdf World::varying_bsdf(const RayHit& hit, const ShadingNormals& normals, Vec3 wo,
                          SegmentKey segment, const PixelCone& pixel) const noexcept
 {
@@ -169,7 +169,7 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     const Material& material = material_of(hit.instance);
 
     const Vec3 wo = -direction;
-    // By components, which stay in registers.
+    // By components, to keep them in registers.
     const bool has_area = hit.at.ng != Vec3(0.0f);
     const Vec3 ng(has_area ? hit.at.ng.x : wo.x, has_area ? hit.at.ng.y : wo.y,
                   has_area ? hit.at.ng.z : wo.z);
@@ -234,13 +234,13 @@ SurfacePoint World::volume_point(const SegmentEnd& from, Vec3 direction, const V
 std::optional<SegmentTransmission> World::transmission(const SegmentEnd& a, const SegmentEnd& b,
                                                        SegmentKey segment) const noexcept
 {
-    // Both ends are moved to their own side of their surfaces, so the whole segment between them is
-    // tested; the factor only keeps rounding of the end from reaching through.
+    // Both ends are offset to their own side of their surfaces, so the whole segment between them
+    // is tested; the factor only keeps the ray from reaching beyond the end by rounding.
     constexpr float short_of_end = 1.0f - 8.0f * std::numeric_limits<float>::epsilon();
     const Vec3 to_b = b.p - a.p;
     const Vec3 origin = offset_origin(a.p, a.error, a.ng, to_b);
     const Vec3 target = offset_origin(b.p, b.error, b.ng, -to_b);
-    // Spheres only emit, so at most one end is on one, where light leaves it.
+    // Spheres only emit, so at most one end is on a sphere, where light leaves it.
     if (embree_->occluded({.origin = origin,
                            .direction = target - origin,
                            .t_max = short_of_end,

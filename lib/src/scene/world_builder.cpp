@@ -36,20 +36,20 @@ bool light_moves(const LightDesc& light)
         light);
 }
 
-/// Is its boundary rough, so that microfacets mask a part of the light?
+/// Tests whether the boundary is rough, so that microfacets mask a part of the light.
 bool is_rough(const MaterialDesc& desc)
 {
     return desc.roughness > 0.0f || desc.anisotropy.strength != 0.0f ||
            desc.glossiness_texture.has_value();
 }
 
-/// The keys of the tables of red, green and blue.
+/// Returns the keys of the tables of red, green and blue.
 std::array<std::pair<float, SpecularAlbedo::Below>, 3> albedo_keys(const MaterialDesc& desc,
                                                                    const Exterior& exterior)
 {
     const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
     const bool is_transparent = desc.transmission > 0.0f && desc.thickness > 0.0f;
-    // A smooth boundary loses nothing, and the table of what is lost takes longest to make.
+    // A smooth boundary loses nothing, and the table of losses takes longest to compute.
     const auto below = is_transparent && is_rough(desc) ? SpecularAlbedo::Below::transparent_body
                                                         : SpecularAlbedo::Below::base;
     return {{{red, below}, {green, below}, {blue, below}}};
@@ -82,7 +82,7 @@ void WorldBuilder::build(Isa isa)
     add_lights();
 }
 
-/// Takes over the trees of the scene that it is like, if rays meet the same there.
+/// Reuses the BVHs of `like_` if the geometry and its filter are the same.
 void WorldBuilder::build_trees(Isa isa)
 {
     World& w = world_;
@@ -126,7 +126,7 @@ void WorldBuilder::add_materials()
     }
 }
 
-/// Does the scene that it is like have that material, but for its name?
+/// Tests whether `like_` has the same material, apart from its name.
 bool WorldBuilder::is_known(std::size_t material) const
 {
     const SharedSceneDesc& desc = world_.desc_;
@@ -137,7 +137,7 @@ bool WorldBuilder::is_known(std::size_t material) const
            (!has_layers(desc.materials[material]) || world_.layer_tables_ == like_->layer_tables_);
 }
 
-/// `number`: of its description.
+/// Adds a material; `number` is the index of its description.
 void WorldBuilder::add_material(std::size_t number, const Exterior& exterior)
 {
     World& w = world_;
@@ -178,7 +178,7 @@ ChannelAlbedos WorldBuilder::albedos_of(const MaterialDesc& desc, const Exterior
     return {albedo_of(red), albedo_of(green), albedo_of(blue)};
 }
 
-/// Makes the tables of all materials in this surrounding in parallel: each takes milliseconds.
+/// Computes the tables of all materials in this exterior in parallel: each takes milliseconds.
 void WorldBuilder::make_albedos(const Exterior& exterior)
 {
     std::vector<World::AlbedoKey> missing;
@@ -199,7 +199,7 @@ void WorldBuilder::make_albedos(const Exterior& exterior)
     }
 }
 
-/// The table of this scene or of the scene that it was edited from; null if neither has it.
+/// Returns the table of this scene or of the scene that it was edited from; null if neither has it.
 std::shared_ptr<const SpecularAlbedo> WorldBuilder::known_albedo(const World::AlbedoKey& key) const
 {
     for (const World* world : {static_cast<const World*>(&world_), like_}) {
@@ -221,7 +221,8 @@ const SpecularAlbedo& WorldBuilder::albedo_of(const World::AlbedoKey& key)
     return *world_.albedos_.emplace(key, std::move(albedo)).first->second;
 }
 
-/// What is around each light; around those at infinity, where their rays enter the scene.
+/// Returns the medium around each light; for those at infinity, the one where their rays enter the
+/// scene.
 std::vector<MediumId> WorldBuilder::media_around(const SharedList<LightDesc>& lights) const
 {
     std::vector<MediumId> media;
@@ -238,8 +239,8 @@ std::vector<MediumId> WorldBuilder::media_around(const SharedList<LightDesc>& li
     return media;
 }
 
-/// Do triangles emit the same light as in the scene that it is like, whose lights then refer to
-/// materials and places that are still there?
+/// Tests whether triangles emit the same light as in `like_`, whose lights then refer to materials
+/// and meshes that still exist.
 bool WorldBuilder::emission_stays() const
 {
     const World& w = world_;

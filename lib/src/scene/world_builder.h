@@ -10,17 +10,17 @@
 
 namespace bdpt {
 
-/// Fills in a world whose description is set: everything that is done once, before the first ray.
+/// Builds a world whose description is set: everything that happens once, before the first ray.
 class WorldBuilder {
 public:
-    /// `like`, if any, is a world from which all is taken over that stays the same.
+    /// Reuses the unchanged parts of `like`, if it is not null.
     WorldBuilder(World& world, const World* like) : world_(world), like_(like) {}
 
-    /// Throws `Error`: invalid_input, or what `EmbreeScene` throws.
+    /// Throws `Error`: invalid_input, or errors of `EmbreeScene`.
     void build(Isa isa);
 
 private:
-    /// Is a list that of the world that it is like?
+    /// Tests whether `like_` shares this list of the description.
     template <typename T>
     [[nodiscard]] bool is_shared(SharedList<T> SharedSceneDesc::*list) const
     {
@@ -44,19 +44,21 @@ private:
     [[nodiscard]] std::vector<MediumId> media_around(const SharedList<LightDesc>& lights) const;
 
     void find_enclosing_volumes();
-    /// Those of bodies that light passes through.
+    /// Returns the instances of transparent bodies.
     [[nodiscard]] std::vector<std::uint32_t> body_instances() const;
     [[nodiscard]] std::shared_ptr<const World::Bodies> bodies_of(
         std::vector<std::uint32_t> instances) const;
     void warn_of_open_volumes();
-    /// `around`: for each instance the one that it lies within, if any.
+    /// Adds materials by their surroundings. `around` holds for each instance the one that contains
+    /// it, if any.
     void give_surroundings(const std::vector<std::optional<std::uint32_t>>& around);
 
     World& world_;
     const World* like_;
-    std::shared_ptr<SceneGeometry> own_geometry_;  // null as long as it is that of `like_`
-    std::vector<bool> is_known_desc_;              // descriptions of materials: as in `like_`
-    std::vector<bool> is_kept_;                    // materials: with the same number
+    std::shared_ptr<SceneGeometry> own_geometry_;  // null if the geometry is that of `like_`
+    std::vector<bool> is_known_desc_;              // by material description: unchanged since
+                                                   // `like_`
+    std::vector<bool> is_kept_;                    // by material: unchanged, with the same index
 };
 
 }  // namespace bdpt

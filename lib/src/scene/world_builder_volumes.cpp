@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-// The part of WorldBuilder that looks for bodies in bodies.
+// The part of WorldBuilder that finds nested bodies.
 
 namespace bdpt {
 
@@ -39,7 +39,7 @@ void WorldBuilder::find_enclosing_volumes()
     }
 }
 
-/// Those of the world that it is like, if they are the same and no ray passes anything by chance.
+/// Returns the bodies of `like_`, if they are the same and no ray passes surfaces at random.
 std::shared_ptr<const World::Bodies> WorldBuilder::bodies_of(
     std::vector<std::uint32_t> instances) const
 {
@@ -58,8 +58,8 @@ std::shared_ptr<const World::Bodies> WorldBuilder::bodies_of(
     return bodies;
 }
 
-/// Instances within a body get a material of their own, for what is around them is a fact of theirs
-/// that does not change: no walk needs to remember where it has been.
+/// Instances within a body get a material of their own, as their surroundings are constant: no walk
+/// needs to keep track of enclosing bodies.
 void WorldBuilder::give_surroundings(const std::vector<std::optional<std::uint32_t>>& around)
 {
     const SharedSceneDesc& scene = world_.desc_;

@@ -11,7 +11,7 @@
 namespace bdpt {
 namespace {
 
-/// The texels of a row or column that a texel of the copy covers, with their shares.
+/// The texels of a row or column that a texel of the copy covers, with their weights.
 struct Taps {
     int first = 0;
     int count = 0;
@@ -36,7 +36,7 @@ struct Taps {
     return all;
 }
 
-/// The integer of a table that grows whose value is nearest.
+/// Returns the index of the nearest value in an ascending table.
 [[nodiscard]] std::size_t nearest(const float* table, std::size_t count, float value)
 {
     const auto above =
@@ -97,7 +97,7 @@ TexelImage half_size(const TexelImage& image, Encoding encoding, const ForRows& 
                          row_length * static_cast<std::size_t>(copy.height) * texel_bytes);
     const std::vector<Taps> columns = make_taps(image.width, copy.width);
     const std::vector<Taps> rows = make_taps(image.height, copy.height);
-    // What is above 1 stays so: what it counts as is decided when it is looked up.
+    // Values above 1 are kept: lookups decide how they are clamped.
     const TexelCoding coding{.table = coding_of(image.type, encoding).table,
                              .most = coding_of(image.type, Encoding::radiance).most};
     const float* curve = encoding == Encoding::linear ? nullptr : coding.table;

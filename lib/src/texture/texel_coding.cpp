@@ -34,7 +34,7 @@ using Table16 = std::array<float, 65536>;
 constexpr Table8 linear_table = make_linear();
 constexpr Table8 srgb_table = make_srgb();
 
-/// Too long for compilers to work out; few scenes need it.
+/// Returns the table, computed at run time: it takes compilers too long, and few scenes need it.
 [[nodiscard]] const Table16& srgb_table_16()
 {
     static const std::unique_ptr<const Table16> table = [] {

@@ -6,23 +6,23 @@
 
 namespace bdpt {
 
-/// How the red, green and blue of an image are stored; alpha is always linear.
+/// Encoding of an image's red, green and blue; alpha is always linear.
 enum class Encoding : std::uint8_t {
     linear,
-    srgb,      ///< integers are; halves and floats are linear
-    radiance,  ///< the same, and halves and floats may be above 1
+    srgb,      ///< sRGB integers; halves and floats are linear
+    radiance,  ///< as `srgb`, and halves and floats may exceed 1
 };
 
-/// What stored values mean.
+/// Decoding of stored values.
 struct TexelCoding {
-    const float* table = nullptr;  ///< of each integer; null: linear 16 bits, or not integers
-    float most = 1.0f;             ///< greater halves and floats count as this
+    const float* table = nullptr;  ///< decoded integers; null: linear 16 bits, or not integers
+    float most = 1.0f;             ///< upper bound to which halves and floats are clamped
 };
 
-/// Tables stay valid until the end of the process.
+/// Returns the decoding of a type. Tables stay valid until the end of the process.
 [[nodiscard]] TexelCoding coding_of(TexelType type, Encoding encoding);
 
-/// Of 8-bit values that are linear, such as alpha.
+/// Returns the table of linear 8-bit values, such as alpha.
 [[nodiscard]] const float* linear_table_8() noexcept;
 
 }  // namespace bdpt

@@ -12,7 +12,7 @@
 namespace bdpt {
 namespace {
 
-/// The two texels that a coordinate lies between, and how far it is from the first.
+/// The two texels adjacent to a coordinate, and the fraction between them.
 struct Span {
     int first;
     int second;
@@ -49,9 +49,10 @@ struct Span {
 
 }  // namespace
 
-// KHR_texture_transform scales first, then rotates, then offsets. It turns the coordinates counter-
-// clockwise as seen on the image, whose v points down: its example of the lower left quadrant and
-// Khronos's TextureTransformTest agree on that, while the signs in its GLSL listing do not.
+// KHR_texture_transform scales first, then rotates, then offsets. It rotates the coordinates
+// counter-clockwise as seen on the image, whose v points down: its example of the lower left
+// quadrant and Khronos's TextureTransformTest agree on that, while the signs in its GLSL listing do
+// not.
 Texture::Texture(const TextureRef& ref, const TexelImage& image, Encoding encoding,
                  std::span<const TexelImage> coarser)
     : image_(&image),
@@ -84,7 +85,7 @@ const TexelImage& Texture::level(const UvFootprint& footprint) const noexcept
     const Vec2 size(image_->width, image_->height);
     const Vec2 along = (pixel.along.x * u_axis_ + pixel.along.y * v_axis_) * size;
     const Vec2 across = (pixel.across.x * u_axis_ + pixel.across.y * v_axis_) * size;
-    // The smaller singular value, squared, of the matrix with these columns: the footprint's
+    // The squared smaller singular value of the matrix with these columns: the footprint's
     // narrowest width in texels.
     const float sum = dot(along, along) + dot(across, across);
     const float area = along.x * across.y - along.y * across.x;
@@ -92,7 +93,7 @@ const TexelImage& Texture::level(const UvFootprint& footprint) const noexcept
     const float width_squared = 2.0f * area * area / (sum + root);
     constexpr float two_levels = 16.0f;  // four texels: two of the next level, half of the width
     if (!(width_squared >= two_levels)) {
-        return *image_;  // also where coordinates do not change, or not finitely
+        return *image_;  // also if coordinates do not change, or not finitely
     }
     const int exponent = static_cast<int>(std::bit_cast<std::uint32_t>(width_squared) >> 23U) - 127;
     const auto halvings = static_cast<std::size_t>(exponent / 2 - 1);

@@ -15,41 +15,41 @@
 
 namespace bdpt {
 
-/// An image as one material slot sees it: transform, wrap modes, decoding, bilinear filter. Refers
+/// An image as used by one material slot: transform, wrap modes, decoding, bilinear filter. Refers
 /// to the image, which must outlive it and have at least one texel.
 class Texture {
 public:
-    /// `coarser`: copies of the image, each half as wide as the one before, for lookups with a
+    /// `coarser` holds copies of the image, each half as wide as the one before, for lookups with a
     /// footprint; may be empty.
     Texture(const TextureRef& ref, const TexelImage& image, Encoding encoding,
             std::span<const TexelImage> coarser = {});
 
-    /// Linear RGBA in [0, 1], radiance of any size, at the surface's own coordinates. (0, 0) is the
-    /// image's upper left corner and v grows downwards; texel centres lie at (i + 0.5) / size;
-    /// texels are decoded before they are mixed. A coordinate that is not finite or beyond 4e6
-    /// counts as 0.
+    /// Returns linear RGBA in [0, 1], radiance of any size, at the surface's own coordinates. (0,
+    /// 0) is the image's upper left corner and v grows downwards; texel centres lie at (i + 0.5) /
+    /// size; texels are decoded before they are interpolated. A coordinate that is not finite or
+    /// beyond 4e6 counts as 0.
     [[nodiscard]] Vec4 lookup(const std::array<Vec2, 2>& uv) const noexcept
     {
         return bilinear(*image_, uv);
     }
-    /// The same in the coarsest copy whose texels are at most half as wide as the footprint is
-    /// where it is narrowest. Null is a footprint without extent.
+    /// Looks up the coarsest copy whose texels are at most half as wide as the footprint in its
+    /// narrowest direction. Null is a footprint without extent.
     [[nodiscard]] Vec4 lookup(const std::array<Vec2, 2>& uv,
                               const UvFootprint* footprint) const noexcept
     {
         return bilinear(footprint == nullptr || coarser_.empty() ? *image_ : level(*footprint), uv);
     }
 
-    /// Where `lookup` looks, in texels of the image repeated without end.
+    /// Returns the position of a `lookup`, in texels of the infinitely repeated image.
     [[nodiscard]] Vec2 texel_position(const std::array<Vec2, 2>& uv) const noexcept;
 
-    /// Average over the whole image.
+    /// Returns the average over the whole image.
     [[nodiscard]] Vec4 mean() const;
 
-    /// The least and the greatest alpha of the image.
+    /// Returns the minimum and maximum alpha of the image.
     [[nodiscard]] std::pair<float, float> alpha_range() const;
 
-    /// 0 or 1
+    /// Returns 0 or 1.
     [[nodiscard]] int uv_set() const noexcept { return uv_set_; }
 
 private:
@@ -71,7 +71,7 @@ private:
     Vec2 offset_;
 };
 
-/// The images of a scene, and their smaller copies if there are to be any. Refers to both.
+/// The images of a scene, and optionally their smaller copies. Refers to both.
 struct TextureImages {
     TextureImages() = default;
     TextureImages(std::span<const TexelImage> all, MipMaps* copies = nullptr)
@@ -81,14 +81,14 @@ struct TextureImages {
         : images(all), mip_maps(copies)
     {}
 
-    /// Without the copies.
+    /// Returns the images without the copies.
     [[nodiscard]] TextureImages at_full_size() const { return {images}; }
 
     std::span<const TexelImage> images;
     MipMaps* mip_maps = nullptr;
 };
 
-/// The texture of a slot, if it has one.
+/// Returns the texture of a slot, if it has one.
 [[nodiscard]] inline std::optional<Texture> make_texture(const std::optional<TextureRef>& ref,
                                                          const TextureImages& texture_images,
                                                          Encoding encoding)

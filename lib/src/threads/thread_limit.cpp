@@ -17,7 +17,7 @@
 namespace bdpt {
 namespace {
 
-/// How many more threads can be started, `wanted` at most.
+/// Returns the number of additional threads that can be started, at most `wanted`.
 int startable_threads(int wanted)
 {
     std::vector<std::thread> threads;
@@ -28,9 +28,9 @@ int startable_threads(int wanted)
             threads.emplace_back([&end] { end.wait(); });
         }
     } catch (const std::system_error&) {
-        // So this is the limit.
+        // The thread limit has been reached.
     } catch (const std::bad_alloc&) {
-        // There is no room for another stack.
+        // There is no memory for another stack.
     }
     end.count_down();
     for (std::thread& thread : threads) {
@@ -39,11 +39,11 @@ int startable_threads(int wanted)
     return static_cast<int>(threads.size());
 }
 
-/// What is known so far.
+/// Limits known so far.
 struct Knowledge {
     std::mutex mutex;
-    int possible = 1;  ///< threads that there can be
-    int refused = 0;   ///< that were more than there can be
+    int possible = 1;  ///< maximum number of threads
+    int refused = 0;   ///< number of threads that was refused
     std::optional<tbb::global_control> limit;
 };
 
@@ -53,7 +53,8 @@ Knowledge& knowledge()
     return result;
 }
 
-/// For a process that reads volumes, which takes five, and for a thread that talks to a viewer.
+/// Reserve for a process that reads volumes, which takes five threads, and for a thread that
+/// communicates with a viewer.
 constexpr int spared_threads = 6;
 
 }  // namespace
@@ -74,7 +75,7 @@ ThreadLimit limit_threads(int wanted)
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
         }
     }
-    // Within a limit arenas are no larger than that, so they do not tell what was wanted.
+    // Within a limit arenas are no larger than it, so their size does not tell the wanted number.
     const bool limited = wanted == 0 && threads >= known.possible;
     return {.wanted = limited ? std::max(threads, known.refused) : threads,
             .allowed = std::min(threads, known.possible)};

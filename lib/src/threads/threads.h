@@ -13,8 +13,8 @@ namespace bdpt {
 /// The threads of one render.
 class Threads {
 public:
-    /// `wanted` 0: those that the caller's thread would use for any work with oneTBB. That makes no
-    /// arena, and before version 2021.9 oneTBB frees arenas late when they come in quick
+    /// `wanted` 0 uses the threads that oneTBB would give to the calling thread. That creates no
+    /// arena; before version 2021.9 oneTBB frees arenas late when they are created in quick
     /// succession.
     explicit Threads(int wanted)
     {
@@ -22,15 +22,15 @@ public:
         if (wanted == 0) {
             return;
         }
-        // More than there are processors must be allowed. The least of all allowances counts in a
-        // process, so nobody takes one that is not needed.
+        // More threads than processors must be allowed explicitly. The smallest allowance in a
+        // process applies, so none is created without need.
         if (wanted > allowed()) {
             allowance_.emplace(parallelism, static_cast<std::size_t>(wanted));
         }
         arena_.emplace(std::min(wanted, allowed()));
     }
 
-    /// Does `work`, and nothing else that the calling thread may have to do.
+    /// Runs `work`, and no other tasks of the calling thread.
     template <typename Work>
     void execute(const Work& work)
     {

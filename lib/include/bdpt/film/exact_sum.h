@@ -7,16 +7,16 @@
 
 namespace bdpt {
 
-/// A sum of floats of both signs that does not depend on their order: a 128-bit fixed-point number
+/// A sum of floats of both signs that is independent of their order: a 128-bit fixed-point number
 /// in two's complement, made of two atomic words, the low one with unit 2^-60. A carry out of the
-/// low word is added to the high one; both additions commute and wrap around, so any interleaving
+/// low word is added to the high word; both additions commute and wrap around, so any interleaving
 /// of threads gives the same bits.
 class BDPT_EXPORT ExactSum {
 public:
-    /// Largest magnitude that may be added. The sum is right below 2^67: 2^25 times this.
+    /// Largest magnitude that may be added. The sum is correct below 2^67: 2^25 times this value.
     static constexpr float max_value = 0x1p42f;
 
-    /// The 128-bit number in multiples of 2^-60, in two's complement. Adding two wraps around.
+    /// The 128-bit number in multiples of 2^-60, in two's complement. Addition wraps around.
     struct Words {
         std::uint64_t low = 0;
         std::uint64_t high = 0;
@@ -34,11 +34,11 @@ public:
     ExactSum(const ExactSum& other) noexcept { *this = other; }
     ExactSum& operator=(const ExactSum& other) noexcept;
 
-    /// The magnitude of `value` is at most `max_value`. Safe from any thread.
+    /// Adds `value`, whose magnitude is at most `max_value`. Safe from any thread.
     void add(float value) noexcept;
-    /// The same, several times faster, while no other thread adds.
+    /// Adds `value` several times faster, while no other thread adds.
     void add_alone(float value) noexcept;
-    /// Not safe while other threads add.
+    /// Adds another sum. Not safe while other threads add.
     void add(const ExactSum& other) noexcept { add(other.words()); }
     void add(const Words& words) noexcept;
     [[nodiscard]] Words words() const noexcept

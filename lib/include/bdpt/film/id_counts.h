@@ -9,15 +9,15 @@
 
 namespace bdpt {
 
-/// How many camera rays of a pixel met an id.
+/// Number of camera rays of a pixel that hit an id.
 struct IdCount {
     NameId id = NameId::none;
     std::uint32_t count = 0;
     [[nodiscard]] bool operator==(const IdCount&) const = default;
 };
 
-/// Those of one pixel, as many as there are: in the order of ids, whatever the order was in which
-/// they came. Most pixels have one id, which takes no memory elsewhere.
+/// The id counts of one pixel, unlimited in number, sorted by id whatever the order in which they
+/// were added. Most pixels have one id, which needs no heap memory.
 class BDPT_EXPORT IdCounts {
 public:
     [[nodiscard]] std::size_t size() const { return first_.count > 0 ? 1 + more_.size() : 0; }
@@ -26,7 +26,7 @@ public:
         return i == 0 ? first_ : more_[i - 1];
     }
 
-    /// Adds `count` rays, 1 or more, that met `id`.
+    /// Adds `count` rays, 1 or more, that hit `id`.
     void add(NameId id, std::uint32_t count);
 
     [[nodiscard]] bool operator==(const IdCounts&) const = default;

@@ -21,65 +21,65 @@ namespace bdpt {
 /// The kinds of things that have ids.
 enum class IdKind : std::uint8_t { object, material };
 
-/// All of them; what there is of each kind has this order.
+/// All kinds; arrays with one element per kind use this order.
 inline constexpr std::array id_kinds{IdKind::object, IdKind::material};
 
 /// The AOV of each kind.
 inline constexpr std::array id_aovs{Aov::object, Aov::material};
 
-/// The names that may be met, of each kind, in the order of their bytes, each once.
+/// For each kind, the names that rays may hit, sorted by their bytes, without duplicates.
 using IdNames = std::array<std::vector<NamedId>, id_kinds.size()>;
 
-/// The greatest number of ids that a pixel has, of each kind.
+/// For each kind, the largest number of ids in any pixel.
 using IdRanks = std::array<std::size_t, id_kinds.size()>;
 
-/// The names behind the ids of layers.
+/// The names behind the ids of a group of layers.
 struct IdManifest {
-    std::string layer;  ///< "CryptoObject"; those layers add a number to it
+    std::string layer;  ///< "CryptoObject"; the layers append a number to it
     std::vector<NamedId> names;
 };
 
-/// Counts of the objects and materials that camera rays meet first: numbers without order, exact,
-/// as many ids a pixel as there are.
+/// Counts of the objects and materials that camera rays hit first. The counts are exact,
+/// independent of order, and unlimited in the number of ids per pixel.
 class BDPT_EXPORT IdFilm {
 public:
     IdFilm() = default;
-    /// `aovs` say which kinds are counted.
+    /// Counts the kinds that `aovs` request.
     IdFilm(const PixelRect& region, AovSet aovs, IdNames names);
 
-    /// How many ids of a pixel are in its layers: those that most rays met.
+    /// Number of ids per pixel that the layers store: those with the most hits.
     static constexpr std::size_t levels = 6;
 
     [[nodiscard]] const PixelRect& region() const { return region_; }
     [[nodiscard]] const IdNames& names() const { return names_; }
-    /// Is there anything to count?
+    /// Tests whether there is anything to count.
     [[nodiscard]] bool needs_hits() const;
 
-    /// Adds rays of pixel (x, y) in the region: what those met that met a surface; changes their
-    /// order. Safe from any thread, one thread a pixel.
+    /// Adds rays of pixel (x, y) in the region: `met` holds the ids of those that hit a surface;
+    /// its order changes. Safe from any thread, as long as one thread at a time adds to a pixel.
     void add(int x, int y, std::span<SurfaceIds> met);
 
-    /// Adds the rays of other samples. Throws `Error` (usage) when regions or names differ.
+    /// Adds the rays of other samples. Throws `Error` (usage) if regions or names differ.
     void merge(const IdFilm& other);
 
-    /// Cryptomatte layers of what was asked for [Cryptomatte specification 1.2.0]: CryptoObject00
-    /// to 02, CryptoMaterial00 to 02, each with two ids (r, b) and the shares of all samples that
-    /// met them (g, a). The greatest share comes first; of equal ones the lesser id. `film` is that
-    /// of the same samples; throws `Error` (usage) when its region is another.
+    /// Returns the Cryptomatte layers of the requested kinds [Cryptomatte specification 1.2.0]:
+    /// CryptoObject00 to 02, CryptoMaterial00 to 02, each with two ids (r, b) and the fractions of
+    /// all samples that hit them (g, a). Ids are sorted by descending fraction, ties by ascending
+    /// id. `film` must hold the same samples; throws `Error` (usage) if its region differs.
     [[nodiscard]] std::vector<Layer> develop(const Film& film) const;
-    /// The manifests of these layers. They include names that no ray has met.
+    /// Returns the manifests of these layers. They include names that no ray has hit.
     [[nodiscard]] std::vector<IdManifest> manifests() const;
 
-    // For files: a plane for each rank of a kind, with the rank-th id (high) of every pixel, in the
-    // order of ids, and its count (low); zeros where the pixel has fewer.
+    // Access for files: each rank of a kind is a plane that holds the rank-th id (high) of every
+    // pixel, in the order of ids, and its count (low); zeros where the pixel has fewer ids.
     [[nodiscard]] IdRanks ranks() const;
     void read_row(IdKind kind, std::size_t rank, int row, std::span<ExactSum::Words> words) const;
-    /// `planes`: that row of one rank after the other; counts of a pixel add up to `samples` at
-    /// most. Throws `Error` (invalid_input) for what no film has.
+    /// Adds a row. `planes` holds that row of one rank after the other; the counts of a pixel add
+    /// up to at most `samples`. Throws `Error` (invalid_input) for values that no film can have.
     void add_row(IdKind kind, int row, std::span<const ExactSum::Words> planes,
                  std::int64_t samples);
 
-    /// Equal to the bit.
+    /// Tests for bit equality.
     [[nodiscard]] bool operator==(const IdFilm& other) const = default;
 
 private:
@@ -87,8 +87,8 @@ private:
 
     PixelRect region_;
     IdNames names_;
-    std::array<std::vector<NameId>, id_kinds.size()> known_;     // those of the names, sorted
-    std::array<std::vector<IdCounts>, id_kinds.size()> pixels_;  // empty: not asked for
+    std::array<std::vector<NameId>, id_kinds.size()> known_;     // sorted ids of the names
+    std::array<std::vector<IdCounts>, id_kinds.size()> pixels_;  // empty if not requested
 };
 
 }  // namespace bdpt

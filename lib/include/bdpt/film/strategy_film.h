@@ -16,55 +16,54 @@
 
 namespace bdpt {
 
-/// The contribution of one strategy to a pixel, divided by the number of its samples [nit].
+/// The contribution of one strategy to a pixel, divided by its number of samples [nit].
 struct StrategyShare {
-    Rgb weighted{0.0f};    ///< its share by MIS
-    Rgb unweighted{0.0f};  ///< as if it were the only one
+    Rgb weighted{0.0f};    ///< with its MIS weight
+    Rgb unweighted{0.0f};  ///< as if it were the only strategy
 };
 
-/// "s02t03", as layers are named.
+/// Returns the name of a strategy's layer: "s02t03".
 [[nodiscard]] BDPT_EXPORT std::string strategy_name(Strategy strategy);
 
-/// Two images of each strategy: what it brings by itself, and its part of the image [Veach 1997,
-/// fig. 10.3]. The sums are exact and without order like those of `Film`.
+/// Two images for each strategy: unweighted, and weighted as in the final image [Veach 1997, fig.
+/// 10.3]. The sums are exact and independent of order, like those of `Film`.
 class BDPT_EXPORT StrategyFilm {
 public:
     StrategyFilm() = default;
-    /// `strategies` differ from each other.
+    /// `strategies` must be distinct.
     StrategyFilm(const PixelRect& region, std::span<const Strategy> strategies);
 
-    /// Memory of one pixel of one strategy [bytes]: the sums, and the layers when they are
-    /// developed.
+    /// Memory per pixel and strategy [bytes]: the sums, and the layers once they are developed.
     static constexpr std::uint64_t bytes_per_pixel = 6 * (sizeof(ExactSum) + sizeof(float));
 
     [[nodiscard]] const PixelRect& region() const { return region_; }
-    /// In the order in which they were given.
+    /// Returns the strategies in the order in which they were given.
     [[nodiscard]] const std::vector<Strategy>& strategies() const { return strategies_; }
     [[nodiscard]] bool empty() const { return strategies_.empty(); }
 
-    /// Adds what `strategy` found for the pixel at `raster` [pixels of the whole image]. Ignored
-    /// are strategies without images, places outside of the region, and values that are not finite
-    /// or negative, which `Film` reports. Safe from any thread.
+    /// Adds the contribution of `strategy` to the pixel at `raster` [pixels of the whole image].
+    /// Ignores strategies without images, positions outside of the region, and values that are
+    /// negative or not finite, which `Film` reports. Safe from any thread.
     void add(Strategy strategy, Vec2 raster, const StrategyShare& share) noexcept;
-    /// States that `count` samples of every pixel have been added.
+    /// Records that `count` samples of every pixel have been added.
     void count_samples(std::int64_t count) { samples_ += count; }
 
-    /// Adds the images of other samples. Throws `Error` (usage) when regions or strategies differ.
+    /// Adds the images of other samples. Throws `Error` (usage) if regions or strategies differ.
     void merge(const StrategyFilm& other);
 
-    /// Radiance [nit] that the strategy, one of `strategies()`, finds by itself, and what of it is
-    /// in the image.
+    /// Returns the radiance [nit] that `strategy`, one of `strategies()`, estimates by itself
+    /// (unweighted), or contributes to the image (weighted).
     [[nodiscard]] Image unweighted(Strategy strategy) const;
     [[nodiscard]] Image weighted(Strategy strategy) const;
-    /// All of them: layers "s02t03" (weighted) and "s02t03.unweighted" with RGB.
+    /// Returns all images: layers "s02t03" (weighted) and "s02t03.unweighted" with RGB.
     [[nodiscard]] std::vector<Layer> develop() const;
 
-    // For files, as those of `Film`: "s02t03.R", "s02t03.unweighted.R", ... of every strategy.
+    // Access for files, as in `Film`: "s02t03.R", "s02t03.unweighted.R", ... of every strategy.
     [[nodiscard]] std::vector<std::string> plane_names() const;
     void read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const;
     void add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words);
 
-    /// Equal to the bit.
+    /// Tests for bit equality.
     [[nodiscard]] bool operator==(const StrategyFilm& other) const = default;
 
 private:
@@ -75,7 +74,7 @@ private:
         [[nodiscard]] bool operator==(const Pixel&) const = default;
     };
 
-    /// A plane's row in `pixels_`.
+    /// The location of a plane's row in `pixels_`.
     struct PlaneRow {
         std::size_t first_pixel;
         Sum3 Pixel::*sums;
@@ -83,15 +82,16 @@ private:
     };
     [[nodiscard]] PlaneRow place_of(std::size_t plane, int row) const;
 
-    /// Where the images of a strategy begin in `pixels_`; the size of `pixels_` without any.
+    /// Returns the index in `pixels_` where the images of a strategy begin; the size of `pixels_`
+    /// if it has none.
     [[nodiscard]] std::size_t begin_of(Strategy strategy) const noexcept;
     [[nodiscard]] Image develop(Strategy strategy, Sum3 Pixel::*sums) const;
 
     PixelRect region_;
     std::vector<Strategy> strategies_;
     int stride_ = 0;
-    std::vector<std::size_t> begins_;  // by s * stride + t
-    std::vector<Pixel> pixels_;        // of one strategy after the other
+    std::vector<std::size_t> begins_;  // indexed by s * stride + t
+    std::vector<Pixel> pixels_;        // one strategy after the other
     std::int64_t samples_ = 0;
 };
 

@@ -10,31 +10,29 @@
 
 namespace bdpt {
 
-// A photographer who wants a white thing to come out white, and a black one black, does not measure
-// the light that comes from them but the light that falls on them. So does this meter: it puts
-// white cards where things stand.
+// To render white objects white and black objects black, photographers measure incident light
+// rather than reflected light. So does this meter: it places white cards on the visible surfaces.
 
-/// How light is metered.
+/// Options of the light meter.
 struct LightMeterOptions {
-    float aspect = 1.0f;  ///< of the view: width over height, above 0
-    int threads = 0;      ///< as `SystemOptions::threads`; they change nothing
+    float aspect = 1.0f;  ///< aspect ratio of the view: width over height, above 0
+    int threads = 0;      ///< as `SystemOptions::threads`; does not affect the result
 };
 
-/// The luminance [nit] that white diffuse cards would have which lie on what the camera sees, some
-/// thousand at most, evenly over the view: E / pi, where the irradiance E comes from lights and by
-/// way of all other surfaces as they are. Each is a noisy estimate, by few paths. None where the
-/// camera sees no surface. The same for the same arguments. Throws `Error` as render() does.
+/// Returns the luminance [nit] of white diffuse cards on the surfaces that the camera sees, a few
+/// thousand at most, evenly distributed over the view: E / pi, where the irradiance E includes
+/// direct light and light from all other surfaces. Each value is a noisy estimate from few paths.
+/// Empty if the camera sees no surface. Deterministic. Throws `Error` like render().
 [[nodiscard]] BDPT_EXPORT std::vector<double> white_cards(const Scene& scene,
                                                           const CameraDesc& camera,
                                                           const LightMeterOptions& options = {});
 
-/// The level of the brighter `cards` [nit]: the mean of those between the median and the highest
-/// twentieth. Nooks that light hardly enters do not count, nor do a few cards next to a lamp. 0
-/// without cards.
+/// Returns the level of the brighter `cards` [nit]: the mean of those between the median and the
+/// 95th percentile. Dark nooks do not count, nor do a few cards next to a light. 0 without cards.
 [[nodiscard]] BDPT_EXPORT double light_level(std::span<const double> cards);
 
-/// The exposure [EV] that gives a card of `light_level` the value 1, from which tone curves make
-/// white; none: there is no light.
+/// Returns the exposure [EV] that maps a card of `light_level` to 1, which tone curves map to
+/// white; nullopt if there is no light.
 [[nodiscard]] BDPT_EXPORT std::optional<float> light_exposure(double light_level);
 
 }  // namespace bdpt

@@ -5,10 +5,10 @@
 
 namespace bdpt {
 
-/// A photographer's studio, for objects that are seen from the front as `frame_scene` does: a large
-/// soft box high on the left, a weaker and narrow one on the right, a strip high behind, a floor
-/// that reflects them and grey walls. Its radiance is 1 nit on average, as that of
-/// `default_environment`; the same bits on all machines.
+/// Returns a photographic studio for objects seen from the front, as by `frame_scene`: a large soft
+/// box high on the left, a weaker and narrow one on the right, a strip high behind, a floor that
+/// reflects them and grey walls. Its mean radiance is 1 nit, like that of `default_environment`;
+/// bit-identical on all machines.
 [[nodiscard]] BDPT_EXPORT EnvironmentLightDesc studio_environment();
 
 }  // namespace bdpt

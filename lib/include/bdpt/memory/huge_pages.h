@@ -7,12 +7,12 @@
 
 namespace bdpt {
 
-/// Asks for large pages for memory that is about to be written and then read here and there: with
-/// pages of 4 KB a third of such reads waits for the place of a page before the memory itself. Does
-/// nothing where the system has no such pages, and never changes what is stored.
+/// Requests large pages for memory that is about to be written and then read at random: with pages
+/// of 4 KB, a third of such reads waits for address translation before the memory itself. Does
+/// nothing on systems without such pages, and never changes the contents.
 BDPT_EXPORT void prefer_huge_pages(void* begin, std::size_t bytes) noexcept;
 
-/// Reserves room for `size` values; where that is new memory, it has large pages if it can.
+/// Reserves room for `size` values, in large pages if new memory is allocated.
 template <typename T>
 inline void reserve_in_huge_pages(std::vector<T>& values, std::size_t size)
 {
@@ -23,7 +23,7 @@ inline void reserve_in_huge_pages(std::vector<T>& values, std::size_t size)
     }
 }
 
-/// Resizes the vector in such memory.
+/// Resizes the vector, in large pages if new memory is allocated.
 template <typename T>
 inline void resize_in_huge_pages(std::vector<T>& values, std::size_t size)
 {

@@ -7,24 +7,24 @@
 
 namespace bdpt {
 
-/// A value of an enumeration, and its name in options and files.
+/// An enumerator and its name in options and files.
 template <typename Enum>
 struct Enumerator {
     Enum value;
     std::string_view name;
-};  /// Deduces its type.
+};  /// Deduces the type of the enumeration.
 template <typename Enum>
 Enumerator(Enum, const char*) -> Enumerator<Enum>;
 
-/// All values of `Enum` with their names; specialised beside each enumeration that has them.
+/// All enumerators of `Enum` with their names; specialised beside each enumeration that has them.
 template <typename Enum>
 inline constexpr std::nullptr_t enumerators = nullptr;
 
-/// Has `T` names for its values?
+/// Tests whether the enumerators of `T` have names.
 template <typename T>
 concept HasEnumerators = !std::is_null_pointer_v<std::remove_cv_t<decltype(enumerators<T>)>>;
 
-/// The name of `value` in options and files.
+/// Returns the name of `value` in options and files.
 template <HasEnumerators Enum>
 [[nodiscard]] constexpr std::string_view name_of(Enum value)
 {
@@ -36,7 +36,7 @@ template <HasEnumerators Enum>
     return {};
 }
 
-/// The value that has that name.
+/// Returns the enumerator with that name; nullopt if there is none.
 template <HasEnumerators Enum>
 [[nodiscard]] constexpr std::optional<Enum> enumerator_of(std::string_view name)
 {

@@ -5,9 +5,9 @@
 
 namespace bdpt {
 
-/// How the light around a pixel's centre counts: products of one curve in x and one in y, zero
-/// beyond the radius. None is negative, so samples can be drawn from the filter itself and all
-/// count alike [Ernst et al. 2006, "Filter Importance Sampling"].
+/// Pixel filters: products of one curve in x and one in y, zero beyond the radius. None is
+/// negative, so samples can be drawn from the filter itself with equal weights [Ernst et al. 2006,
+/// "Filter Importance Sampling"].
 enum class FilterKind : std::uint8_t {
     box,              ///< constant
     tent,             ///< linear, 1 at the centre, 0 at the radius
@@ -18,13 +18,13 @@ enum class FilterKind : std::uint8_t {
 /// A pixel filter.
 struct FilterOptions {
     FilterKind kind = FilterKind::box;
-    /// [pixels], in [0.01, 16]; none: `default_radius`.
+    /// Radius [pixels], in [0.01, 16]; nullopt: `default_radius`.
     std::optional<float> radius{};
     [[nodiscard]] bool operator==(const FilterOptions&) const = default;
 };
 
-/// The usual radius of a filter [pixels]: 0.5 for the box (the pixel itself), 1 for the tent, 1.5
-/// for the others.
+/// Returns the usual radius of a filter [pixels]: 0.5 for the box (the pixel itself), 1 for the
+/// tent, 1.5 for the others.
 [[nodiscard]] constexpr float default_radius(FilterKind kind)
 {
     return kind == FilterKind::box ? 0.5f : kind == FilterKind::tent ? 1.0f : 1.5f;

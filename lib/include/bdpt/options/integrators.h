@@ -8,24 +8,25 @@
 
 namespace bdpt {
 
-/// A light transport algorithm and what it can do.
+/// A light transport algorithm and its capabilities.
 struct IntegratorInfo {
     IntegratorKind kind;
-    std::string_view name;     ///< in options and files
-    std::string_view summary;  ///< a phrase for help texts
-    /// Traces light paths, which can reach the lens from anywhere and splat on any pixel.
+    std::string_view name;     ///< name in options and files
+    std::string_view summary;  ///< phrase for help texts
+    /// True if it traces light paths, which can reach the lens from anywhere and splat on any
+    /// pixel.
     bool traces_light_paths;
-    /// Its strategies (s, t) can have images of their own.
+    /// True if each of its strategies (s, t) can have an image of its own.
     bool has_strategies;
-    /// Its mean at any number of samples is not the limit.
+    /// True if its expected value at a finite number of samples differs from the limit.
     bool biased = false;
 };
 
-/// All there are. To add one: a folder in lib/src/integrator, an enumerator of `IntegratorKind` and
-/// a line in the table behind this function.
+/// Returns all integrators. To add one: create a folder in lib/src/integrator, an enumerator of
+/// `IntegratorKind` and a line in the table behind this function.
 [[nodiscard]] BDPT_EXPORT std::span<const IntegratorInfo> integrators();
 
-/// The entry of one of them.
+/// Returns the entry of one integrator.
 [[nodiscard]] BDPT_EXPORT const IntegratorInfo& info(IntegratorKind kind);
 
 }  // namespace bdpt

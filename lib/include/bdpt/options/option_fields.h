@@ -13,16 +13,16 @@
 
 namespace bdpt {
 
-// The one list of render options: names, ranges, help texts, and what they change. Checks of
-// ranges, the identity of renders, the command line, Python keywords and jobs are loops over it.
+// The single list of render options: names, ranges, help texts, and roles. Range checks, the
+// identity of renders, the command line, Python keywords and jobs loop over it.
 
-/// The longest paths that can be asked for [edges].
+/// Maximum path length [edges].
 inline constexpr int max_path_edges = 4096;
-/// The widest and highest images [pixels].
+/// Maximum image width and height [pixels].
 inline constexpr int max_image_side = 1 << 16;
 
-/// Names of integrators, from the simplest to the one that has all strategies, and the one that
-/// chooses.
+/// Names of integrators, from the simplest to the one with all strategies, and the automatic
+/// choice.
 template <>
 inline constexpr std::array enumerators<IntegratorKind>{
     Enumerator{IntegratorKind::pt, "pt"},          Enumerator{IntegratorKind::nee, "nee"},
@@ -71,7 +71,7 @@ inline constexpr std::array enumerators<FilterKind>{
     Enumerator{FilterKind::gaussian, "gaussian"},
     Enumerator{FilterKind::blackman_harris, "blackman-harris"},
 };
-/// Names of AOVs in options; that of a shadow on the ground is asked for as --ground.
+/// Names of AOVs in options; `shadow` is requested with --ground.
 template <>
 inline constexpr std::array enumerators<Aov>{
     Enumerator{Aov::albedo, "albedo"},        Enumerator{Aov::normal, "normal"},
@@ -97,7 +97,7 @@ template <>
 inline constexpr auto fields<FilterOptions> = all_fields(Field{"kind", &FilterOptions::kind},
                                                          Field{"radius", &FilterOptions::radius});
 
-/// Fields of `FilmOptions`, with all that is known of them.
+/// Fields of `FilmOptions`, with their documentation and ranges.
 template <>
 inline constexpr auto fields<FilmOptions> = all_fields(
     OptionField{"width", &FilmOptions::width, {.range = {1, max_image_side}}},
@@ -110,7 +110,7 @@ inline constexpr auto fields<FilmOptions> = all_fields(
                  .otherwise = "the whole image"}},
     OptionField{"filter",
                 &FilmOptions::filter,
-                {.range = {0.01, 16},  // its radius
+                {.range = {0.01, 16},  // range of the radius
                  .value = "NAME[:RADIUS]",
                  .help = "Pixel filter: box (radius 0.5), tent (1), gaussian (1.5, sigma is a "
                          "third of it) or blackman-harris (1.5)",
@@ -136,7 +136,7 @@ inline constexpr auto fields<FilmOptions> = all_fields(
                          "fireflies, but biased; the light lost is reported",
                  .otherwise = "no clamping"}});
 
-/// Fields of `SamplingOptions`, with all that is known of them.
+/// Fields of `SamplingOptions`, with their documentation and ranges.
 template <>
 inline constexpr auto fields<SamplingOptions> = all_fields(
     OptionField{"samples", &SamplingOptions::samples, {.role = OptionRole::samples}},
@@ -164,7 +164,7 @@ inline constexpr auto fields<SamplingOptions> = all_fields(
                          "which share the weight of one: less noise in direct light, more time"}},
     OptionField{"rates", &SamplingOptions::rates, {}});
 
-/// Fields of `TransportOptions`, with all that is known of them.
+/// Fields of `TransportOptions`, with their documentation and ranges.
 template <>
 inline constexpr auto fields<TransportOptions> = all_fields(
     OptionField{"max_depth",
@@ -183,7 +183,7 @@ inline constexpr auto fields<TransportOptions> = all_fields(
         "heuristic", &TransportOptions::heuristic, {.help = "MIS heuristic; uniform is for tests"}},
     OptionField{"background", &TransportOptions::background, {}});
 
-/// Fields of `BidirectionalOptions`, with all that is known of them.
+/// Fields of `BidirectionalOptions`, with their documentation and ranges.
 template <>
 inline constexpr auto fields<BidirectionalOptions> = all_fields(
     OptionField{"light_paths",
@@ -229,7 +229,7 @@ inline constexpr auto fields<BidirectionalOptions> = all_fields(
                  .otherwise = "no limit"}},
     OptionField{"disable",
                 &BidirectionalOptions::disabled,
-                {.range = {0, max_path_edges + 1},  // s and t
+                {.range = {0, max_path_edges + 1},  // range of s and t
                  .value = "LIST",
                  .help = "Disable strategies (bdpt, lt, vcm): s vertices from the light and t from "
                          "the camera, like s2t1,s0t3. Light that only these find is missing",
@@ -239,7 +239,7 @@ inline constexpr auto fields<BidirectionalOptions> = all_fields(
     OptionField{
         "strategy_memory", &BidirectionalOptions::strategy_memory, {.role = OptionRole::limit}});
 
-/// Fields of `SystemOptions`, with all that is known of them.
+/// Fields of `SystemOptions`, with their documentation and ranges.
 template <>
 inline constexpr auto fields<SystemOptions> = all_fields(
     OptionField{"tile_size",
@@ -264,7 +264,7 @@ inline constexpr auto fields<RenderOptions> = all_fields(
     OptionField{"bidirectional", &RenderOptions::bidirectional, {}},
     OptionField{"system", &RenderOptions::system, {}});
 
-/// Is `T` a group of options, and not the value of one?
+/// Tests whether `T` is a group of options rather than the value of one option.
 template <typename T>
 inline constexpr bool is_option_group = false;
 /// `FilmOptions` is a group.
@@ -283,7 +283,7 @@ inline constexpr bool is_option_group<BidirectionalOptions> = true;
 template <>
 inline constexpr bool is_option_group<SystemOptions> = true;
 
-/// Calls `visit(field, value)` for each option of `options`, those of groups in it one by one.
+/// Calls `visit(field, value)` for each option of `options`, descending into groups.
 template <typename Options, typename Visitor>
 constexpr void for_each_option(Options& options, Visitor&& visit)
 {

@@ -12,9 +12,9 @@
 
 namespace bdpt {
 
-// Values of options as texts, in the form in which the command takes them.
+// Values of options as text, in the format that the command line accepts.
 
-/// As few digits as tell the number from all others of its type.
+/// Formats a number with the fewest digits that identify it among all numbers of its type.
 template <typename T>
 requires std::is_arithmetic_v<T>
 [[nodiscard]] inline std::string option_text(T value)
@@ -24,40 +24,40 @@ requires std::is_arithmetic_v<T>
     return {digits.data(), end};
 }
 
-/// The name of a value of an enumeration.
+/// Returns the name of an enumerator.
 template <HasEnumerators Enum>
 [[nodiscard]] inline std::string option_text(Enum value)
 {
     return std::string(name_of(value));
 }
 
-/// "s2t1".
+/// Formats a strategy: "s2t1".
 [[nodiscard]] inline std::string option_text(const Strategy& strategy)
 {
     return "s" + option_text(strategy.s) + "t" + option_text(strategy.t);
 }
 
-/// "0:64".
+/// Formats a sample range: "0:64".
 [[nodiscard]] inline std::string option_text(const SampleRange& samples)
 {
     return option_text(samples.begin) + ":" + option_text(samples.end);
 }
 
-/// "x0,y0,x1,y1".
+/// Formats a rectangle: "x0,y0,x1,y1".
 [[nodiscard]] inline std::string option_text(const PixelRect& rect)
 {
     return option_text(rect.x0) + "," + option_text(rect.y0) + "," + option_text(rect.x1) + "," +
            option_text(rect.y1);
 }
 
-/// "gaussian", or "gaussian:2" with a radius.
+/// Formats a filter: "gaussian", or "gaussian:2" with a radius.
 [[nodiscard]] inline std::string option_text(const FilterOptions& filter)
 {
     const std::string kind = option_text(filter.kind);
     return filter.radius ? kind + ":" + option_text(*filter.radius) : kind;
 }
 
-/// "albedo,normal", or "none".
+/// Formats a set of AOVs: "albedo,normal", or "none".
 [[nodiscard]] inline std::string option_text(const AovSet& aovs)
 {
     std::string text;
@@ -69,14 +69,14 @@ template <HasEnumerators Enum>
     return text.empty() ? "none" : text;
 }
 
-/// "none" where there is no value.
+/// Formats an optional value; "none" if it is empty.
 template <typename T>
 [[nodiscard]] inline std::string option_text(const std::optional<T>& value)
 {
     return value ? option_text(*value) : "none";
 }
 
-/// "s1t1,s0t4", or "none".
+/// Formats a list: "s1t1,s0t4", or "none".
 template <typename T>
 [[nodiscard]] inline std::string option_text(const std::vector<T>& values)
 {

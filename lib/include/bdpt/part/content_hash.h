@@ -9,18 +9,18 @@
 
 namespace bdpt {
 
-/// 128 bits that tell contents apart.
+/// 128-bit content hash.
 struct ContentHash {
     std::uint64_t low = 0;
     std::uint64_t high = 0;
     [[nodiscard]] bool operator==(const ContentHash&) const = default;
 };
 
-/// As 32 hexadecimal digits.
+/// Formats a hash as 32 hexadecimal digits.
 [[nodiscard]] BDPT_EXPORT std::string to_string(const ContentHash& hash);
 
-/// XXH3 with 128 bits (xxhash.com) over bytes one after the other. It finds what went wrong by
-/// accident; it is no protection against a forger.
+/// Computes the 128-bit XXH3 hash (xxhash.com) of a sequence of bytes. It detects accidental
+/// corruption; it does not protect against forgery.
 class BDPT_EXPORT ContentHasher {
 public:
     ContentHasher();
@@ -29,7 +29,7 @@ public:
     ContentHasher& operator=(const ContentHasher&) = delete;
 
     void add(const void* bytes, std::size_t size);
-    /// The hash of all bytes so far.
+    /// Returns the hash of all bytes added so far.
     [[nodiscard]] ContentHash hash() const;
 
 private:

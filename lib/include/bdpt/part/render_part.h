@@ -11,22 +11,22 @@
 
 namespace bdpt {
 
-/// The sums of some samples of a render, and the set of these samples. Parts of one render add up,
-/// in any order, to the bit: a part is a checkpoint, the result of one machine of a farm, or the
-/// whole render.
+/// The sums of some samples of a render, and the set of these samples. Parts of one render can be
+/// merged in any order with bit-identical results: a part is a checkpoint, the result of one
+/// machine of a farm, or the whole render.
 struct RenderPart {
-    Identity identity;  ///< of the render
-    SampleSet samples;  ///< that the films hold, of every pixel
+    Identity identity;  ///< identity of the render
+    SampleSet samples;  ///< samples of every pixel that the films hold
     Film film;
-    AovFilm aovs;             ///< empty if none were asked for
-    IdFilm ids;               ///< likewise
-    StrategyFilm strategies;  ///< empty if none were asked for
+    AovFilm aovs;             ///< empty if none were requested
+    IdFilm ids;               ///< empty if none were requested
+    StrategyFilm strategies;  ///< empty if none were requested
     RenderStats stats;
-    double cpu_seconds = 0.0;  ///< [s] of the process, while it rendered these samples
+    double cpu_seconds = 0.0;  ///< CPU time of the process while it rendered these samples [s]
 };
 
-/// Adds the samples of `other` to `part`. Throws `Error` (invalid_input) when they are of another
-/// render, saying in what it differs, or when `part` has some of them already.
+/// Adds the samples of `other` to `part`. Throws `Error` (invalid_input) if they belong to another
+/// render (the message names the difference), or if `part` already has some of them.
 BDPT_EXPORT void merge(RenderPart& part, const RenderPart& other);
 
 }  // namespace bdpt

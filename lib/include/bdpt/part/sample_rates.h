@@ -12,38 +12,39 @@ class Scene;
 struct CameraDesc;
 struct RenderOptions;
 
-/// How many samples each pixel of an image takes in a round, in the mean: a power of two, from 1/4
-/// to 4. A render with rates (`SamplingOptions::rates`) has rounds where others have samples. Each
-/// camera sample counts 1 / rate, so that all pixels have the sums of equally many rounds.
+/// Mean number of samples that each pixel of an image takes per round: a power of two from 1/4 to
+/// 4. In a render with rates (`SamplingOptions::rates`), rounds take the place of samples. Each
+/// camera sample is weighted by 1 / rate, so that the sums of all pixels represent equally many
+/// rounds.
 class BDPT_EXPORT SampleRates {
 public:
-    /// Rates are 2^exponent, from min_exponent to max_exponent.
+    /// Rates are 2^exponent, with exponents from min_exponent to max_exponent.
     static constexpr int min_exponent = -2;
     static constexpr int max_exponent = 2;
-    /// So many rounds, from a multiple of that on, give each pixel samples in both halves of the
-    /// film. Renders with rates begin and end there.
+    /// Number of rounds, starting at a multiple of it, that gives each pixel samples in both halves
+    /// of the film. Renders with rates begin and end at multiples of this number.
     static constexpr std::int64_t group = std::int64_t{2} << -min_exponent;
 
-    /// `exponents` go row by row from the top left. Throws `Error` (usage) when they are not width
-    /// x height, or out of range.
+    /// Takes `exponents` row by row from the top left. Throws `Error` (usage) if there are not
+    /// width x height of them, or if one is out of range.
     SampleRates(int width, int height, std::vector<std::int8_t> exponents);
 
-    [[nodiscard]] int width() const { return width_; }    ///< of the whole image [pixels]
-    [[nodiscard]] int height() const { return height_; }  ///< of the whole image [pixels]
+    [[nodiscard]] int width() const { return width_; }    ///< width of the whole image [pixels]
+    [[nodiscard]] int height() const { return height_; }  ///< height of the whole image [pixels]
     [[nodiscard]] const std::vector<std::int8_t>& exponents() const { return exponents_; }
     [[nodiscard]] int exponent(int x, int y) const
     {
         return exponents_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                           static_cast<std::size_t>(x)];
     }
-    /// Samples per round.
+    /// Returns the samples per round of pixel (x, y).
     [[nodiscard]] float rate(int x, int y) const { return rate_of(exponent(x, y)); }
-    /// The mean rate of the whole image, exact but for one rounding.
+    /// Returns the mean rate of the whole image, exact up to one rounding.
     [[nodiscard]] double mean() const { return mean_; }
     [[nodiscard]] float least() const;
     [[nodiscard]] float greatest() const;
 
-    /// 2^exponent
+    /// Returns 2^exponent.
     [[nodiscard]] static float rate_of(int exponent)
     {
         return static_cast<float>(1 << (exponent - min_exponent)) /
@@ -58,15 +59,15 @@ private:
     double mean_;
 };
 
-/// Samples a pixel that `sample_rates` renders for itself.
+/// Samples per pixel that the pilot of `sample_rates` renders.
 inline constexpr std::int64_t rate_pilot_samples = 8;
 
-/// Rates that suit the image: more where camera samples vary much for the brightness of the place,
-/// fewer where they do not. Their mean is 1 or a little less. A pilot of `rate_pilot_samples`
-/// samples of random numbers of its own finds them; they do not enter any image, so a render with
-/// these rates is unbiased. A pure function of scene, camera and options: not of seed, samples,
-/// crop, threads or `SamplingOptions::rates`. Throws `Error` as render() does, and (usage) for
-/// integrators that cannot be given rates: lt and vcm.
+/// Computes rates that suit the image: higher where the variance of camera samples is large
+/// relative to the local brightness, lower elsewhere. Their mean is 1 or slightly less. A pilot of
+/// `rate_pilot_samples` samples with its own random numbers determines them; its samples enter no
+/// image, so a render with these rates is unbiased. A pure function of scene, camera and options:
+/// independent of seed, samples, crop, threads and `SamplingOptions::rates`. Throws `Error` like
+/// render(), and (usage) for integrators that do not support rates: lt and vcm.
 [[nodiscard]] BDPT_EXPORT SampleRates sample_rates(const Scene& scene, const CameraDesc& camera,
                                                    const RenderOptions& options);
 

@@ -11,30 +11,31 @@
 
 namespace bdpt {
 
-/// Which samples of every pixel there are: ranges of sample indices, in order, that neither overlap
+/// Set of samples that every pixel has: ranges of sample indices, in order, that neither overlap
 /// nor touch.
 class BDPT_EXPORT SampleSet {
 public:
     SampleSet() = default;
-    /// An empty range gives an empty set.
+    /// Constructs the set of one range; an empty range gives an empty set.
     explicit SampleSet(SampleRange range);
-    /// The set with that `text()`; none if it is not one, or beyond [0, 2^32 - 1].
+    /// Parses the format of `text()`; returns nullopt if the text is malformed or exceeds [0, 2^32
+    /// - 1].
     [[nodiscard]] static std::optional<SampleSet> parse(std::string_view text);
 
-    /// "0:64,128:192"; empty for the empty set.
+    /// Returns the ranges as text: "0:64,128:192"; an empty string for the empty set.
     [[nodiscard]] std::string text() const;
     [[nodiscard]] const std::vector<SampleRange>& ranges() const { return ranges_; }
     [[nodiscard]] bool empty() const { return ranges_.empty(); }
     [[nodiscard]] std::int64_t count() const;
-    /// One behind the last; 0 for the empty set.
+    /// Returns one past the last sample; 0 for the empty set.
     [[nodiscard]] std::int64_t end() const { return empty() ? 0 : ranges_.back().end; }
 
-    /// Adds samples; some may be there already.
+    /// Adds samples, some of which may already be in the set.
     void add(SampleRange range);
     void add(const SampleSet& other);
-    /// Those that `other` has, too.
+    /// Returns the samples that both sets contain.
     [[nodiscard]] SampleSet overlap(const SampleSet& other) const;
-    /// Those of `wanted` that are not here.
+    /// Returns the samples of `wanted` that this set lacks.
     [[nodiscard]] SampleSet missing(const SampleSet& wanted) const;
     [[nodiscard]] bool contains(const SampleSet& other) const { return missing(other).empty(); }
     [[nodiscard]] bool operator==(const SampleSet&) const = default;

@@ -5,20 +5,20 @@
 
 namespace bdpt {
 
-/// Two triangles. Corners are counter-clockwise as seen from the front; TEXCOORD_0 is (0, 1) at the
-/// first one, (1, 1) at the second, (1, 0) at the third.
+/// Returns a quad of two triangles. Corners are counter-clockwise as seen from the front;
+/// TEXCOORD_0 is (0, 1) at the first, (1, 1) at the second, (1, 0) at the third.
 [[nodiscard]] BDPT_EXPORT MeshDesc quad_mesh(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
-/// The closed surface of an axis-aligned box [m], with flat faces that are seen from outside.
+/// Returns the closed surface of an axis-aligned box [m], with flat faces whose fronts are outside.
 [[nodiscard]] BDPT_EXPORT MeshDesc box_mesh(Vec3 min, Vec3 max);
-/// A sphere around the origin with smooth normals and TEXCOORD_0: `segments` around its axis, y,
-/// and half as many from pole to pole. The same bits on all machines. Throws `Error` (usage) unless
-/// `radius` is above 0 and `segments` is in [4, 4096].
+/// Returns a sphere around the origin with smooth normals and TEXCOORD_0: `segments` around its
+/// axis, y, and half as many from pole to pole. Bit-identical on all machines. Throws `Error`
+/// (usage) unless `radius` is above 0 and `segments` is in [4, 4096].
 [[nodiscard]] BDPT_EXPORT MeshDesc sphere_mesh(float radius, unsigned segments = 64);
-/// A camera at `from` that looks at `to`, upright unless it looks straight up or down.
-/// `vertical_fov` is in (0, pi) [rad]. Throws `Error` (usage) when both points are the same.
+/// Returns a camera at `from` that looks at `to`, upright unless it looks straight up or down.
+/// `vertical_fov` is in (0, pi) [rad]. Throws `Error` (usage) if both points are the same.
 [[nodiscard]] BDPT_EXPORT CameraDesc look_at(Vec3 from, Vec3 to, float vertical_fov = 0.7853982f);
 
-/// Puts the description of a scene together, and keeps its indices right.
+/// Builds the description of a scene with consistent indices.
 ///
 ///     bdpt::SceneBuilder builder;
 ///     const bdpt::MaterialId grey = builder.add(bdpt::MaterialDesc{});
@@ -28,19 +28,19 @@ namespace bdpt {
 ///     const bdpt::Scene scene(builder.take());
 class BDPT_EXPORT SceneBuilder {
 public:
-    /// The index to refer to it by.
+    /// Adds a material, mesh or image and returns its index.
     [[nodiscard]] MaterialId add(MaterialDesc material);
     [[nodiscard]] MeshId add(MeshDesc mesh);
     [[nodiscard]] ImageId add(TexelImage image);
     void add(LightDesc light);
-    /// One more instance of a mesh. Returns its description, to be named or moved; it stays valid
+    /// Adds an instance of a mesh. Returns its description, to be named or moved; it stays valid
     /// until the next call. Throws `Error` (usage) for an index that `add` has not returned.
     InstanceDesc& place(MeshId mesh, MaterialId material,
                         const Mat4& world_from_object = Mat4(1.0f));
 
-    /// What there is so far.
+    /// Returns the description so far.
     [[nodiscard]] const SceneDesc& desc() const { return desc_; }
-    /// The description; the builder is empty afterwards.
+    /// Moves the description out; the builder is empty afterwards.
     [[nodiscard]] SceneDesc take();
 
 private:

@@ -22,10 +22,10 @@ struct BidirectionalIntegrator::Scratch {
 
 namespace {
 
-/// Several light paths of one sample have random numbers of their own.
+/// Returns the random numbers of a sample's own light paths, which differ from those of the sample.
 Sampler light_sampler(const RenderOptions& options, int x, int y, std::int64_t index)
 {
-    constexpr std::uint64_t odd = 0xd1342543de82ef95U;  // to a seed that is not used elsewhere
+    constexpr std::uint64_t odd = 0xd1342543de82ef95U;  // gives a seed that is not used elsewhere
     return {options.sampling.sampler, options.sampling.seed + odd, x, y, index};
 }
 
@@ -161,7 +161,7 @@ RenderStats BidirectionalIntegrator::render_chunk(std::int64_t chunk, SampleRang
     const std::int64_t last = std::min(first + LightPathCache::chunk_bundles, counts.bundles);
     cache_.begin_chunk(chunk);
     for (std::int64_t bundle = first; bundle < last; ++bundle) {
-        // Whatever may merge has one time and one wavelength: those of the first light path.
+        // Vertices that may merge share one time and one wavelength: those of the first light path.
         Sampler sampler = cache_.sampler(index, counts.merged ? 0 : bundle, 0);
         sampler.start(SampleUse::film);
         const TimeAndWavelength moment = draw_time_and_wavelength(sampler, world_, camera_);

@@ -12,11 +12,11 @@ namespace bdpt {
 
 class SampleTimer;
 
-/// Bidirectional path tracing [Veach 1997, ch. 10]: gives each sample its camera path and the light
-/// paths that `PathJoiner` joins it to. Light tracing is the same with the strategies t <= 1 alone.
+/// Bidirectional path tracing [Veach 1997, ch. 10]: traces for each sample its camera path and the
+/// light paths that `PathJoiner` connects it to. Light tracing uses the strategies t <= 1 alone.
 /// Light paths belong to one camera path, or to all of a sample index: then each camera path is
-/// joined to a few of them. Vertex connection and merging [Georgiev et al. 2012] also merges each
-/// camera path with the vertices of all of them.
+/// connected to a few of them. Vertex connection and merging [Georgiev et al. 2012] also merges
+/// each camera path with the vertices of all of them.
 class BidirectionalIntegrator final : public Integrator {
 public:
     BidirectionalIntegrator(const World& world, const MovingCamera& camera,
@@ -31,10 +31,10 @@ public:
                                           const Films& films) const override;
 
 private:
-    /// The storage of one thread.
+    /// Storage of one thread.
     struct Scratch;
 
-    /// The number of light paths of each camera path, if it has its own.
+    /// Returns the number of light paths of each camera path that has its own.
     [[nodiscard]] int own_light_paths() const;
     void trace_light_path(SampleContext& sample, Scratch& scratch) const;
     void add_sample(int x, int y, const ScheduledSample& scheduled, PhaseClock* clock,
@@ -48,8 +48,8 @@ private:
     PixelFilter filter_;
     StrategySet strategies_;
     LightPathCache cache_;  ///< empty unless light paths are shared
-    Merging merging_;       ///< of the pass's sample index
-    LightVertexGrid grid_;  ///< of what may merge
+    Merging merging_;       ///< merging of the pass's sample index
+    LightVertexGrid grid_;  ///< vertices that may merge
 };
 
 }  // namespace bdpt

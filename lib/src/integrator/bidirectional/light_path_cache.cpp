@@ -14,7 +14,7 @@
 namespace bdpt {
 namespace {
 
-/// Every second bit of the result.
+/// Spreads the bits of `x` to every second bit of the result.
 constexpr std::uint32_t spread_bits(std::uint32_t x)
 {
     x = (x | x << 8U) & 0x00ff00ffU;
@@ -23,7 +23,7 @@ constexpr std::uint32_t spread_bits(std::uint32_t x)
     return (x | x << 1U) & 0x55555555U;
 }
 
-/// Number of a pixel along the Z curve; films have at most 65536 pixels a side.
+/// Returns the index of a pixel along the Z curve; films have at most 65536 pixels per side.
 constexpr std::uint32_t morton(int x, int y)
 {
     return spread_bits(static_cast<std::uint32_t>(x)) | spread_bits(static_cast<std::uint32_t>(y))
@@ -32,7 +32,7 @@ constexpr std::uint32_t morton(int x, int y)
 
 void prefetch_bytes(const void* begin, const void* end)
 {
-    constexpr std::ptrdiff_t line = 64;  // of most processors' caches [bytes]
+    constexpr std::ptrdiff_t line = 64;  // cache line size of most processors [bytes]
     const auto* last = static_cast<const std::byte*>(end);
     for (const auto* at = static_cast<const std::byte*>(begin); at < last; at += line) {
         __builtin_prefetch(at);
@@ -66,7 +66,7 @@ std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, double mean_v
     if (!counts.kept()) {
         return 0;
     }
-    // In floating point, where the greatest numbers that options can have do not overflow.
+    // In floating point, where the largest values of options do not overflow.
     const std::size_t vertex =
         sizeof(PathVertex) + sizeof(Bsdf) + (counts.merged ? LightVertexGrid::bytes_of_vertex : 0);
     const double bytes = static_cast<double>(counts.bundles) * counts.bundle * mean_vertices *
@@ -77,7 +77,7 @@ std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, double mean_v
 
 Sampler LightPathCache::sampler(std::int64_t index, std::int64_t bundle, int which) const
 {
-    // As samples of a pixel that no image has.
+    // Uses the random numbers of a pixel outside of every image.
     return {kind_, seed_, -1, static_cast<int>(bundle),
             subsample_index(index, counts_.bundle, which)};
 }
@@ -125,14 +125,14 @@ LightPathCache::Choice LightPathCache::choose(int x, int y, const ScheduledSampl
 {
     const std::uint32_t pixel = morton(x, y);
     const std::uint64_t seed = split_mix(seed_ + golden_ratio_64);
-    // The radical inverse of the pixel's number, with an Owen scramble, in 32 bits.
+    // The radical inverse of the pixel's index, with an Owen scramble, in 32 bits.
     const std::uint32_t u =
         reverse_bits(permute_upwards(pixel, static_cast<std::uint32_t>(seed))) + sample.sub_index;
     const std::uint64_t place = std::uint64_t{u} * static_cast<std::uint64_t>(counts_.bundles);
     Choice choice{.bundle = static_cast<std::int64_t>(place >> 32U)};
-    // What is left of the number is even over the pixels of one bundle; from one sample to the next
+    // The remaining fraction is uniform over the pixels of one bundle; from one sample to the next
     // of the same half of the film the sum of all counts grows by `connections`, and that of both
-    // halves by twice as much, for half of one lies between them.
+    // halves by twice as much, as they are offset by half of one.
     const double rest = static_cast<double>(static_cast<std::uint32_t>(place)) * 0x1p-32;
     const std::int64_t of_half = sample.index / 2;
     const double before = counts_.connections * static_cast<double>(of_half) + rest +

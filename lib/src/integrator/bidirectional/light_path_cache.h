@@ -14,26 +14,26 @@ namespace bdpt {
 
 class Sampler;
 
-/// The light paths of one sample index, which the camera paths of all pixels share. They are a pure
+/// Light paths of one sample index, shared by the camera paths of all pixels. They are a pure
 /// function of (options, seed, index).
 class LightPathCache {
 public:
-    /// Light paths `first` to `first` + `count` - 1 of a bundle, around its end.
+    /// Light paths `first` to `first` + `count` - 1 of a bundle, wrapping around its end.
     struct Choice {
         std::int64_t bundle = 0;
         int first = 0;
         int count = 0;
     };
-    /// So many bundles are filled together, by one thread.
+    /// Number of bundles that one thread fills together.
     static constexpr std::int64_t chunk_bundles = 64;
 
     /// `options` have been checked.
     LightPathCache(const LightPathCounts& counts, const RenderOptions& options);
 
-    /// A bound that the mean number of vertices of light paths hardly exceeds: Russian roulette
-    /// ends most paths soon after it begins. Without roulette, the maximum.
+    /// Returns a bound that the mean number of vertices of light paths hardly exceeds: Russian
+    /// roulette ends most paths soon after it begins. Without roulette, the maximum.
     [[nodiscard]] static int usual_vertices(const RenderOptions& options);
-    /// Bytes that it takes with light paths of so many vertices in the mean.
+    /// Returns the memory of the cache [bytes] for that mean number of vertices per light path.
     [[nodiscard]] static std::uint64_t bytes(const LightPathCounts& counts, double mean_vertices);
 
     [[nodiscard]] const LightPathCounts& counts() const { return counts_; }
@@ -41,31 +41,33 @@ public:
     {
         return (counts_.bundles + chunk_bundles - 1) / chunk_bundles;
     }
-    /// The random numbers of light path `which` of a bundle of sample `index`: all those of a
-    /// bundle, over all indices, are one sequence, as a camera path is joined to several of them.
+    /// Returns the random numbers of light path `which` of a bundle of sample `index`: those of a
+    /// bundle, over all indices, form one sequence, as a camera path is connected to several of
+    /// them.
     [[nodiscard]] Sampler sampler(std::int64_t index, std::int64_t bundle, int which) const;
 
-    // Filling: a chunk is begun, gets its bundles in their order, each with its light paths, and is
+    // Filling: a chunk is begun, receives its bundles in order, each with its light paths, and is
     // ended. Different threads may fill different chunks.
     void begin_chunk(std::int64_t chunk);
     void add_bundle(std::int64_t chunk, const TimeAndWavelength& moment);
     void add_path(std::int64_t chunk, std::span<const PathVertex> path);
     void end_chunk(std::int64_t chunk);
 
-    /// The light paths to which the camera path of `sample` of pixel (x, y) is joined. They are
-    /// evenly spread over the image, and far apart for neighbours. All rounds of the pixel take
-    /// light paths of the same bundle, which are as well spread over the rounds as a pixel's own;
-    /// samples within a round take different bundles.
+    /// Chooses the light paths to which the camera path of `sample` of pixel (x, y) is connected.
+    /// They are evenly distributed over the image, and far apart for neighbouring pixels. All
+    /// rounds of the pixel use light paths of the same bundle, which are as well distributed over
+    /// the rounds as a pixel's own; samples within a round use different bundles.
     [[nodiscard]] Choice choose(int x, int y, const ScheduledSample& sample) const;
-    /// Asks memory for the light paths of the choice, some time before they are needed: they are
-    /// anywhere in more of it than a processor's cache holds.
+    /// Prefetches the light paths of the choice: they are scattered over more memory than a
+    /// processor's cache holds.
     void prefetch(const Choice& choice) const;
-    /// That of its light paths, and of the camera paths that are joined to them.
+    /// Returns time and wavelength of a bundle's light paths, and of the camera paths that are
+    /// connected to them.
     [[nodiscard]] const TimeAndWavelength& moment(std::int64_t bundle) const
     {
         return chunk_of(bundle).moments[place_of(bundle)];
     }
-    /// Visits the light paths in their order.
+    /// Visits the light paths in order.
     template <typename Visit>
     void for_each_path(const Visit& visit) const
     {
@@ -77,20 +79,20 @@ public:
             }
         }
     }
-    /// Number `which` of the choice; empty if no light has power.
+    /// Returns light path number `which` of the choice; empty if no light has power.
     [[nodiscard]] std::span<const PathVertex> path(const Choice& choice, int which) const;
 
 private:
-    /// Where a path ends in the arrays of its chunk, and the next one begins.
+    /// The end of a path in the arrays of its chunk, where the next one begins.
     struct PathEnd {
         std::size_t vertices = 0;
         std::size_t bsdfs = 0;
     };
     struct Chunk {
-        std::vector<TimeAndWavelength> moments;  // by bundle
+        std::vector<TimeAndWavelength> moments;  // one per bundle
         std::vector<PathEnd> path_ends;
-        std::vector<PathVertex> vertices;  // of one path after another
-        std::vector<Bsdf> bsdfs;           // of the vertices that can be joined, in their order
+        std::vector<PathVertex> vertices;  // one path after another
+        std::vector<Bsdf> bsdfs;           // BSDFs of the connectible vertices, in order
 
         [[nodiscard]] PathEnd begin_of(std::size_t path) const
         {
@@ -105,7 +107,7 @@ private:
     {
         return static_cast<std::size_t>(bundle % chunk_bundles);
     }
-    /// Number of light path `which` of the choice in its chunk.
+    /// Returns the index of light path `which` of the choice in its chunk.
     [[nodiscard]] std::size_t path_of(const Choice& choice, int which) const
     {
         return place_of(choice.bundle) * static_cast<std::size_t>(counts_.bundle) +

@@ -10,7 +10,7 @@
 namespace bdpt {
 namespace {
 
-/// Calls `visit` with each light path up to each of its vertices that others can merge with.
+/// Calls `visit` with each light path up to each of its vertices that can merge.
 template <typename Visit>
 void for_each_vertex(const LightPathCache& cache, const Visit& visit)
 {
@@ -37,7 +37,8 @@ void LightVertexGrid::build(const LightPathCache& cache, Vec3 center, float radi
     const auto bucket = [&](std::span<const PathVertex> light) {
         return bucket_of(cell_of(light.back().end.p, 0.0));
     };
-    // A counting sort: each bucket's end, then its begin as it is filled from its end.
+    // A counting sort: stores each bucket's end, which becomes its begin as it is filled from its
+    // end.
     for_each_vertex(cache, [&](std::span<const PathVertex> light) { ++begins_[bucket(light)]; });
     std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
     for_each_vertex(cache, [&](std::span<const PathVertex> light) {
@@ -68,7 +69,8 @@ std::size_t LightVertexGrid::bucket_of(const Cell& cell) const
 
 std::array<std::size_t, 8> LightVertexGrid::buckets_near(Vec3 p) const
 {
-    // Cubes are as wide as the ball of what is near: it meets two at most along each axis.
+    // Cubes are as wide as the diameter of the search sphere, which overlaps at most two along each
+    // axis.
     const Cell first = cell_of(p, -0.5);
     std::array<std::size_t, 8> buckets{};
     for (std::size_t i = 0; i < buckets.size(); ++i) {

@@ -14,9 +14,9 @@ namespace bdpt {
 
 class LightPathCache;
 
-/// Finds the light vertices near a point: a grid of cubes whose sides are the diameter in which
-/// vertices merge, kept in a hash table [Teschner et al. 2003, "Optimized Spatial Hashing for
-/// Collision Detection of Deformable Objects"].
+/// Finds the light vertices near a point: a grid of cubes whose sides are the merge diameter,
+/// stored in a hash table [Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection
+/// of Deformable Objects"].
 class LightVertexGrid {
     /// The last of the first `size` vertices of a light path.
     struct Entry {
@@ -27,15 +27,16 @@ class LightVertexGrid {
     using Cell = std::array<std::int64_t, 3>;
 
 public:
-    /// That a vertex takes at most: there are less than two buckets for each.
+    /// Maximum memory per vertex: there are less than two buckets for each.
     static constexpr std::size_t bytes_of_vertex = sizeof(Entry) + 2 * sizeof(std::size_t);
 
-    /// Sorts all vertices in `cache` that can merge into cells; they must stay in place. Vertices
-    /// at most `radius` apart are near. Coordinates are relative to `center`, for their precision.
+    /// Sorts all vertices in `cache` that can merge into cells; their addresses must stay valid.
+    /// Vertices at most `radius` apart are near. Coordinates are relative to `center`, for
+    /// precision.
     void build(const LightPathCache& cache, Vec3 center, float radius);
 
-    /// Calls `visit` with the light paths up to each vertex near `p`, in an order that depends on
-    /// nothing but the arguments of `build`.
+    /// Calls `visit` with the light path up to each vertex near `p`, in an order that depends only
+    /// on the arguments of `build`.
     template <typename Visit>
     void for_each_near(Vec3 p, const Visit& visit) const
     {
@@ -58,11 +59,12 @@ private:
 
     [[nodiscard]] Cell cell_of(Vec3 p, double offset) const;
     [[nodiscard]] std::size_t bucket_of(const Cell& cell) const;
-    /// Those of the eight cubes that have a point near `p`, each once; the rest is `none`.
+    /// Returns those of the eight cubes that have a point near `p`, without duplicates; the rest is
+    /// `none`.
     [[nodiscard]] std::array<std::size_t, 8> buckets_near(Vec3 p) const;
 
-    std::vector<Entry> entries_;       ///< by bucket
-    std::vector<std::size_t> begins_;  ///< of buckets; one more than there are
+    std::vector<Entry> entries_;       ///< sorted by bucket
+    std::vector<std::size_t> begins_;  ///< first entries of buckets, plus the end of the last
     Vec3 center_{0.0f};
     double cells_per_meter_ = 1.0;
     float radius_squared_ = 0.0f;

@@ -19,7 +19,7 @@ float mis_weight(const TechniqueDensities& densities, LightTechnique used, Heuri
     if (heuristic == Heuristic::cutoff && own < cutoff * *greatest) {
         return 0.0f;
     }
-    // Not its own ratio, for its density may be infinite.
+    // Excludes its own ratio, as its density may be infinite.
     float sum = 1.0f;
     for (std::size_t i = 0; i < densities.size(); ++i) {
         const float density = densities[i];

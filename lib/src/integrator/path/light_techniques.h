@@ -7,18 +7,19 @@
 
 namespace bdpt {
 
-/// How a camera path comes to a point of a light from its vertex before that.
+/// Technique by which a camera path connects its vertex to a point on a light.
 enum class LightTechnique : std::size_t {
     light_sample,  ///< next-event estimation at the vertex
-    bsdf_sample,   ///< the ray that goes on from the vertex hits the light
-    fog_sample     ///< the vertex itself was chosen for the light, in fog
+    bsdf_sample,   ///< the ray sampled by the BSDF at the vertex hits the light
+    fog_sample     ///< the vertex itself was sampled by the light, in fog
 };
 
-/// How often each finds it: densities in one measure times numbers of samples, >= 0; by
+/// Densities of the techniques in one measure, times their numbers of samples, >= 0; indexed by
 /// `LightTechnique`.
 using TechniqueDensities = std::array<float, 3>;
 
-/// The weight of the one in use [Veach 1997, sec. 9.2]. Those of all add up to one.
+/// Returns the weight of the used technique [Veach 1997, sec. 9.2]. The weights of all techniques
+/// add up to one.
 [[nodiscard]] float mis_weight(const TechniqueDensities& densities, LightTechnique used,
                                Heuristic heuristic);
 

@@ -15,38 +15,39 @@
 
 namespace bdpt {
 
-/// How a path came to a point of fog.
+/// Data of a path's arrival at a scattering point in fog.
 struct PathIntegrator::FogArrival {
     FogSegment fog;
     float distance = 0.0f;
-    float pdf = 0.0f;  ///< of being scattered there [1/m]
+    float pdf = 0.0f;  ///< density of scattering there [1/m]
 };
 
 struct PathIntegrator::Ray {
     SegmentEnd origin;
     Vec3 direction{0.0f};
     SolidAnglePdf pdf;
-    /// Light sampling at the origin, which is that receiver, could have found what this ray hits.
+    /// True if light sampling at the origin, which is `receiver`, could also sample the light that
+    /// this ray hits.
     bool competes = false;
     LightSampleContext receiver{};
-    std::optional<FogArrival> arrival{};  ///< at the origin, if that is a point of fog
+    std::optional<FogArrival> arrival{};  ///< set if the origin is a scattering point in fog
 };
 
 struct PathIntegrator::LightConnection {
-    Rgb value{0.0f};         ///< over the density of the point, the light given
-    float light_pdf = 0.0f;  ///< that density, of directions; 1 for a delta light
-    float bsdf_pdf = 0.0f;   ///< of a BSDF sample hitting the point, in `mis`
+    Rgb value{0.0f};         ///< divided by the density of the point, given the light
+    float light_pdf = 0.0f;  ///< that density, per solid angle; 1 for a delta light
+    float bsdf_pdf = 0.0f;   ///< in `mis`, density of a BSDF sample that hits the point
 };
 
 namespace {
 
-/// As next-event estimation chooses light for it.
+/// Returns the receiver for which next-event estimation chooses a light.
 LightSampleContext receiver_at(const SurfacePoint& point)
 {
     return {.p = point.end.p, .normal = point.bsdf.opaque_normal()};
 }
 
-/// Is there a light that no ray hits?
+/// Tests whether there is a light that no ray can hit.
 bool has_delta_light(const LightSet& lights)
 {
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
@@ -67,7 +68,7 @@ PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
       options_(options),
       schedule_(options_),
       filter_(options.film.filter),
-      // What light sampling leaves out is found by BSDF sampling in `mis` alone.
+      // Only in `mis` does BSDF sampling find the light that light sampling omits.
       next_event_sampling_{
           .environments = options.integrator == IntegratorKind::mis ? options.sampling.environment
                                                                     : EnvironmentSampling::plain,
@@ -126,7 +127,7 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
     const CameraRay first = camera.generate_ray(raster, u_lens);
     Ray ray{.origin = first.lens, .direction = first.direction, .pdf = first.pdf_direction};
     Rgb beta(1.0f);
-    float full = 1.0f;  // throughput that roulette compares with
+    float full = 1.0f;  // reference throughput of Russian roulette
     bool dispersed = false;
     const auto add = [&](Strategy strategy, Rgb found) {
         if (strategy.s + strategy.t > options_.transport.min_depth && !is_black(found)) {
@@ -208,7 +209,8 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         if (ray.competes) {
             ray.receiver = receiver_at(point);
         }
-        // Of what the first surface leaves: where that is dark, the pixel is.
+        // The reference is the throughput after the first hit, so that dark surfaces are not
+        // starved.
         full = depth == 1 ? max_component(beta) : full;
         if (depth >= options_.transport.rr_start) {
             const float survival =

@@ -11,9 +11,10 @@
 namespace bdpt {
 
 /// Unidirectional path tracing from the camera. `pt` finds lights by BSDF sampling alone, except
-/// delta lights, which no such sample can hit; `mis` weighs BSDF sampling and light sampling [Veach
-/// 1997, ch. 9]; `nee` takes light sampling and drops the light of BSDF samples that light sampling
-/// could have found. In fog `mis` and `nee` also choose points for the lights (`FogSampling`).
+/// delta lights, which BSDF samples cannot hit; `mis` combines BSDF and light sampling by MIS
+/// [Veach 1997, ch. 9]; `nee` uses light sampling and drops the emission hit by BSDF samples that
+/// light sampling could have found. In fog `mis` and `nee` also sample points by the lights
+/// (`FogSampling`).
 class PathIntegrator final : public Integrator {
 public:
     PathIntegrator(const World& world, const MovingCamera& camera, const RenderOptions& options,
@@ -28,29 +29,29 @@ private:
     void add_sample(int x, int y, const ScheduledSample& scheduled, const Films& films,
                     ContributionSink& sink, RenderStats& stats) const;
     void trace_path(SampleContext& sample, Vec2 raster, ContributionSink& sink) const;
-    /// Radiance that the ray brings from a light it hit, weighed against light sampling;
-    /// `probability_of_flight` is that of no medium scattering it on its way.
+    /// Returns the radiance of a light that the ray hit, with its MIS weight against light
+    /// sampling; `probability_of_flight` is the probability that no medium scatters the ray before.
     [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit, Rgb radiance,
                                float probability_of_flight) const;
-    /// Next-event estimation at the point, which is vertex `depth` + 1 of the path. Returns the
-    /// mean of its light samples. `arrival` is set if the point lies in fog.
+    /// Estimates direct light by next-event estimation at the point, which is vertex `depth` + 1 of
+    /// the path. Returns the mean of its light samples. `arrival` is set if the point lies in fog.
     [[nodiscard]] Rgb sample_lights(SampleContext& sample, const SurfacePoint& point,
                                     const std::optional<FogArrival>& arrival, int depth) const;
-    /// One of them, by the random point `u`.
+    /// Takes one light sample, by the random point `u`.
     [[nodiscard]] Rgb sample_light(SampleContext& sample, const SurfacePoint& point,
                                    const std::optional<FogArrival>& arrival, int depth,
                                    Vec2 u) const;
-    /// Next-event estimation at a point of the fog on the ray, chosen for the light.
+    /// Estimates direct light at a point in the fog on the ray, chosen by the light.
     [[nodiscard]] Rgb sample_fog(SampleContext& sample, const Ray& ray, const FogSegment& fog,
                                  int depth) const;
-    /// Light that arrives from a sampled point of the light; nothing if none does.
+    /// Connects the point to a sampled point on the light; nullopt if no light arrives.
     [[nodiscard]] std::optional<LightConnection> connect(SampleContext& sample,
                                                          const SurfacePoint& point,
                                                          const Light& light,
                                                          const IncidentSample& incident,
                                                          int depth) const;
-    /// How much more often `FogSampling` finds the light at the point of fog than a walk comes
-    /// there.
+    /// Returns the ratio of the density with which `FogSampling` samples the point in the fog for
+    /// the light to that of a walk.
     [[nodiscard]] float fog_density_ratio(const std::optional<FogArrival>& arrival,
                                           LightId light) const;
     [[nodiscard]] float weight(const TechniqueDensities& densities, LightTechnique used) const
@@ -64,8 +65,8 @@ private:
     SampleSchedule schedule_;
     PixelFilter filter_;
     NextEventSampling next_event_sampling_;
-    float light_samples_;  // of these
-    bool samples_lights_;  // at all
+    float light_samples_;  // number of light samples
+    bool samples_lights_;  // uses light sampling
     std::optional<FogSampling> fog_sampling_;
 };
 

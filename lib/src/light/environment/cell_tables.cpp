@@ -7,20 +7,21 @@
 namespace bdpt {
 namespace {
 
-/// Cumulative sums of a row of numbers, which add up to `total`. They follow a guide: for each of
-/// 16 equal parts of the total, the number that its begin is in.
+/// Cumulative sums of a row of numbers, which add up to `total`, preceded by a guide table: for
+/// each of 16 equal parts of the total, the index of the number that contains its begin.
 template <typename Word, std::uint32_t total>
 struct Steps {
     static constexpr std::uint32_t guides = 16;
-    /// Rounded up, so that no sum lies beyond the last part.
+    /// Size of a part, rounded up, so that no sum lies beyond the last part.
     static constexpr std::uint32_t guided = total / guides + 1;
 
     struct Place {
         std::uint32_t index = 0;
-        float offset = 0.0f;  ///< within the number, in [0, 1)
+        float offset = 0.0f;  ///< fraction of the number, in [0, 1)
     };
 
-    /// `weights` with a sum above zero. Each that is not zero gets one, and its share of the rest.
+    /// Appends the sums of `weights`, whose sum is positive. Each positive weight gets one unit,
+    /// and its share of the rest.
     static void append(std::span<const float> weights, std::vector<Word>& to)
     {
         double sum = 0.0;
@@ -30,7 +31,7 @@ struct Steps {
             positive += weight > 0.0f ? 1U : 0U;
         }
         const std::uint32_t rest = total - positive;
-        constexpr double rounding = 0x1p-20;  // of sums of equal numbers
+        constexpr double rounding = 0x1p-20;  // error of sums of equal numbers
         const double scale = static_cast<double>(rest) / sum;
         const std::size_t begin = to.size();
         to.resize(begin + guides + weights.size());
@@ -43,7 +44,7 @@ struct Steps {
             before += static_cast<double>(weights[i]);
             count += weights[i] > 0.0f ? 1U : 0U;
         }
-        // What follows the last that is not zero begins at the end, whatever rounding says.
+        // Weights after the last positive one start at the end, regardless of rounding.
         for (std::size_t i = weights.size(); i > 0 && !(weights[i - 1] > 0.0f); --i) {
             steps[i - 1] = static_cast<Word>(total);
         }
@@ -63,7 +64,7 @@ struct Steps {
         return (i + 1 < count ? steps[i + 1] : total) - steps[i];
     }
 
-    /// The last number that begins at u or before: one without width is never it.
+    /// Returns the last number that starts at u or before; never one without width.
     [[nodiscard]] static Place find(const Word* row, std::uint32_t count, float u) noexcept
     {
         constexpr float below_one = 0x1.fffffep-1f;
@@ -85,7 +86,7 @@ struct Steps {
     }
 };
 
-/// A multiple of 128, so that even rows of up to 128 cells in powers of two stay even.
+/// A multiple of 128, so that uniform rows of up to 128 cells in powers of two stay uniform.
 constexpr std::uint32_t parts_of_row = 511 * 128;
 using CellSteps = Steps<std::uint16_t, parts_of_row>;
 using RowSteps = Steps<std::uint32_t, 0x1000000>;

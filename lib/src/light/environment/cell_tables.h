@@ -9,39 +9,39 @@
 
 namespace bdpt {
 
-/// Densities on grids of cells, in 16 bits for each cell: the tiles of an environment. Sampling
-/// inverts cumulative sums, so it keeps the stratification of its random numbers; a short guide
-/// says where in a row to look (Chen and Asau 1974). Sums are whole numbers: a cell with weight has
-/// at least one of the 65408 parts of its row, a row with weight one of 2^24 of its grid, and
-/// without weight there is none. A probability within a row differs from that of the weights by at
-/// most n / 65408 for n cells.
+/// Discrete distributions on grids of cells, the tiles of an environment, with 16 bits per cell.
+/// Sampling inverts cumulative sums, so it preserves the stratification of its random numbers; a
+/// short guide table gives the starting point in a row (Chen and Asau 1974). Sums are integers: a
+/// cell with weight has at least one of the 65408 parts of its row, a row with weight one of 2^24
+/// of its grid; without weight they have none. A probability within a row differs from that of the
+/// weights by at most n / 65408 for n cells.
 class CellTables {
 public:
     /// A cell, and a point in it.
     struct Cell {
         std::uint32_t column = 0;
         std::uint32_t row = 0;
-        Vec2 offset{0.0f};  ///< from the cell's corner, in [0, 1)^2 of its size
+        Vec2 offset{0.0f};  ///< position relative to the cell's corner, in [0, 1)^2 of its size
     };
 
-    /// Makes room for grids with so many cells in all, so that adding them copies none.
+    /// Reserves memory for grids with that total number of cells, so that adding them copies none.
     void reserve(std::size_t cells, std::size_t rows);
-    /// Adds a grid of at most 32768 columns; `weights`, >= 0 and finite, row-major. Where all are
-    /// zero there is nothing to sample.
+    /// Adds a grid of at most 32768 columns; `weights`, >= 0 and finite, row-major. If all are zero
+    /// it cannot be sampled.
     void add(std::span<const float> weights, std::size_t columns);
 
-    /// Of a grid with weight, by its number.
+    /// Samples a cell of grid number `grid`, which has weight.
     [[nodiscard]] Cell sample(std::size_t grid, Vec2 u) const noexcept;
-    /// Of `sample` taking this cell.
+    /// Returns the probability with which `sample` chooses this cell.
     [[nodiscard]] float probability(std::size_t grid, std::uint32_t column,
                                     std::uint32_t row) const noexcept;
-    /// What the tables take.
+    /// Returns the memory of the tables [bytes].
     [[nodiscard]] std::size_t bytes() const noexcept;
 
 private:
     struct Grid {
-        std::size_t cells = 0;  // where its steps begin in `cells_`
-        std::size_t rows = 0;   // and in `rows_`
+        std::size_t cells = 0;  // start of its sums in `cells_`
+        std::size_t rows = 0;   // start of its sums in `rows_`
         std::uint32_t columns = 0;
         std::uint32_t row_count = 0;
     };
@@ -49,7 +49,7 @@ private:
                                                     std::uint32_t row) const noexcept;
 
     std::vector<Grid> grids_;
-    // Of each row of numbers a guide, and then the sum before each number.
+    // For each row of numbers a guide table, followed by the exclusive prefix sums.
     std::vector<std::uint16_t> cells_;
     std::vector<std::uint32_t> rows_;
 };

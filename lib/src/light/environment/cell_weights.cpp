@@ -9,14 +9,15 @@
 namespace bdpt {
 namespace {
 
-/// The cells along a side of so many texels: a whole number of texels each, if that divides them.
+/// Returns the number of cells along a side of that many texels: each covers a whole number of
+/// texels, if that divides them.
 int cells_along(int texels, int most)
 {
     const int of_cell = (texels - 1) / most + 1;
     return (texels - 1) / of_cell + 1;
 }
 
-/// The texels that a cell covers, in parts of a texel.
+/// The range of texels that a cell covers, with fractions.
 struct Covered {
     double begin;
     double end;
@@ -83,7 +84,7 @@ void CellWeights::add_texels(int y, float share)
     }
 }
 
-/// Of a row of texels, as parts of the greatest, so that no sum leaves the range.
+/// Returns the luminances of a row of texels relative to the maximum, so that no sum overflows.
 const std::vector<float>& CellWeights::luminances(int y)
 {
     Row& row = cached_[static_cast<std::size_t>(y) % cached_.size()];

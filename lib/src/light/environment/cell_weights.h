@@ -9,19 +9,19 @@
 
 namespace bdpt {
 
-/// How much each cell of an environment is sampled: by the luminance of its texels and that of
-/// their neighbours, for bilinear lookups carry light over the edge, times solid angle (up to a
-/// constant). Cells are texels, or in large images several of them: what is finer than a fifth of a
-/// degree changes no picture's noise, but a table of it makes each sample wait for memory.
+/// Sampling weights of an environment's cells: luminance of texels and their neighbours, as
+/// bilinear lookups spread light over the edge, times solid angle (up to a constant). Cells are
+/// texels, or several texels in large images: detail finer than a fifth of a degree does not affect
+/// noise, but larger tables cost each sample memory latency.
 class CellWeights {
 public:
-    /// `row_shares`: of each row of texels, of the sphere.
+    /// `row_shares` is the fraction of the sphere in each row of texels.
     CellWeights(const EnvironmentTexels& texels, std::vector<float> row_shares);
 
     [[nodiscard]] int columns() const { return columns_; }
     [[nodiscard]] int rows() const { return rows_; }
-    /// Writes the weights of a row of cells, at most 12. Asked for one row after the other, it
-    /// looks at each texel once.
+    /// Writes the weights of a row of cells, at most 12. If called for one row after the other, it
+    /// reads each texel once.
     void of_row(int row, std::span<float> weights);
 
 private:
@@ -39,7 +39,7 @@ private:
     int rows_;
     float scale_;
     std::array<Row, 4> cached_{};
-    std::vector<float> sums_;    // of three texels, one below the other
+    std::vector<float> sums_;    // sums of three vertically adjacent texels
     std::vector<float> of_row_;  // weights of texels
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float max_half = 65504.0f;
 
-/// The nearest half, ties to even, of a float in [0, 65504].
+/// Returns the nearest half float, ties to even, of a float in [0, 65504].
 std::uint16_t half_of(float value)
 {
     constexpr float min_normal = 0x1p-14f;
@@ -25,8 +25,8 @@ std::uint16_t half_of(float value)
     return static_cast<std::uint16_t>((bits - (112U << 23U) + 0xfffU + even) >> 13U);
 }
 
-/// About the geometric mean of all channels that are not black: the mean of their exponents. A sun
-/// does not change it.
+/// Returns approximately the geometric mean of all channels that are not black: the mean of their
+/// exponents. A sun does not change it.
 float usual_brightness(const Image& image)
 {
     std::int64_t sum = 0;
@@ -58,12 +58,12 @@ EnvironmentTexels::EnvironmentTexels(const Image& image)
     }
 }
 
-/// False if a texel would come out wrong by more than 1/2048 of itself and by more than what nobody
-/// can see beside texels of usual brightness.
+/// Encodes the image as half floats; returns false if the error of a texel would exceed 1/2048 of
+/// its value and the visible threshold beside texels of usual brightness.
 bool EnvironmentTexels::encode(const Image& image)
 {
     static_assert(sizeof(Rgb) == 3 * sizeof(float));
-    // As great as halves can be, so that no texel is subnormal without need.
+    // Scales the maximum to the range of halves, so that no texel is subnormal unnecessarily.
     while (greatest_ / scale_ > max_half) {
         scale_ *= 2.0f;
     }

@@ -10,12 +10,12 @@
 
 namespace bdpt {
 
-/// The radiance of an environment's texels, as halves times a power of two: 6 bytes a texel, and no
-/// rounding of what files of halves and Radiance files hold. Where an image has a wider range than
-/// that, its texels stay floats (docs/decisions/0070-compact-environments.md).
+/// Radiance of an environment's texels, as half floats times a power of two: 6 bytes per texel,
+/// without rounding for files of half floats and Radiance files. If the range of an image is wider,
+/// its texels stay floats (docs/decisions/0070-compact-environments.md).
 class EnvironmentTexels {
 public:
-    /// Finite, not negative.
+    /// Stores `image`, which is finite and not negative.
     explicit EnvironmentTexels(const Image& image);
 
     [[nodiscard]] int width() const noexcept { return width_; }
@@ -32,19 +32,19 @@ public:
         const float* const texel = floats_.data() + first;
         return {texel[0], texel[1], texel[2]};
     }
-    /// Of all channels of all texels.
+    /// Returns the maximum over all channels of all texels.
     [[nodiscard]] float greatest() const noexcept { return greatest_; }
-    /// Are texels halves?
+    /// Tests whether texels are half floats.
     [[nodiscard]] bool are_halves() const noexcept { return !halves_.empty(); }
-    /// What the texels take.
+    /// Returns the memory of the texels [bytes].
     [[nodiscard]] std::size_t bytes() const noexcept
     {
         return halves_.size() * sizeof(halves_[0]) + floats_.size() * sizeof(floats_[0]);
     }
 
 private:
-    /// Of a positive half, by whole numbers where it is subnormal: threads that render flush
-    /// subnormal floats to zero.
+    /// Decodes a positive half float, by integer arithmetic if it is subnormal: rendering threads
+    /// flush subnormal floats to zero.
     [[nodiscard]] static float decoded(std::uint16_t half) noexcept
     {
         constexpr std::uint32_t min_normal = 0x400;
@@ -60,7 +60,7 @@ private:
     float greatest_ = 0.0f;
     float scale_ = 1.0f;
     std::vector<std::uint16_t> halves_;
-    std::vector<float> floats_;  // in place of halves
+    std::vector<float> floats_;  // used instead of halves
 };
 
 }  // namespace bdpt

@@ -10,41 +10,44 @@ namespace {
 
 constexpr float below_one = 0x1.fffffep-1f;
 
-/// Part `i` of `count` among `size` things; none is empty if there are no more parts than things.
+/// Returns the begin of part `i` of `count` among `size` items; none is empty if there are at most
+/// `size` parts.
 std::uint32_t begin_of_part(std::uint32_t i, std::uint32_t count, std::uint32_t size)
 {
     return static_cast<std::uint32_t>(std::uint64_t{size} * i / count);
 }
 
-/// Part `i` of them.
+/// Returns part `i`.
 EnvironmentTiles::Range part(std::uint32_t i, std::uint32_t count, std::uint32_t size)
 {
     return {begin_of_part(i, count, size), begin_of_part(i + 1, count, size)};
 }
 
-/// The part that `thing` is in.
+/// Returns the part that contains `thing`.
 std::uint32_t part_of(std::uint32_t thing, std::uint32_t count, std::uint32_t size)
 {
     return static_cast<std::uint32_t>(((std::uint64_t{thing} + 1) * count - 1) / size);
 }
 
-/// Of the directions of a tile: no normal whose n.axis + reach is zero or less sees any of them.
+/// Cone of the directions of a tile: a surface whose n.axis + reach is zero or less sees none of
+/// them.
 struct TileCone {
     Vec3 axis{0.0f};
     float reach = 1.0f;
 };
 
-/// Of a block of the unit square that the image fills. A surface sees a direction of a cone with
-/// half angle theta if its normal is less than 90 degrees + theta away from the axis, which is
-/// n.axis > -sin(theta). A wide cone does not tell how high above the surface its light is, so it
-/// has no axis, and counts the same for all normals.
+/// Returns the cone of a block of the unit square that the image fills. A surface sees a direction
+/// of a cone with half angle theta if its normal is less than 90 degrees + theta away from the
+/// axis, that is, n.axis > -sin(theta). A wide cone does not bound the height of its light above
+/// the surface, so it has no axis, and counts equally for all normals.
 TileCone cone_around(Vec2 begin, Vec2 end)
 {
     constexpr float min_cosine = 0.5f;
     constexpr float rounding = 1e-3f;
     const SinCos phi = sin_cos(pi * (begin.x + end.x - 1.0f));
     const SinCos theta = sin_cos(0.5f * pi * (begin.y + end.y));
-    // Farthest from the middle are corners, or points between them that are past 90 degrees.
+    // The directions farthest from the centre are corners, or points between them beyond 90
+    // degrees.
     const float cos_half_width = sin_cos(pi * (end.x - begin.x)).cos;
     float cosine = 1.0f;
     for (const float v : {begin.y, end.y}) {
@@ -58,8 +61,8 @@ TileCone cone_around(Vec2 begin, Vec2 end)
             .reach = std::sqrt(1.0f - std::min(cosine * cosine, 1.0f)) + rounding};
 }
 
-/// Adds the second half of 2 `Count` numbers to the first. No sum waits for another one, and
-/// vectors of any width add in the same order.
+/// Adds the second half of 2 `Count` numbers to the first. The sums are independent, and vectors of
+/// any width add in the same order.
 template <std::size_t Count>
 void fold(float* numbers)
 {
@@ -70,11 +73,11 @@ void fold(float* numbers)
 
 struct Pick {
     std::size_t index = 0;
-    float u = 0.0f;  ///< uniform again
+    float u = 0.0f;  ///< again uniform
 };
 
-/// One of `count` numbers, in proportion to them; each is `Stride` after the one before it. `sum`,
-/// of all of them, is positive.
+/// Picks one of `count` numbers in proportion to them; they are `Stride` apart. `sum`, their sum,
+/// is positive.
 template <std::size_t Stride>
 Pick pick(const float* numbers, std::size_t count, float sum, float u)
 {
@@ -98,14 +101,14 @@ Pick pick(const float* numbers, std::size_t count, float sum, float u)
     return picked;
 }
 
-/// How many parts a side of a tile has, for its dim weights.
+/// Returns the number of parts per side of a tile, for its dim weights.
 std::uint32_t parts_of(std::uint32_t cells)
 {
     constexpr std::uint32_t most = 16;
     return std::min(cells, most);
 }
 
-/// The weights of a tile's cells, added up by its parts.
+/// Returns the sums of the weights of a tile's cells over its parts.
 std::vector<float> sums_of_parts(std::span<const float> weights, std::uint32_t columns,
                                  std::uint32_t rows)
 {
@@ -123,7 +126,7 @@ std::vector<float> sums_of_parts(std::span<const float> weights, std::uint32_t c
     return {sums.begin(), sums.end()};
 }
 
-/// Rows of weights and what of them counts as dim.
+/// Reads rows of weights and splits off the dim part.
 class WeightRows {
 public:
     explicit WeightRows(const EnvironmentWeights& weights)
@@ -142,8 +145,8 @@ public:
         weights_.of_row(y, row_);
         return row_;
     }
-    /// The most that a texel of this row has of it: half of what it would have if all weight were
-    /// even over the sphere.
+    /// Returns the maximum dim weight of a texel in this row: half of its weight if all weight were
+    /// uniform over the sphere.
     [[nodiscard]] float max_dim_weight(int y) const
     {
         return weights_.row_shares.empty()
@@ -341,7 +344,7 @@ CellTables::Cell EnvironmentTiles::sample_cell(std::size_t tile, Vec2 u,
     }
     const float left = std::min((u.y - bright) / (1.0f - bright), below_one);
     const CellTables::Cell of_parts = parts_.sample(grid, {u.x, left});
-    // A part is even: the cell is where the point lies in it.
+    // A part is uniform: the position in it determines the cell.
     const auto place = [](Range cells, float offset, std::uint32_t& cell, float& in_cell) {
         const float at = offset * static_cast<float>(cells.size());
         const std::uint32_t whole = std::min(static_cast<std::uint32_t>(at), cells.size() - 1);

@@ -15,39 +15,39 @@
 
 namespace bdpt {
 
-/// A number of each tile of an environment.
+/// One number per tile of an environment.
 struct TileFactors;
 
-/// What cells of an environment are sampled by.
+/// Sampling weights of an environment's cells.
 struct EnvironmentWeights {
     int width = 0;  ///< [texels]
     int height = 0;
-    /// Writes the weights of a row's cells, >= 0 and finite. Each row is asked for twice.
+    /// Writes the weights of a row's cells, >= 0 and finite. Called twice for each row.
     std::function<void(int row, std::span<float> weights)> of_row;
-    /// Of each row, of the solid angle of the sphere. If it is empty, no weight is dim.
+    /// Fraction of the sphere's solid angle in each row. If empty, no weight is dim.
     std::vector<float> row_shares{};
 };
 
-/// Density of the directions of an environment for a receiver: an equirectangular image in tiles,
-/// of which those come first that stand high above the receiver's surface, and those below never
+/// Density of an environment's directions for a receiver: an equirectangular image in tiles; tiles
+/// high above the receiver's surface are preferred, and those below are excluded
 /// (docs/decisions/0060-environment-tiles.md). Normals are in the frame of the image.
 ///
-/// Weights have two parts: what is above half of their mean for the solid angle, which is all that
-/// compensated sampling takes, and the dim rest. Plain sampling takes both. Bright cells have each
-/// their own density, dim ones one for each of 16 x 16 parts of a tile
+/// Weights have two parts: the excess over half of their mean per solid angle, which is all that
+/// compensated sampling uses, and the dim rest. Plain sampling uses both. Each bright cell has its
+/// own density, dim cells share one for each of 16 x 16 parts of a tile
 /// (docs/decisions/0070-compact-environments.md).
 class EnvironmentTiles {
 public:
-    /// A cell, and a point in it. Cells are those of the weights; where these are so wide that all
-    /// surfaces see some of each, each of them is several cells side by side.
+    /// A cell, and a point in it. Cells are those of the weights; if these are so wide that all
+    /// surfaces see a part of each, each weight is split into several adjacent cells.
     struct Sample {
         int column = 0;
         int row = 0;
-        Vec2 offset{0.0f};  ///< from the cell's corner, in [0, 1)^2 of its size
-        float pdf = 0.0f;   ///< on the unit square that the image fills
+        Vec2 offset{0.0f};  ///< position relative to the cell's corner, in [0, 1)^2 of its size
+        float pdf = 0.0f;   ///< density on the unit square that the image fills
     };
 
-    /// The cells from `begin` on, before `end`.
+    /// Half-open range of cells [begin, end).
     struct Range {
         std::uint32_t begin;
         std::uint32_t end;
@@ -56,44 +56,46 @@ public:
 
     static constexpr std::size_t tile_count = 128;
 
-    /// Where all weights are zero there is nothing to sample.
+    /// Builds the distribution; if all weights are zero it cannot be sampled.
     explicit EnvironmentTiles(const EnvironmentWeights& weights);
 
-    /// Of cells, in each row.
+    /// Returns the number of cells in a row.
     [[nodiscard]] int columns() const noexcept { return static_cast<int>(width_); }
     [[nodiscard]] int rows() const noexcept { return static_cast<int>(height_); }
-    /// Nothing where all that has weight is below the surface. Without a normal all weights count.
-    /// `factors`, positive, multiply the weights of tiles; null: none. `sampling`: plain or not.
+    /// Samples a cell; nullopt if all weight is below the surface. Without a normal all weights
+    /// count. `factors`, positive, multiply the weights of tiles; null: none. `sampling` is plain
+    /// or not.
     [[nodiscard]] std::optional<Sample> sample(
         Vec2 u, const std::optional<Vec3>& normal, const TileFactors* factors = nullptr,
         EnvironmentSampling sampling = EnvironmentSampling::compensated) const noexcept;
-    /// Of `sample` taking a point in this cell, on the unit square; zero if it never does.
+    /// Returns the density with which `sample` chooses a point in this cell, on the unit square;
+    /// zero if it never does.
     [[nodiscard]] float pdf(
         int column, int row, const std::optional<Vec3>& normal,
         const TileFactors* factors = nullptr,
         EnvironmentSampling sampling = EnvironmentSampling::compensated) const noexcept;
-    /// The tile that the cell is in, in [0, tile_count).
+    /// Returns the tile that contains the cell, in [0, tile_count).
     [[nodiscard]] std::size_t tile_of(int column, int row) const noexcept;
-    /// What the tables of cells take.
+    /// Returns the memory of the tables of cells [bytes].
     [[nodiscard]] std::size_t bytes() const noexcept { return cells_.bytes() + parts_.bytes(); }
 
 private:
     static constexpr std::uint32_t tile_columns = 16;
     static constexpr std::uint32_t max_rows = 8;
-    /// A number of each tile, one column of tiles after the other; zero where there are fewer.
+    /// One number per tile, column-major; zero where there are fewer tiles.
     using PerTile = std::array<float, tile_count>;
     static_assert(tile_columns * max_rows == tile_count);
-    /// What tiles are worth to a receiver, in no unit.
+    /// Unnormalized importance of the tiles to a receiver.
     struct Worth {
         alignas(16) PerTile of;
         std::array<float, max_rows> row_sums;
         float sum;
 
-        /// Sets the sums.
+        /// Computes the sums.
         void sum_up() noexcept;
     };
     void add_shape(std::size_t tile, Range columns, Range rows);
-    /// `bright` and `dim` weights of the tile's cells.
+    /// Adds the `bright` and `dim` weights of a tile's cells.
     void add_tile(std::size_t tile, std::span<const float> bright, std::span<const float> dim,
                   double total);
     [[nodiscard]] Worth worth(const Worth& shares, const std::optional<Vec3>& normal,
@@ -104,7 +106,7 @@ private:
                                                EnvironmentSampling sampling) const noexcept;
     [[nodiscard]] float density(std::size_t tile, const Worth& worth,
                                 float cell_pdf) const noexcept;
-    /// In the tile's own unit square.
+    /// Returns the density in the tile's own unit square.
     [[nodiscard]] float cell_pdf(std::size_t tile, std::uint32_t column, std::uint32_t row,
                                  EnvironmentSampling sampling) const noexcept;
     [[nodiscard]] const Worth& shares(EnvironmentSampling sampling) const noexcept
@@ -124,16 +126,16 @@ private:
     std::uint32_t cells_of_weight_;
     std::uint32_t width_;  // in cells
     std::uint32_t height_;
-    std::uint32_t rows_;                                           // of tiles
+    std::uint32_t rows_;                                           // rows of tiles
     std::array<std::uint32_t, tile_columns + 1> column_begins_{};  // first cells of tiles
     std::array<std::uint32_t, max_rows + 1> row_begins_{};
-    // The share of each tile in all weights.
+    // Fraction of each tile in the sum of all weights.
     Worth all_;
     Worth bright_;
-    PerTile bright_in_tile_{};                              // how much of its own weight is bright
-    std::array<std::uint16_t, tile_count> grid_of_tile_{};  // in the tables
+    PerTile bright_in_tile_{};                              // bright fraction of each tile's weight
+    std::array<std::uint16_t, tile_count> grid_of_tile_{};  // index in the tables
     std::uint16_t grids_ = 0;
-    // A tile is worth its share times n.axis + reach, if that is positive.
+    // The importance of a tile is its share times n.axis + reach, if that is positive.
     alignas(16) PerTile axis_x_{};
     alignas(16) PerTile axis_y_{};
     alignas(16) PerTile axis_z_{};

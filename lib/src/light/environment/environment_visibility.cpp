@@ -8,10 +8,10 @@
 namespace bdpt {
 namespace {
 
-/// A cell is split while its halves have about as many trials each.
+/// Minimum number of trials in a cell: cells are split while their halves have about as many.
 constexpr std::ptrdiff_t trials_of_cell = 400;
 constexpr int max_depth = 32;
-/// The probabilities of the enclosing cell count as so many trials.
+/// Weight of the parent cell's probabilities, in trials.
 constexpr float prior = 4.0f;
 
 }  // namespace
@@ -26,7 +26,7 @@ void EnvironmentVisibility::build(std::uint32_t node, std::vector<Trial>::iterat
                                   std::vector<Trial>::iterator end, const Probabilities& of_parent,
                                   int depth)
 {
-    // Counts are whole numbers and exact, so that their order does not matter.
+    // Counts are exact integers, so that their order does not matter.
     std::vector<float> tried(EnvironmentTiles::tile_count, 0.0f);
     std::vector<float> visible(EnvironmentTiles::tile_count, 0.0f);
     Vec3 lower(std::numeric_limits<float>::infinity());
@@ -63,7 +63,8 @@ void EnvironmentVisibility::build(std::uint32_t node, std::vector<Trial>::iterat
     nodes_[node] = {.split = 0.0f, .axis = leaf, .next = static_cast<std::uint32_t>(cells_.size())};
     TileFactors& factors = cells_.emplace_back();
     for (std::size_t tile = 0; tile < here.size(); ++tile) {
-        // The share of samples that has the least variance goes with the root of the second moment.
+        // The variance is minimal if the share of samples is proportional to the root of the second
+        // moment.
         factors.of[tile] = std::max(min_factor, std::sqrt(here[tile]));
     }
 }

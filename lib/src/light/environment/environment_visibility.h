@@ -10,22 +10,23 @@
 
 namespace bdpt {
 
-/// How much of each tile of an environment is visible from a place, by cells of a kd-tree that a
-/// pilot filled (docs/decisions/0068-learned-visibility.md). It guides next-event estimation and
-/// cannot bias it: no factor is zero.
+/// Visibility of each tile of an environment from a place, by cells of a kd-tree that a pilot
+/// filled (docs/decisions/0068-learned-visibility.md). It guides next-event estimation and cannot
+/// bias it: no factor is zero.
 class EnvironmentVisibility {
 public:
-    /// A ray towards an environment.
+    /// A visibility ray towards an environment.
     struct Trial {
-        Vec3 p{0.0f};  ///< where it starts, in the world
+        Vec3 p{0.0f};  ///< origin in world space
         std::uint32_t tile = 0;
-        bool visible = false;  ///< it met nothing
+        bool visible = false;  ///< true if it hit nothing
     };
 
-    /// The order of `trials` does not matter. Without any, all is visible.
+    /// Builds the tree from `trials`, whose order does not matter. Without any, everything is
+    /// visible.
     explicit EnvironmentVisibility(std::vector<Trial> trials);
 
-    /// Factors of the tiles' shares of the samples at `p`, in [min_factor, 1].
+    /// Returns factors of the tiles' sampling probabilities at `p`, in [min_factor, 1].
     [[nodiscard]] const TileFactors& at(Vec3 p) const noexcept
     {
         std::uint32_t node = 0;
@@ -34,10 +35,10 @@ public:
         }
         return cells_[nodes_[node].next];
     }
-    /// Number of cells that space is divided into.
+    /// Returns the number of cells that space is divided into.
     [[nodiscard]] std::size_t cells() const noexcept { return cells_.size(); }
 
-    /// The factor of a tile that no ray reached: its light is still sampled, if rarely.
+    /// Factor of a tile that no ray reached: its light is still sampled, if rarely.
     static constexpr float min_factor = 0.05f;
 
 private:
@@ -45,9 +46,9 @@ private:
     struct Node {
         float split = 0.0f;
         int axis = leaf;
-        std::uint32_t next = 0;  ///< the first of two children; of a leaf: its cell
+        std::uint32_t next = 0;  ///< first of two children; leaf: index of its cell
     };
-    /// How probably each tile is visible from a part of space.
+    /// Probability that each tile is visible from a region of space.
     using Probabilities = std::vector<float>;
 
     void build(std::uint32_t node, std::vector<Trial>::iterator begin,

@@ -24,16 +24,16 @@ struct PaintedTurn {
 EnvironmentLightDesc painted_environment(const PaintedSize& size,
                                          const std::function<double(const glm::dvec3&)>& radiance)
 {
-    // Rows are as high as columns are wide. They begin half of that from their edge.
+    // Rows are as high as columns are wide. Centres are offset by half of that.
     const PaintedTurn half{size.half_step_sine, size.half_step_cosine};
     PaintedTurn step = half;
     step.add(half);
     std::vector<double> values;
     double sum = 0.0;
     double weights = 0.0;
-    PaintedTurn elevation{half.cosine, half.sine};  // of the top row: just below +y
+    PaintedTurn elevation{half.cosine, half.sine};  // top row: just below +y
     for (int row = 0; row < size.rows; ++row) {
-        // Columns begin at +z, and go by -x to -z in the middle.
+        // Columns start at +z, and continue by -x to -z in the centre.
         PaintedTurn azimuth{-half.sine, -half.cosine};
         for (int column = 0; column < 2 * size.rows; ++column) {
             const glm::dvec3 direction(elevation.cosine * azimuth.sine, elevation.sine,

@@ -13,24 +13,24 @@ namespace {
 
 using StudioDirection = glm::dvec3;
 
-/// A rectangle at distance 1 that shines, upright, with soft edges.
+/// An upright emitting rectangle at distance 1, with soft edges.
 struct SoftBox {
-    StudioDirection towards;  ///< from the middle of the scene
-    double half_width;        ///< of the box, at distance 1
-    double half_height;       ///< likewise
+    StudioDirection towards;  ///< direction from the centre of the scene
+    double half_width;        ///< half width of the box, at distance 1
+    double half_height;       ///< half height of the box, at distance 1
     double radiance;
 };
 
-// +z is the front, +x on the right of who looks at it.
+// +z is the front, +x to the right of an observer in front.
 constexpr double key_radiance = 9.0;
 const std::array studio_boxes{
     SoftBox{{-0.55, 0.85, 0.75}, 0.62, 0.50, key_radiance},         // high on the left
     SoftBox{{1.0, 0.25, 0.15}, 0.28, 0.75, 0.35 * key_radiance},    // on the right, upright
-    SoftBox{{-0.35, 0.55, -1.0}, 0.85, 0.16, 0.80 * key_radiance},  // behind, lying
+    SoftBox{{-0.35, 0.55, -1.0}, 0.85, 0.16, 0.80 * key_radiance},  // behind, horizontal
 };
 constexpr double soft_edge = 0.16;  // width of the soft edge, at distance 1
 
-/// From 0 to 1 while x goes from -soft_edge / 2 to soft_edge / 2.
+/// Returns 0 to 1 while x increases from -soft_edge / 2 to soft_edge / 2.
 double soft_step(double x)
 {
     return smooth_step(x / soft_edge + 0.5);
@@ -52,7 +52,7 @@ double radiance_of(const SoftBox& box, const StudioDirection& direction)
            soft_step(box.half_height - std::max(y, -y));
 }
 
-/// Walls that get darker upwards, and a floor that is brightest below the scene.
+/// Returns walls that darken upwards, and a floor that is brightest below the scene.
 double studio_room(double sine)
 {
     constexpr double wall = 0.42;

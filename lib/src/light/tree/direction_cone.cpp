@@ -15,7 +15,7 @@ float sine(float cosine)
     return std::sqrt(std::max(0.0f, (1.0f - cosine) * (1.0f + cosine)));
 }
 
-/// Is `narrow` within `wide`, the cosine between their axes being `cos_between`?
+/// Tests whether `narrow` is within `wide`; `cos_between` is the cosine between their axes.
 bool contains(const DirectionCone& wide, const DirectionCone& narrow, float cos_between)
 {
     if (wide.is_whole()) {
@@ -37,7 +37,7 @@ DirectionCone merged(const DirectionCone& a, const DirectionCone& b)
     if (contains(wide, narrow, cos_between)) {
         return wide;
     }
-    // More than what rounding takes off, so that no number of unions loses a direction.
+    // Exceeds the rounding error, so that no number of unions loses a direction.
     constexpr float margin = 4e-6f;
     const auto cos_of = [](float angle) {
         return angle < pi ? std::max(sin_cos(angle).cos - margin, -1.0f) : -1.0f;
@@ -51,7 +51,7 @@ DirectionCone merged(const DirectionCone& a, const DirectionCone& b)
     }
     const Vec3 across = narrow.axis - cos_between * wide.axis;
     const float length = std::sqrt(dot(across, across));
-    constexpr float parallel = 1e-5f;  // below it the axes give no plane to turn in
+    constexpr float parallel = 1e-5f;  // below this the axes define no plane of rotation
     if (length < parallel) {
         return {.axis = wide.axis, .cos_angle = cos_of(between + narrow_angle)};
     }

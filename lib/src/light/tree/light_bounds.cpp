@@ -20,7 +20,7 @@ LightBounds merged(const LightBounds& a, const LightBounds& b)
     const bool both = a.sides == EmittingSides::both || b.sides == EmittingSides::both;
     DirectionCone other = b.normals;
     if (both && dot(a.normals.axis, other.axis) < 0.0f) {
-        other.axis = -other.axis;  // the nearer of two that shine alike
+        other.axis = -other.axis;  // the closer of two opposite axes that are equivalent
     }
     return {.min = min(a.min, b.min),
             .max = max(a.max, b.max),

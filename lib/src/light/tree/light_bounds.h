@@ -10,25 +10,25 @@ namespace bdpt {
 
 enum class EmittingSides : std::uint8_t { front, both };
 
-/// Where a light is, or several lights are, and where they shine [Conty Estevez and Kulla 2018,
+/// Position and direction bounds of one or several lights [Conty Estevez and Kulla 2018,
 /// "Importance Sampling of Many Lights with Adaptive Tree Splitting", sec. 4.1]. Light leaves a
 /// point of the box at an angle of at most `falloff` from a direction of the cone of normals.
 struct LightBounds {
-    Vec3 min{0.0f};  ///< of the box around it [m]
+    Vec3 min{0.0f};  ///< bounding box [m]
     Vec3 max{0.0f};
-    DirectionCone normals;     ///< or axes, of what has no surface
-    float cos_falloff = 0.0f;  ///< cosine of that angle; 0: half a turn, as a surface shines
-    EmittingSides sides = EmittingSides::front;  ///< both: the other way round as well
-    double intensity = 0.0;                      ///< luminance of the greatest, added up [cd]
+    DirectionCone normals;     ///< cone of normals, or of axes of lights without surface
+    float cos_falloff = 0.0f;  ///< cosine of the falloff angle; 0: a hemisphere, as surfaces emit
+    EmittingSides sides = EmittingSides::front;  ///< `both`: also in opposite directions
+    double intensity = 0.0;                      ///< sum of the maximum luminous intensities [cd]
 
     [[nodiscard]] Vec3 center() const { return 0.5f * min + 0.5f * max; }
-    /// Makes the box larger.
+    /// Extends the box to contain `p`.
     void contain(Vec3 p);
 };
 
 [[nodiscard]] LightBounds merged(const LightBounds& a, const LightBounds& b);
 
-/// How far the lights shine [sr]: the measure M_Omega of sec. 4.4.
+/// Returns the solid angle into which the lights emit [sr]: the measure M_Omega of sec. 4.4.
 [[nodiscard]] float orientation_measure(const LightBounds& bounds);
 
 }  // namespace bdpt

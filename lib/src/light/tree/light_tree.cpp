@@ -25,13 +25,13 @@ Angle angle_of(float cosine)
     return {cosine, std::sqrt(greater((1.0f - cosine) * (1.0f + cosine), 0.0f))};
 }
 
-/// In [0, pi / 2].
+/// Returns the angle in [0, pi / 2] with that sine.
 Angle angle_of_sine(float sine)
 {
     return {angle_of(sine).sin, sine};
 }
 
-/// a - b, and 0 where b is the greater.
+/// Returns a - b, or 0 if b is larger.
 Angle less(Angle a, Angle b)
 {
     const float cosine = a.cos * b.cos + a.sin * b.sin;
@@ -39,15 +39,15 @@ Angle less(Angle a, Angle b)
     return {a.cos > b.cos ? 1.0f : cosine, a.cos > b.cos ? 0.0f : greater(sine, 0.0f)};
 }
 
-/// Cosines of small angles between large ones are off by less than this: what is darker by no more
-/// than rounding still counts as lit.
+/// Error bound for cosines of small angles between large ones: groups that are dark by no more than
+/// this still count as lit.
 constexpr float slack = 2e-3f;
-// Lights at grazing angles keep a little, for the bounds say nothing about textures, spheres that
-// rise above a horizon or shading normals.
+// Minimum factors at grazing angles, because the bounds ignore textures, spheres that extend above
+// a horizon and shading normals.
 constexpr float min_emitted = 0.01f;
 constexpr float min_received = 0.05f;
 
-/// A probability as what is weighed and divided by: 0 where a float has no digits left.
+/// Converts a probability to float: 0 if it is not a normal number.
 float usable(double probability)
 {
     const auto rounded = static_cast<float>(probability);
@@ -63,7 +63,7 @@ LightQuad::Four<double> LightQuad::importance(const LightSampleContext& receiver
     const float min_cosine = receiver.normal ? -1.0f : 1.0f;
     Four<float> factor;
     Four<float> squared;
-    // Selections in place of branches, and one type of numbers: all four at once.
+    // Branch-free and with one number type, so that it is vectorized over all four.
     for (std::size_t i = 0; i < width; ++i) {
         const float dx = x[i] - p.x;
         const float dy = y[i] - p.y;
@@ -83,7 +83,7 @@ LightQuad::Four<double> LightQuad::importance(const LightSampleContext& receiver
         float cosines = greater(emitted, min_emitted) * greater(received, min_received);
         cosines = emitted >= cos_falloff[i] - slack ? cosines : 0.0f;
         cosines = received >= -slack ? cosines : 0.0f;
-        factor[i] = to_center > inside ? cosines : 1.0f;  // from within no angle is known
+        factor[i] = to_center > inside ? cosines : 1.0f;  // inside of the sphere angles are unknown
         squared[i] = distance_squared;
     }
     Four<double> result;
@@ -124,7 +124,7 @@ std::optional<LightTree::Choice> LightTree::sample(const LightSampleContext& rec
         if (!(view.sum > 0.0)) {
             return std::nullopt;
         }
-        // The last one that is lit takes what rounding leaves.
+        // The last lit child takes the rounding error.
         double rest = u * view.sum;
         std::size_t chosen = 0;
         double share = 0.0;

@@ -12,39 +12,39 @@
 
 namespace bdpt {
 
-/// Four groups of lights, each a sphere around them and where they shine: what one look of a walk
-/// down the tree sees. Number by number, so that compilers look at all four at once.
+/// Four groups of lights with their bounding spheres and directions, evaluated together on the way
+/// down the tree. A structure of arrays, so that compilers vectorize it.
 struct LightQuad {
     static constexpr std::size_t width = 4;
     template <typename T>
     using Four = std::array<T, width>;
 
-    Four<float> x{};  ///< of the centre
+    Four<float> x{};  ///< centre
     Four<float> y{};
     Four<float> z{};
     Four<float> radius{1.0f, 1.0f, 1.0f, 1.0f};  ///< > 0
     Four<float> axis_x{};
     Four<float> axis_y{};
     Four<float> axis_z{};
-    Four<float> cos_spread{};  ///< of the cone of normals about the axis
+    Four<float> cos_spread{};  ///< cone of normals about the axis
     Four<float> sin_spread{};
     Four<float> cos_falloff{};
-    Four<float> intensity{};      ///< share of all lights; 0: nobody is here
-    Four<float> both_sides{};     ///< 1 if they shine the other way round as well, else 0
-    Four<std::uint32_t> group{};  ///< the node that it is, or for a single light `single` + light
+    Four<float> intensity{};      ///< fraction of the intensity of all lights; 0: unused
+    Four<float> both_sides{};     ///< 1 if they also emit in opposite directions, else 0
+    Four<std::uint32_t> group{};  ///< index of the child node, or `single` + index of a light
 
     static constexpr std::uint32_t single = 0x80000000U;
 
-    /// Roughly the illuminance at the receiver by each; greater than zero if any of its lights can
-    /// shine there [Conty Estevez and Kulla 2018, eq. 3].
+    /// Returns a rough estimate of the illuminance at the receiver by each group; greater than zero
+    /// if any of its lights can illuminate the receiver [Conty Estevez and Kulla 2018, eq. 3].
     [[nodiscard]] Four<double> importance(const LightSampleContext& receiver) const noexcept;
 };
 
-/// Chooses one of many lights by how much it may bring to a point: a tree whose nodes bound their
-/// lights, walked from the root by one random number [Conty Estevez and Kulla 2018, "Importance
+/// Chooses one of many lights by estimated contribution to a point: a tree whose nodes bound their
+/// lights, traversed from the root by one random number [Conty Estevez and Kulla 2018, "Importance
 /// Sampling of Many Lights with Adaptive Tree Splitting", without splitting]. Nodes have many
-/// children, for the bounds of small groups say more than those of large ones. The way up from each
-/// light is known, so the probability of choosing it takes as long as choosing.
+/// children, for the bounds of small groups are tighter than those of large ones. The path from
+/// each light to the root is stored, so its probability costs as much as choosing.
 class LightTree {
 public:
     struct Choice {
@@ -53,18 +53,20 @@ public:
     };
 
     LightTree() = default;
-    /// Of less than 2^31 lights, whose intensity is finite and positive.
+    /// Builds a tree of less than 2^31 lights, whose intensity is finite and positive.
     explicit LightTree(std::span<const LightBounds> lights);
 
     [[nodiscard]] bool empty() const noexcept { return slots_.empty(); }
-    /// How many lights there are.
+    /// Returns the number of lights.
     [[nodiscard]] std::size_t size() const noexcept { return slots_.size(); }
 
-    /// `u` in [0, 1). None where it turns out on the way that none of the lights shines there.
+    /// Chooses a light. `u` in [0, 1). nullopt if the traversal finds that none of the lights
+    /// illuminates the receiver.
     [[nodiscard]] std::optional<Choice> sample(const LightSampleContext& receiver,
                                                double u) const noexcept;
-    /// Of choosing `light`; positive if it can shine there, unless its share of all the light is
-    /// too small for a float. The sum over all lights is 1 but for what `sample` ends with nothing.
+    /// Returns the probability of choosing `light`; positive if it can illuminate the receiver,
+    /// unless its fraction of all light is too small for a float. The sum over all lights is 1
+    /// minus the probability that `sample` returns nullopt.
     [[nodiscard]] float probability(std::uint32_t light,
                                     const LightSampleContext& receiver) const noexcept;
 
@@ -78,19 +80,19 @@ private:
     struct Node {
         std::uint32_t first_quad = 0;
         std::uint32_t quad_count = 0;
-        std::uint32_t parent_slot = no_slot;  ///< where its parent has it: 4 * quad + place
+        std::uint32_t parent_slot = no_slot;  ///< slot in the parent: 4 * quad + lane
     };
-    /// What a receiver sees of the children of a node.
+    /// Importance of a node's children for a receiver.
     struct View {
         std::array<double, max_children> importance;
         double sum = 0.0;
     };
     [[nodiscard]] View look(const Node& node, const LightSampleContext& receiver) const noexcept;
 
-    std::vector<Node> nodes_;  ///< the root first
+    std::vector<Node> nodes_;  ///< root first
     std::vector<LightQuad> quads_;
-    std::vector<std::uint32_t> owners_;  ///< the node of each quad
-    std::vector<std::uint32_t> slots_;   ///< where each light is, as `parent_slot`
+    std::vector<std::uint32_t> owners_;  ///< node of each quad
+    std::vector<std::uint32_t> slots_;   ///< slot of each light, as `parent_slot`
 };
 
 }  // namespace bdpt

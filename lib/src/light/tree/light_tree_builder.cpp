@@ -14,9 +14,9 @@ namespace bdpt {
 namespace {
 
 constexpr std::size_t bin_count = 12;
-/// Of so many lights, spread over a group, the division of a larger one is decided.
+/// Maximum number of lights, evenly chosen from a group, that determine its split.
 constexpr std::size_t max_binned = 4096;
-/// Below this depth lights are halved whatever that costs, so that no way down is long.
+/// Below this depth lights are split in half whatever the cost, to bound the depth.
 constexpr int deepest_choice = 16;
 
 using Bins = std::array<std::optional<LightBounds>, bin_count>;
@@ -26,8 +26,8 @@ void add(std::optional<LightBounds>& sum, const LightBounds& bounds)
     sum = sum ? merged(*sum, bounds) : bounds;
 }
 
-/// What it costs to have these lights in one node. By the square of the diagonal in place of the
-/// area of the box, for points on a line have none, and it is a sphere that a node keeps.
+/// Returns the cost of these lights in one node. Uses the square of the diagonal in place of the
+/// area of the box, as collinear points have none, and nodes store spheres.
 double cost(const LightBounds& bounds)
 {
     const Vec3 diagonal = bounds.max - bounds.min;
@@ -35,14 +35,14 @@ double cost(const LightBounds& bounds)
            static_cast<double>(orientation_measure(bounds));
 }
 
-/// A division of the bins of an axis.
+/// A split of the bins of an axis.
 struct Division {
     double cost = std::numeric_limits<double>::infinity();
     int axis = 0;
     std::size_t first_bins = 0;
 };
 
-/// The cheapest; none when all lights are in one bin.
+/// Returns the cheapest split; infinite cost if all lights are in one bin.
 Division cheapest(const Bins& bins, int axis, double elongation)
 {
     std::array<double, bin_count> after{};
@@ -57,7 +57,7 @@ Division cheapest(const Bins& bins, int axis, double elongation)
     sum.reset();
     for (std::size_t i = 1; i < bin_count && after[i] >= 0.0; ++i) {
         if (!bins[i - 1]) {
-            continue;  // the same as the one before
+            continue;  // equal to the previous split
         }
         add(sum, *bins[i - 1]);
         const double both = elongation * (cost(*sum) + after[i]);
@@ -69,8 +69,8 @@ Division cheapest(const Bins& bins, int axis, double elongation)
     return best;
 }
 
-/// Of a sphere around the box: a little more, so that rounding leaves nothing outside, neither
-/// corners nor sampled points.
+/// Returns the radius of a sphere around the box, slightly enlarged for rounding of corners and
+/// sampled points.
 float radius_of(const LightBounds& bounds)
 {
     const Vec3 half = 0.5f * bounds.max - 0.5f * bounds.min;
@@ -120,7 +120,7 @@ void LightTreeBuilder::build(std::span<std::uint32_t> ids, std::uint32_t parent_
         groups[0] = group_of(ids);
     }
     while (count < groups.size()) {
-        // Single lights have no cost; others may have none either, at one place.
+        // Single lights have no cost; coincident ones may have none either.
         const auto dearest = std::max_element(
             groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(count),
             [](const Group& a, const Group& b) {
@@ -158,7 +158,7 @@ void LightTreeBuilder::build(std::span<std::uint32_t> ids, std::uint32_t parent_
     }
 }
 
-/// But for the node that it is.
+/// Stores a group, except for its node index.
 void LightTreeBuilder::put(const Group& group, std::size_t slot)
 {
     const LightBounds& bounds = group.bounds;

@@ -10,14 +10,14 @@
 
 namespace bdpt {
 
-/// Splits lights from the top by the surface area orientation heuristic over bins of their centres
-/// [Conty Estevez and Kulla 2018, sec. 4.4]. A node's groups are split, the most costly first,
-/// until it has as many children as it may.
+/// Builds the tree top-down by the surface area orientation heuristic over bins of light centres
+/// [Conty Estevez and Kulla 2018, sec. 4.4]. The groups of a node are split, the most costly first,
+/// until it has the maximum number of children.
 class LightTreeBuilder {
 public:
     explicit LightTreeBuilder(std::span<const LightBounds> lights);
 
-    /// The tree; once.
+    /// Moves the tree out; may be called once.
     [[nodiscard]] LightTree take() { return std::move(tree_); }
 
 private:
@@ -29,7 +29,7 @@ private:
 
     [[nodiscard]] Group group_of(std::span<std::uint32_t> ids) const;
     void build(std::span<std::uint32_t> ids, std::uint32_t parent_slot, int depth);
-    /// Puts `ids` in order, and tells how many of them are the first part.
+    /// Partitions `ids` and returns the size of the first part.
     [[nodiscard]] std::size_t split(std::span<std::uint32_t> ids, const LightBounds& whole) const;
     void put(const Group& group, std::size_t slot);
 

@@ -15,29 +15,29 @@
 
 namespace bdpt {
 
-/// What becomes of light at one microfacet.
+/// Reflected and transmitted fractions of light at one microfacet.
 struct BoundaryShares {
     Rgb reflected;
     Rgb transmitted;
     float reflect_choice;  ///< probability of reflection; equal from both sides
 };
 
-/// The boundary of a dielectric, metal, or a mix of them, maybe under a film: what each of its
-/// microfacets reflects and lets through. The lobes of GGX and `SmoothBoundary` are made of it. z
-/// is above 0 outside a solid body.
+/// The boundary of a dielectric, metal, or a mix of them, optionally under a film: reflectance and
+/// transmittance of its microfacets. Shared by the GGX lobes and `SmoothBoundary`. z is positive
+/// outside a solid body.
 template <typename Film>
 struct Boundary {
-    /// Marks light that is reflected in full where a cosine on the outer side would stand.
+    /// Replaces the cosine on the outer side to mark total internal reflection.
     static constexpr float total_reflection = -1.0f;
 
-    Rgb base_color{0.0f};  ///< of metal, and of what is transmitted
-    Rgb f0{0.0f};          ///< of the dielectric
+    Rgb base_color{0.0f};  ///< colour of metal, and of transmitted light
+    Rgb f0{0.0f};          ///< reflectance of the dielectric at normal incidence
     float f90 = 0.0f;
     float metallic = 0.0f;
     float transmission = 0.0f;  ///< of the dielectric part
-    float ior = 1.0f;           ///< of the inside of a solid body
+    float ior = 1.0f;           ///< index of the inside of a solid body
     bool is_solid = false;
-    bool exists = false;  ///< can be seen at all
+    bool exists = false;  ///< true if it is visible at all
     PackedPointer<const SpecularAlbedo> albedo{};
     [[no_unique_address]] Film film{};
 
@@ -45,13 +45,14 @@ struct Boundary {
     [[nodiscard]] bool is_inside(float z) const noexcept { return is_solid && z < 0.0f; }
     [[nodiscard]] float index_at(float z) const noexcept { return is_inside(z) ? ior : 1.0f; }
 
-    /// The share of light that the dielectric reflects, in the brightest channel.
+    /// Returns the fraction of light that the dielectric reflects, in the brightest channel.
     [[nodiscard]] float reflected(SpecularAlbedo::Split split) const noexcept
     {
         return film.bound(max_component(f0) * split.f0 + f90 * split.f90, split.f0, split.f90);
     }
 
-    /// The cosine at a microfacet on the side of the lower index, from that on the side of `z`.
+    /// Returns the cosine at a microfacet on the side of the lower index, given that on the side of
+    /// `z`.
     [[nodiscard]] float cos_outer(float cos_microfacet, float z) const noexcept
     {
         if (!is_inside(z)) {
@@ -62,20 +63,20 @@ struct Boundary {
         return cos2 > 0.0f ? std::sqrt(cos2) : total_reflection;
     }
 
-    /// Of a microfacet with this cosine on the side of `z`.
+    /// Returns the reflection probability of a microfacet with this cosine on the side of `z`.
     [[nodiscard]] float reflect_choice(float cos_microfacet, float z) const noexcept
     {
         return transmits() ? shares(cos_microfacet, z).reflect_choice : 1.0f;
     }
 
-    /// Of a microfacet with this cosine on the side of `z`.
+    /// Returns the fractions of a microfacet with this cosine on the side of `z`.
     [[nodiscard]] BoundaryShares shares(float cos_microfacet, float z) const noexcept
     {
         return shares(cos_outer(cos_microfacet, z), cos_microfacet, z);
     }
-    /// With the cosine on the outer side: of which the dielectric's reflectance and all
-    /// probabilities are, so that they are equal whichever way light comes. Metal reflects by the
-    /// angle in the medium that it is seen through.
+    /// Returns the fractions given the cosine on the outer side: it determines the dielectric's
+    /// reflectance and all probabilities, so that they are equal in both directions. Metal reflects
+    /// by the angle in the medium that it is seen through.
     [[nodiscard]] BoundaryShares shares(float cos_outer, float cos_microfacet,
                                         float z) const noexcept
     {
@@ -87,7 +88,7 @@ struct Boundary {
             reflectance = film.over(reflectance, f0, cos_outer);
             reflected = dielectric * reflectance;
         }
-        Rgb expected = reflected;  // for the probability
+        Rgb expected = reflected;  // used for the probability
         if (metallic > 0.0f) {
             expected += metallic * metal(std::max(cos_outer, 0.0f));
             reflected = is_inside(z) ? reflected + metallic * metal(cos_microfacet) : expected;
@@ -102,7 +103,7 @@ struct Boundary {
     }
 
 private:
-    /// The reflectance of metal at this cosine.
+    /// Returns the reflectance of metal at this cosine.
     [[nodiscard]] Rgb metal(float cosine) const noexcept
     {
         const Rgb bare = base_color + (1.0f - base_color) * schlick_weight(cosine);
@@ -110,8 +111,8 @@ private:
     }
 };
 
-/// The refraction of `wo` at a microfacet that does not reflect in full; `eta` is the index on wo's
-/// side over that on the other.
+/// Refracts `wo` at a microfacet without total reflection; `eta` is the index on wo's side over
+/// that on the other.
 [[nodiscard]] inline Vec3 refracted(Vec3 wo, Vec3 h, float cos_microfacet, float eta)
 {
     const float scaled = eta * cos_microfacet;
@@ -119,8 +120,8 @@ private:
     return normalize((scaled - std::sqrt(std::max(0.0f, cos2_far))) * h - eta * wo);
 }
 
-/// Radiance is compressed where it goes into the denser medium, importance is not [Veach 1997,
-/// sec. 5.2].
+/// Returns the factor by which radiance is compressed in the denser medium; importance is not
+/// [Veach 1997, sec. 5.2].
 [[nodiscard]] inline float compression(float n_o, float n_i, TransportMode mode)
 {
     return mode == TransportMode::radiance ? n_o * n_o / (n_i * n_i) : 1.0f;

@@ -11,26 +11,26 @@
 
 namespace bdpt {
 
-/// The light that a coat sends back to its base, and that leaves after all. As `Interreflection`,
-/// it is diffuse light in proportion to what is lost without it, of wo and of wi [Kulla and Conty
-/// 2017]: reciprocal, and a white base below any coat reflects all light.
+/// Light that a coat reflects back to its base and that eventually leaves. Like `Interreflection`,
+/// it is diffuse, in proportion to the losses without it, of wo and of wi [Kulla and Conty 2017]:
+/// reciprocal, and a white base below any coat reflects all light.
 class CoatInterreflection {
 public:
-    /// Shares of light from one direction that reach a Lambertian base below the boundary, and that
-    /// white microfacets do not reflect at once.
+    /// Fractions of light from one direction that reach a Lambertian base below the boundary, and
+    /// that white microfacets do not reflect at once.
     struct FromBase {
         float transmitted;
         float unreflected;
     };
 
-    CoatInterreflection() = default;  ///< none
-    /// `weight`: the share of the surface that is coated; `reflected`: the average albedo of a full
+    CoatInterreflection() = default;  ///< no lobe
+    /// `weight` is the coated fraction of the surface, `reflected` the average albedo of a full
     /// coat. `loss` must outlive this.
     CoatInterreflection(const CoatedBase& base, float weight, float reflected,
                         SpecularAlbedo::Roughness coat, const CoatLoss& loss)
         : base_(base), loss_(&loss), coat_(coat), weight_(weight)
     {
-        // The table has the course of Fresnel's equations from F0 to F90 of the coat's index.
+        // The table uses Fresnel's equations normalised from F0 to F90 for the coat's index.
         base_.f90 *= base.fresnel_rise / loss.fresnel_rise();
         const CoatLoss::Average mean = loss.average(base_.roughness, coat);
         const float f0 = base_.f0;
@@ -42,21 +42,21 @@ public:
                                   mean.below_f0_f90 + mean.below_f90_f90;
         const float average = lost_of(mean, scattered_again(below_metal), below);
         if (!(average > min_average)) {
-            weight_ = 0.0f;  // what has no width loses nothing
+            weight_ = 0.0f;  // a coat of negligible weight loses nothing
             return;
         }
-        // Light is scattered by the base, comes back from the coat, is scattered again, and leaves
-        // or comes back once more.
+        // Light is scattered by the base, reflected by the coat, scattered again, and leaves or is
+        // reflected again.
         const float again = weight * reflected;
         albedo_ = base.color * base.color * ((1.0f - again) / (Rgb(1.0f) - base.color * again));
         per_coupling_ = inv_pi / (weight * average);
     }
 
     [[nodiscard]] bool exists() const noexcept { return weight_ > 0.0f; }
-    /// The largest channel of the share of what is lost that leaves after all.
+    /// Returns the largest channel of the fraction of lost light that eventually leaves.
     [[nodiscard]] float weight() const noexcept { return max_component(albedo_); }
 
-    /// The share of light with this cosine that is lost without this lobe.
+    /// Returns the fraction of light with this cosine that is lost without this lobe.
     [[nodiscard]] float lost(float cosine, FromBase from) const noexcept
     {
         const CoatLoss::Directional part =
@@ -67,7 +67,7 @@ public:
                                  from.transmitted * below);
     }
 
-    /// Between directions that lose these shares.
+    /// Returns the lobe between directions with these losses.
     [[nodiscard]] DiffuseReflection lobe(float lost_o, float lost_i) const noexcept
     {
         return DiffuseReflection(albedo_ * per_coupling_, lost_o * lost_i);
@@ -76,7 +76,7 @@ public:
 private:
     static constexpr float min_average = 1e-5f;
 
-    /// What rough metal scatters after more than one reflection.
+    /// Returns the light that rough metal scatters after more than one reflection.
     [[nodiscard]] float scattered_again(float below_metal) const
     {
         return base_.unreflected > 1e-6f ? below_metal / base_.unreflected : 0.0f;

@@ -6,21 +6,21 @@
 
 namespace bdpt {
 
-/// What lies below a coat, as far as the coat needs to know.
+/// Properties of the base that the coat above needs.
 struct CoatedBase {
     float metallic = 0.0f;
     // Reflectance of the dielectric part at normal and at grazing incidence.
     float f0 = 0.0f;
     float f90 = 0.0f;
-    /// Share of light for which there is a Lambertian base, over the average of what the boundary
-    /// lets through.
+    /// Fraction of light for which there is a Lambertian base, over the average transmission of the
+    /// boundary.
     float diffuse = 0.0f;
-    /// The average of what white microfacets do not reflect at once.
+    /// Average of the light that white microfacets do not reflect at once.
     float unreflected = 0.0f;
     SpecularAlbedo::Roughness roughness{};
-    /// The average course of Fresnel's equations from F0 to F90.
+    /// Average of Fresnel's equations normalised from F0 to F90.
     float fresnel_rise = 0.0f;
-    Rgb color{0.0f};  ///< roughly its albedo
+    Rgb color{0.0f};  ///< approximate albedo
 };
 
 }  // namespace bdpt

@@ -7,10 +7,10 @@
 
 namespace bdpt {
 
-/// Lambertian reflection, alike from both sides.
+/// Lambertian reflection, equal from both sides.
 class DiffuseReflection {
 public:
-    /// `f` [1/sr]; `coupling` is the share of light that a boundary above lets through, on the way
+    /// `f` [1/sr]; `coupling` is the fraction of light that a boundary above transmits, on the way
     /// in and on the way out.
     explicit DiffuseReflection(Rgb f, float coupling = 1.0f) : f_(f), coupling_(coupling) {}
 

@@ -7,11 +7,11 @@
 
 namespace bdpt {
 
-/// Lambertian on the other side of a thin surface, as paper and leaves are
-/// [KHR_materials_diffuse_transmission]; alike from both sides.
+/// Lambertian transmission through a thin surface, such as paper and leaves
+/// [KHR_materials_diffuse_transmission]; equal from both sides.
 class DiffuseTransmission {
 public:
-    /// As `DiffuseReflection`.
+    /// Arguments as in `DiffuseReflection`.
     explicit DiffuseTransmission(Rgb f, float coupling = 1.0f) : f_(f), coupling_(coupling) {}
 
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode) const noexcept

@@ -14,11 +14,10 @@ namespace bdpt::ggx {
 
 // The GGX microfacet distribution [Walter et al. 2007, "Microfacet Models for Refraction through
 // Rough Surfaces"] with Smith's masking [Heitz 2014, "Understanding the Masking-Shadowing Function
-// in Microfacet-Based BRDFs"]. Directions are local; alpha > 0 is one number, or two of which one
-// counts along x and one along y.
+// in Microfacet-Based BRDFs"]. Directions are local; alpha > 0 is one number, or two for x and y.
 
-/// D(h) of a half vector of any length whose square is `length2` > 0. The tilt is taken from x and
-/// y: 1 - z^2 would have no digits left for smooth surfaces.
+/// Returns D(h) of a half vector of any length whose square is `length2` > 0. The tilt is computed
+/// from x and y: 1 - z^2 would lose all digits for smooth surfaces.
 [[nodiscard]] inline float distribution(Vec3 h, float length2, float alpha)
 {
     const float alpha2 = alpha * alpha;
@@ -34,7 +33,7 @@ namespace bdpt::ggx {
     return product * inv_pi / (spread * spread);
 }
 
-/// x and y times alpha.
+/// Scales x and y by alpha.
 [[nodiscard]] inline Vec3 stretched_by(Vec3 w, float alpha)
 {
     return {alpha * w.x, alpha * w.y, w.z};
@@ -44,8 +43,8 @@ namespace bdpt::ggx {
     return {alpha.x * w.x, alpha.y * w.y, w.z};
 }
 
-/// The projected area of the unit-sphere direction stretched by alpha: sqrt(z^2 + alpha^2 sin^2).
-/// Smith's functions are rational in it: G1 = 2z / (z + stretch).
+/// Returns the projected area of the unit-sphere direction stretched by alpha: sqrt(z^2 + alpha^2
+/// sin^2). Smith's functions are rational in it: G1 = 2z / (z + stretch).
 [[nodiscard]] inline float stretch(Vec3 w, float alpha)
 {
     return std::sqrt(w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y));
@@ -57,8 +56,8 @@ namespace bdpt::ggx {
     return std::sqrt(dot(stretched, stretched));
 }
 
-/// A half vector of the density G1(wo) D(h) (wo.h) / wo.z, wo.z >= 0 [Heitz 2018, "Sampling the
-/// GGX Distribution of Visible Normals"; the spherical cap of Dupuy and Benyoub 2023].
+/// Samples a half vector with density G1(wo) D(h) (wo.h) / wo.z, wo.z >= 0 [Heitz 2018, "Sampling
+/// the GGX Distribution of Visible Normals"; the spherical cap of Dupuy and Benyoub 2023].
 template <typename Alpha>
 [[nodiscard]] Vec3 sample_visible_normal(Vec3 wo, Alpha alpha, Vec2 u)
 {
@@ -68,16 +67,16 @@ template <typename Alpha>
     return normalize(stretched_by(Vec3{h.x, h.y, std::max(h.z, 1e-12f)}, alpha));
 }
 
-/// A microfacet with the normal h that is seen from o, o.z >= 0.
+/// A microfacet with the normal h, seen from o, o.z >= 0.
 struct Microfacet {
     Vec3 o;
     Vec3 h;
-    float cosine;  ///< of the angle between them
+    float cosine;  ///< cosine of the angle between o and h
 
     [[nodiscard]] Vec3 reflected() const { return 2.0f * cosine * h - o; }
 };
 
-/// Of the density of `sample_visible_normal`.
+/// Samples a microfacet with the density of `sample_visible_normal`.
 template <typename Alpha>
 [[nodiscard]] Microfacet visible_microfacet(Vec3 o, Alpha alpha, Vec2 u)
 {
@@ -85,15 +84,15 @@ template <typename Alpha>
     return {o, h, std::min(1.0f, dot(o, h))};
 }
 
-/// A microfacet lobe before Fresnel, with its densities under visible-normal sampling.
+/// A microfacet lobe without Fresnel factor, with its densities under visible-normal sampling.
 struct Lobe {
     float f_cos = 0.0f;      ///< [1/sr]
     float pdf_fwd = 0.0f;    ///< [1/sr]
     float pdf_rev = 0.0f;    ///< [1/sr]
-    float cos_outer = 0.0f;  ///< of the angle at the microfacet on the side of the lower index
+    float cos_outer = 0.0f;  ///< cosine at the microfacet on the side of the lower index
 };
 
-/// Reflection with height-correlated masking; wo.z, wi.z > 0. `cos_outer` is simply wo.h.
+/// Evaluates reflection with height-correlated masking; wo.z, wi.z > 0. `cos_outer` is simply wo.h.
 template <typename Alpha>
 [[nodiscard]] Lobe reflect(Vec3 wo, Vec3 wi, Alpha alpha)
 {
@@ -109,8 +108,8 @@ template <typename Alpha>
             half_d / (wi.z + stretch_i), std::min(1.0f, 0.5f * std::sqrt(length2))};
 }
 
-/// Refraction between indices n_o and n_i, which differ; wo.z > 0 > wi.z. For importance: radiance
-/// has another factor (n_o / n_i)^2. [Walter et al. 2007, eq. 17 and 21]
+/// Evaluates refraction between different indices n_o and n_i; wo.z > 0 > wi.z. For importance:
+/// radiance has another factor (n_o / n_i)^2. [Walter et al. 2007, eq. 17 and 21]
 template <typename Alpha>
 [[nodiscard]] Lobe refract(Vec3 wo, Vec3 wi, float n_o, float n_i, Alpha alpha)
 {

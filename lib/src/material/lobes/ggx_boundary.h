@@ -5,8 +5,8 @@
 
 namespace bdpt {
 
-/// Reflection and transmission at the same microfacets: a sample draws a microfacet first, and then
-/// what becomes of light there. Refers to the boundary.
+/// Reflection and transmission by the same microfacets: a sample chooses a microfacet first, then
+/// reflection or transmission. Refers to the boundary.
 template <typename Film, typename Alpha>
 class GgxBoundary {
 public:

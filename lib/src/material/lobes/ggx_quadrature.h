@@ -8,14 +8,14 @@
 
 namespace bdpt::ggx {
 
-/// A half vector of the quadrature over the microfacets that are seen from one direction.
+/// A quadrature point: a half vector of the microfacets visible from one direction.
 struct QuadraturePoint {
     Microfacet facet;
-    float share;      ///< of all that is seen
+    float share;      ///< fraction of all visible microfacets
     float stretch_o;  ///< `stretch` of `facet.o`
 
-    /// The share of what goes to `up`, on the side of the light, that no other microfacet masks:
-    /// G2 / G1(o).
+    /// Returns the fraction of light towards `up`, on the side of the light, that no other
+    /// microfacet masks: G2 / G1(o).
     [[nodiscard]] float leaves(Vec3 up, float alpha) const
     {
         const float cos_o = facet.o.z;
@@ -27,10 +27,9 @@ struct QuadraturePoint {
 
 inline constexpr std::size_t max_azimuths = 48;
 
-/// Calls `visit` with midpoints of the visible normals' own parametrisation: the azimuth over one
-/// half of its symmetric course, and the height on the spherical cap, drawn together where the far
-/// tails of the distribution are. `cosine` is that of the direction of sight; at most
-/// `max_azimuths` azimuths.
+/// Calls `visit` with midpoints of the parametrisation of visible normals: the azimuth over one
+/// half of its symmetric range, and the height on the spherical cap, denser in the far tails of the
+/// distribution. `cosine` is that of the viewing direction; at most `max_azimuths` azimuths.
 template <typename Visit>
 void for_each_visible_normal(float cosine, float alpha, int heights, int azimuths,
                              const Visit& visit)

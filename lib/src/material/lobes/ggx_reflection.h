@@ -6,7 +6,8 @@
 
 namespace bdpt {
 
-/// What the microfacets of a rough boundary reflect, seen from either side. Refers to the boundary.
+/// Reflection by the microfacets of a rough boundary, seen from either side. Refers to the
+/// boundary.
 template <typename Film, typename Alpha>
 class GgxReflection {
 public:
@@ -25,8 +26,7 @@ public:
         return {share.reflected * lobe.f_cos, SolidAnglePdf{share.reflect_choice * lobe.pdf_fwd},
                 SolidAnglePdf{share.reflect_choice * lobe.pdf_rev}};
     }
-    /// Nothing where the microfacet transmits, and where the light would have to be reflected
-    /// again: it is masked.
+    /// Returns nullopt if the microfacet transmits, or if the reflected light is masked.
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode) const noexcept
     {
@@ -36,7 +36,7 @@ public:
     }
     [[nodiscard]] bool is_delta() const noexcept { return false; }
 
-    /// The sample at a microfacet that is seen from above, as from the side of wo.
+    /// Returns the sample at a microfacet seen from above, flipped to the side of wo.
     [[nodiscard]] std::optional<BsdfSample> at(Vec3 wo, const ggx::Microfacet& facet) const noexcept
     {
         const Vec3 i = facet.reflected();

@@ -6,8 +6,8 @@
 
 namespace bdpt {
 
-/// What the microfacets of a rough boundary let through: refracted into a solid body or out of it,
-/// and through a thin wall as its reflection, turned to the other side. Refers to the boundary.
+/// Transmission by the microfacets of a rough boundary: refracted into or out of a solid body, and
+/// through a thin wall as its reflection, flipped to the other side. Refers to the boundary.
 template <typename Film, typename Alpha>
 class GgxTransmission {
 public:
@@ -31,8 +31,7 @@ public:
         return {share.transmitted * (lobe.f_cos * compression(n_o, n_i, mode)),
                 SolidAnglePdf{choice * lobe.pdf_fwd}, SolidAnglePdf{choice * lobe.pdf_rev}};
     }
-    /// Nothing where the microfacet reflects, and where the light would have to be scattered again:
-    /// it is masked.
+    /// Returns nullopt if the microfacet reflects, or if the transmitted light is masked.
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode) const noexcept
     {
@@ -42,7 +41,7 @@ public:
     }
     [[nodiscard]] bool is_delta() const noexcept { return false; }
 
-    /// The sample at a microfacet that is seen from above, as from the side of wo.
+    /// Returns the sample at a microfacet seen from above, flipped to the side of wo.
     [[nodiscard]] std::optional<BsdfSample> at(Vec3 wo, const ggx::Microfacet& facet) const noexcept
     {
         const Vec3 i = boundary_.is_solid

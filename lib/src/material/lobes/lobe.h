@@ -8,14 +8,16 @@
 
 namespace bdpt {
 
-/// One way in which a surface scatters light, sampled by itself; scattering models are sums of
-/// lobes. Directions are local unit vectors that point away from the surface, and none of them
-/// grazes it (`grazes`); `wo` is where the walk came from, and `mode` is what that walk carries.
+/// One lobe of a scattering model, sampled by itself; models are sums of lobes. Directions are
+/// local unit vectors that point away from the surface, and none is at grazing incidence
+/// (`grazes`); `wo` is the direction the walk came from, and `mode` is the quantity that it
+/// carries.
 ///
 /// - `eval`: f(wo, wi) |cos(wi)| and both densities, of sampling wi given wo and wo given wi, if
-///   this lobe has been chosen. All are 0 for a delta lobe, and where the lobe does not reach.
-/// - `sample`: draws wi; `u_lobe` and `u` are uniform in [0, 1). Of a delta lobe it is the whole
-///   sample. Of all others wi alone counts: models ask all of their lobes for its density.
+///   this lobe has been chosen. All are 0 for a delta lobe, and outside the support of the lobe.
+/// - `sample`: samples wi; `u_lobe` and `u` are uniform in [0, 1). For a delta lobe it is the
+///   complete sample. For others only wi is used: models evaluate all of their lobes for its
+///   density.
 /// - `is_delta`: scatters into single directions.
 template <typename L>
 concept Lobe = std::is_trivially_copyable_v<L> &&
@@ -35,7 +37,8 @@ concept Lobe = std::is_trivially_copyable_v<L> &&
     noexcept->std::same_as<bool>;
 };
 
-/// What a lobe brings to a model that chooses it with these probabilities, from wo and from wi.
+/// Returns the lobe's contribution to a model that chooses it with these probabilities, from wo and
+/// from wi.
 [[nodiscard]] inline BsdfEval chosen(BsdfEval lobe, float choice_fwd, float choice_rev)
 {
     lobe.pdf_fwd.value *= choice_fwd;
@@ -50,7 +53,7 @@ inline void add(BsdfEval& sum, const BsdfEval& lobe)
     sum.pdf_rev.value += lobe.pdf_rev.value;
 }
 
-/// A sampled direction, of which the rest is to be asked for.
+/// Returns a sample with a direction only; the rest is evaluated later.
 [[nodiscard]] inline BsdfSample towards(Vec3 wi)
 {
     return {.wi = wi};
@@ -61,7 +64,7 @@ inline void add(BsdfEval& sum, const BsdfEval& lobe)
     return (wo.z > 0.0f) == (wi.z > 0.0f);
 }
 
-/// The reflection at the plane of the surface: on its other side.
+/// Reflects `w` at the plane of the surface, to its other side.
 [[nodiscard]] inline Vec3 mirrored(Vec3 w)
 {
     return {w.x, w.y, -w.z};

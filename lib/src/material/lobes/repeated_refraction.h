@@ -10,25 +10,25 @@
 
 namespace bdpt {
 
-/// What the rough boundary of something transparent scatters more than once among its microfacets:
-/// diffuse light on both sides, in proportion to what single scattering loses of wo and of wi;
-/// after the lobe of Kulla and Conty (2017) for metals. It fills up all that is lost:
+/// Multiple scattering among the microfacets of a transparent body's rough boundary: diffuse light
+/// on both sides, in proportion to the losses of single scattering of wo and of wi; after the lobe
+/// of Kulla and Conty (2017) for metals. It compensates the whole loss:
 ///
-///     f = n_o^2 M_o(wo) M_i(wi) / (pi (n_1^2 A_1 + n_2^2 A_2))
+/// f = n_o^2 M_o(wo) M_i(wi) / (pi (n_1^2 A_1 + n_2^2 A_2))
 ///
 /// for radiance, with the losses M and their averages A of both sides, which is reciprocal [Veach
 /// 1997, sec. 5.2].
 class RepeatedRefraction {
 public:
-    /// A side of the boundary: its index, what it loses on average, and the colour of light that
-    /// comes through to it.
+    /// A side of the boundary: its index, its average loss, and the colour of light transmitted to
+    /// it.
     struct Half {
         float index = 1.0f;
         float loss = 0.0f;
     };
 
-    /// `share`: of light that may pass; `color`: of what passes. z is above 0 on the side of
-    /// `above`.
+    /// `share` is the fraction of light that may pass, `color` the colour of transmitted light. z
+    /// is positive on the side of `above`.
     RepeatedRefraction(const Half& above, const Half& below, float share, Rgb color)
         : color_(color),
           index2_above_(above.index * above.index),
@@ -41,7 +41,7 @@ public:
         above_choice_ = index2_above_ * above.loss / whole;
     }
 
-    /// The lobe between directions of which single scattering loses these shares.
+    /// Evaluates the lobe between directions with these losses of single scattering.
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, float loss_o, float loss_i,
                                 TransportMode mode) const noexcept
     {

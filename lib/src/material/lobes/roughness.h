@@ -12,14 +12,14 @@ namespace bdpt {
 /// GGX alpha below which microfacets are perfectly smooth and their lobes delta lobes.
 inline constexpr float smooth_alpha = 1e-3f;
 
-// How rough a boundary is: the alpha of its lobes, and the rows of the tables of `SpecularAlbedo`
-// that bound what it reflects. `reflected` gives that of one row.
+// Roughness of a boundary: the alpha of its lobes, and the rows of the tables of `SpecularAlbedo`
+// that bound its reflection. `reflected` returns the reflection of one row.
 
-/// As rough in all directions.
+/// Equal roughness in all directions.
 class IsotropicRoughness {
 public:
     IsotropicRoughness() = default;
-    /// Perceptual; clamped to [0, 1].
+    /// Perceptual roughness, clamped to [0, 1].
     explicit IsotropicRoughness(float roughness) : row_(SpecularAlbedo::at_roughness(roughness))
     {
         const float clamped = std::clamp(roughness, 0.0f, 1.0f);
@@ -29,7 +29,7 @@ public:
     [[nodiscard]] float alpha() const { return alpha_; }
     [[nodiscard]] bool is_rough() const { return alpha_ >= smooth_alpha; }
     void make_smooth() { alpha_ = 0.0f; }
-    /// The row of the smoothest direction.
+    /// Returns the row of the smoothest direction.
     [[nodiscard]] SpecularAlbedo::Roughness least() const
     {
         return is_rough() ? row_ : SpecularAlbedo::Roughness{};
@@ -51,9 +51,9 @@ private:
     SpecularAlbedo::Roughness row_{};
 };
 
-/// With grooves, across which it is as smooth as without them [KHR_materials_anisotropy]: what it
-/// reflects is that of an even surface which is as rough as it is along or across them, whichever
-/// reflects more.
+/// Anisotropic roughness of grooves; across them it equals the isotropic roughness
+/// [KHR_materials_anisotropy]. Its reflection is that of an isotropic surface with the roughness
+/// along or across the grooves, whichever reflects more.
 class AnisotropicRoughness {
 public:
     AnisotropicRoughness() = default;
@@ -66,17 +66,18 @@ public:
         if (anisotropy == 0.0f) {
             return;
         }
-        // The rougher direction goes to 1 with the square of the strength.
+        // Alpha of the rougher direction increases to 1 with the square of the strength.
         const float along = alpha_.x + (1.0f - alpha_.x) * anisotropy * anisotropy;
         along_ = SpecularAlbedo::at_roughness(std::sqrt(along));
-        // Grooves are rough or not; what is smooth across them is as smooth as rough lobes can be.
+        // Either both directions are rough or none; a smooth direction gets the minimum alpha of
+        // rough lobes.
         alpha_ = along >= smooth_alpha ? Vec2{along, std::max(alpha_.y, smooth_alpha)} : Vec2{0.0f};
     }
 
     [[nodiscard]] Vec2 alpha() const { return alpha_; }
     [[nodiscard]] bool is_rough() const { return alpha_.x >= smooth_alpha; }
     void make_smooth() { alpha_ = Vec2(0.0f); }
-    /// The row of the smoothest direction.
+    /// Returns the row of the smoothest direction.
     [[nodiscard]] SpecularAlbedo::Roughness least() const
     {
         return is_rough() ? across_ : SpecularAlbedo::Roughness{};

@@ -7,17 +7,18 @@
 
 namespace bdpt {
 
-/// The fibres of KHR_materials_sheen over a surface. Directions are local and z > 0.
+/// The fibres of KHR_materials_sheen on a surface. Directions are local and z > 0.
 class Sheen {
 public:
-    /// `color` in [0, 1]. `albedo` must outlive this; null where no surface has a sheen.
+    /// `color` in [0, 1]. `albedo` must outlive this; null if no surface has a sheen.
     Sheen(Rgb color, float roughness, const SheenAlbedo* albedo);
 
     [[nodiscard]] bool exists() const noexcept { return weight_ > 0.0f; }
-    /// The share of light from this cosine that the fibres reflect, in the brightest channel.
+    /// Returns the fraction of light from this cosine that the fibres reflect, in the brightest
+    /// channel.
     [[nodiscard]] float reflected(float cosine) const noexcept;
 
-    /// The densities are those of directions uniform in the hemisphere.
+    /// Evaluates the sheen. The densities are those of uniform directions in the hemisphere.
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept;

@@ -8,8 +8,8 @@
 namespace bdpt {
 
 /// A perfectly smooth boundary: it reflects and refracts into single directions. Refers to the
-/// boundary. Samples of delta lobes are whole, so they hold the probability by which the model
-/// chooses this lobe: `choice` from wo, and `choice_at(z)` from other directions.
+/// boundary. Samples of delta lobes are complete, so they include the probability with which the
+/// model chooses this lobe: `choice` from wo, and `choice_at(z)` from other directions.
 template <typename Film, typename ChoiceAt>
 class SmoothBoundary {
 public:

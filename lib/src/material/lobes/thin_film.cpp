@@ -22,16 +22,16 @@ namespace {
     return f0 + (1.0f - f0) * schlick_weight(cosine);
 }
 
-/// The index against air that reflects f0; finite for a perfect mirror.
+/// Returns the index relative to air that reflects f0; finite for a perfect mirror.
 [[nodiscard]] float index_of(float f0)
 {
     const float root = std::sqrt(std::clamp(f0, 0.0f, 0.9999f));
     return (1.0f + root) / (1.0f - root);
 }
 
-/// The sensors' response to a cosine in wave numbers: Gaussians become Gaussians [Belcour and Barla
-/// 2017, sec. 4; numbers of KHR_materials_iridescence]. Linear Rec. 709 of white 1; `path`: optical
-/// path difference [nm]; `shift` [rad].
+/// Returns the sensors' response to a cosine in wave numbers: Gaussians map to Gaussians [Belcour
+/// and Barla 2017, sec. 4; numbers of KHR_materials_iridescence]. Linear Rec. 709 with white 1;
+/// `path` is the optical path difference [nm]; `shift` [rad].
 [[nodiscard]] Rgb sensitivity(float path, float shift)
 {
     constexpr float norm = 1.0685e-7f;
@@ -49,18 +49,19 @@ namespace {
             0.0556434f * x - 0.2040259f * y + 1.0572252f * z};
 }
 
-/// No channel of `sensitivity` is further from 0 (that of red goes to 1.785).
+/// Upper bound of the magnitude of `sensitivity` in all channels (the maximum, of red, is 1.785).
 constexpr float max_sensitivity = 1.8f;
 
-/// A film's two interfaces, in one channel: sums over all paths by how often they run through the
-/// film.
+/// Reflection of a film's two interfaces, in one channel: sums over all paths by the number of
+/// passages through the film.
 struct Interfaces {
     float mean;      ///< without interference
-    float first;     ///< amplitude of paths that differ by one passage to and fro
-    float quotient;  ///< of the next amplitude
+    float first;     ///< amplitude of paths that differ by one round trip
+    float quotient;  ///< ratio of successive amplitudes
 };
 
-/// Of a film of index `film` on a base of index `base`, by the cosines outside and within the film.
+/// Computes the interfaces of a film of index `film` on a base of index `base`, for the cosines
+/// outside and within the film.
 [[nodiscard]] Interfaces interfaces(float film, float base, float cosine, float cos_film)
 {
     const float outer = schlick(squared((film - 1.0f) / (film + 1.0f)), cosine);
@@ -77,7 +78,8 @@ struct Interfaces {
     return std::sqrt(std::max(0.0f, 1.0f - (1.0f - cosine * cosine) / (index * index)));
 }
 
-/// A film much thinner than light has no index of its own.
+/// Returns the effective index of the film; a film much thinner than the wavelength has no index of
+/// its own.
 [[nodiscard]] float index_of_film(const ThinFilm& film)
 {
     const float t = std::clamp(film.thickness / 0.03f, 0.0f, 1.0f);
@@ -107,8 +109,8 @@ Rgb ThinFilm::reflectance(float cosine, Rgb f0) const noexcept
     const float index = index_of_film(*this);
     const float cos_film = cosine_within(cosine, index);
     const float path = 2.0f * index * thickness * cos_film;
-    // The film is denser than air: no shift outside, half a wave within; and at the base another
-    // one where that is thinner than the film.
+    // The film is denser than air: no phase shift outside, half a wave within; and another half
+    // wave at the base if the base is less dense than the film.
     const Rgb once = sensitivity(path, pi);
     const Rgb twice = sensitivity(2.0f * path, 2.0f * pi);
     Rgb result;

@@ -4,13 +4,13 @@
 
 namespace bdpt {
 
-// A boundary takes one of these:
-// - `bind`: tells it F0 of the surface, before all else.
-// - `over`: the reflectance of film and surface, where `bare` is that of the surface alone, from
-//   the cosine outside; `f0` is that of the bare surface at normal incidence.
-// - `bound`: bounds an albedo that is `bare` without the film, by the coefficients of F0 and F90
-//   in it (`SpecularAlbedo::Split`).
-// - `max_albedo_over`: bounds such an albedo by what the film reflects at its cosine.
+// Interface of a boundary's film:
+// - `bind`: sets F0 of the surface, before all other calls.
+// - `over`: the reflectance of film and surface, given the reflectance `bare` of the surface alone
+//   and the cosine outside; `f0` is that of the bare surface at normal incidence.
+// - `bound`: bounds an albedo that is `bare` without the film, by its coefficients of F0 and F90
+//   (`SpecularAlbedo::Split`).
+// - `max_albedo_over`: bounds such an albedo by the film's reflectance at its cosine.
 
 /// No film.
 struct NoFilm {
@@ -36,10 +36,11 @@ struct ThinFilm {
     [[nodiscard]] float bound(float bare, float split_f0, float split_f90) const noexcept;
     [[nodiscard]] float max_albedo_over(float bare, float cosine, Rgb f0) const noexcept;
 
-    /// Of film and surface together, in [0, 1], from the cosine outside. `f0` is the reflectance of
-    /// the bare surface at normal incidence.
+    /// Returns the reflectance of film and surface together, in [0, 1], for the cosine outside.
+    /// `f0` is the reflectance of the bare surface at normal incidence.
     [[nodiscard]] Rgb reflectance(float cosine, Rgb f0) const noexcept;
-    /// No channel of `reflectance` is greater at this cosine, whatever the thickness; in [0, 1].
+    /// Returns an upper bound of all channels of `reflectance` at this cosine for any thickness; in
+    /// [0, 1].
     [[nodiscard]] float greatest(float cosine, Rgb f0) const noexcept;
 };
 

@@ -4,7 +4,7 @@
 
 namespace bdpt {
 
-/// Scatters nothing. What is seen of it, its base colour, is not scattered light.
+/// Scatters nothing. Its base colour is for AOVs only.
 class Black {
 public:
     Black() = default;

@@ -31,7 +31,7 @@ CoatedFacet::CoatedFacet(const TiltedFacet& facet, const LayeredParameters& para
       solid_(parameters.body == Body::solid)
 {}
 
-/// Exactly +z where the coat lies even on the surface.
+/// Returns exactly +z if the coat follows the surface.
 Vec3 CoatedFacet::local_coat_normal(Vec3 normal) const
 {
     return normal == facet_.macro_normal() ? Vec3{0.0f, 0.0f, 1.0f}
@@ -88,7 +88,7 @@ BsdfEval CoatedFacet::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
                                                            : eval_lobes(from, wo, wi, mode);
 }
 
-/// The whole sample where it is a delta lobe's, else the direction that counts.
+/// Samples the coat: the complete sample of a delta lobe, else only the direction matters.
 std::optional<BsdfSample> CoatedFacet::sample_coat(const Side& from, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept
 {
@@ -103,7 +103,7 @@ std::optional<BsdfSample> CoatedFacet::sample_coat(const Side& from, float u_lob
     return sampled;
 }
 
-/// The same of what lies below.
+/// Samples the layers below the coat, likewise.
 std::optional<BsdfSample> CoatedFacet::sample_below(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
                                                     TransportMode mode) const noexcept
 {

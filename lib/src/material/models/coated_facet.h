@@ -9,9 +9,9 @@
 
 namespace bdpt {
 
-/// Layers over the facet of a normal map, as `MappedBsdf` sees it. A coat lies even on the surface,
-/// whatever the map of the base, or has a map of its own; the other layers follow the facet.
-/// Directions are local to the facet.
+/// Layers over the facet of a normal map, as in `MappedBsdf`. A coat follows the surface, ignoring
+/// the map of the base, or has a map of its own; the other layers follow the facet. Directions are
+/// local to the facet.
 class CoatedFacet {
 public:
     CoatedFacet(const TiltedFacet& facet, const LayeredParameters& parameters);
@@ -22,14 +22,14 @@ public:
                                                    TransportMode mode) const noexcept;
 
 private:
-    /// A direction in the frame of the surface, seen from the side of the coat, and what follows
+    /// A direction in the frame of the surface, seen from the side of the coat, and values derived
     /// from it.
     struct Side {
         Vec3 w{0.0f};
         bool above = true;
         bool covered = true;
-        float below_coat = 1.0f;  ///< what the coat leaves of light
-        float lost = 0.0f;        ///< share of light between coat and facet
+        float below_coat = 1.0f;  ///< fraction of light that the coat transmits
+        float lost = 0.0f;        ///< fraction of light between coat and facet
         // Probabilities of the lobes.
         float coat_choice = 0.0f;
         float again_choice = 0.0f;

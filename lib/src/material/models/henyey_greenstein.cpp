@@ -18,7 +18,7 @@ float HenyeyGreenstein::phase(float from_peak) const noexcept
 
 BsdfEval HenyeyGreenstein::eval(Vec3 wo, Vec3 wi, TransportMode /*mode*/) const noexcept
 {
-    // The peak is at -wo, or at wo. One minus the cosine from there would have no digits left.
+    // The peak is at -wo, or at wo. One minus the cosine to it would lose all digits.
     const Vec3 offset = anisotropy_ < 0.0f ? wi - wo : wi + wo;
     const float density = phase(0.5f * dot(offset, offset));
     return {.f_cos = scattering_ * density, .pdf_fwd = {density}, .pdf_rev = {density}};
@@ -30,7 +30,7 @@ std::optional<BsdfSample> HenyeyGreenstein::sample(Vec3 /*wo*/, float /*u_lobe*/
     const float g = std::abs(anisotropy_);
     const float divisor = 1.0f + g - 2.0f * g * u.x;
     const float q = (1.0f - g * g) / divisor;
-    // The inverse of the distribution, solved for what is left of 1 at the peak.
+    // Inverts the distribution, expressed as one minus the cosine to the peak.
     const float from_peak = std::min((1.0f - g) * u.x * (q + 1.0f - g) / divisor, 2.0f);
     const float sine = std::sqrt(from_peak * (2.0f - from_peak));
     const float z = anisotropy_ < 0.0f ? 1.0f - from_peak : from_peak - 1.0f;

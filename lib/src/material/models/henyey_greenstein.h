@@ -4,9 +4,9 @@
 
 namespace bdpt {
 
-/// Scattering at a point of a medium. Local directions are about +z = wo, so that the light goes on
-/// along -z; there is no surface, and no cosine in `f_cos` [Henyey and Greenstein 1941, "Diffuse
-/// Radiation in the Galaxy"].
+/// Phase function of a medium. Local directions are around +z = wo, so that unscattered light
+/// continues along -z; there is no surface, and no cosine in `f_cos` [Henyey and Greenstein 1941,
+/// "Diffuse Radiation in the Galaxy"].
 class HenyeyGreenstein {
 public:
     /// `scattering` [1/m] is not black; `anisotropy` is in (-1, 1), > 0 forwards.
@@ -22,7 +22,8 @@ public:
     [[nodiscard]] Rgb base_color() const noexcept { return Rgb(1.0f); }
 
 private:
-    /// [1/sr], by one minus the cosine between wi and the direction that is scattered to most.
+    /// Returns the phase function [1/sr], given one minus the cosine between wi and the peak
+    /// direction.
     [[nodiscard]] float phase(float from_peak) const noexcept;
 
     Rgb scattering_;

@@ -10,7 +10,7 @@ namespace bdpt {
 /// A diffuse surface without a boundary above it.
 class Lambertian {
 public:
-    /// In [0, 1], not black (that is `Black`).
+    /// `base_color` is in [0, 1] and not black (see `Black`).
     explicit Lambertian(Rgb base_color) : base_color_(base_color) {}
 
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept

@@ -7,8 +7,8 @@
 
 namespace bdpt {
 
-/// A surface with layers, as small as its parameters are: `LayeredBsdf` is made at each call, so
-/// that layers, which are rare, do not make all path vertices larger.
+/// A surface with layers, stored as its parameters: `LayeredBsdf` is constructed at each call, so
+/// that layers, which are rare, do not enlarge all path vertices.
 class Layered {
 public:
     explicit Layered(const LayeredParameters& parameters) : parameters_(parameters) {}

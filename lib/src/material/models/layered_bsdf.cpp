@@ -8,7 +8,7 @@
 namespace bdpt {
 namespace {
 
-/// Layers see their own side of the surface from above.
+/// Flips a direction so that layers see their own side of the surface from above.
 [[nodiscard]] Vec3 from_above(Vec3 w, bool above)
 {
     return above ? w : -w;
@@ -25,7 +25,7 @@ namespace {
                             parameters.transmission_color.value())};
 }
 
-/// Roughly the albedo of the base; above 0.
+/// Returns the approximate albedo of the base; above 0.
 [[nodiscard]] float weight_of(const LayeredParameters& parameters)
 {
     const float transmitted = parameters.diffuse_transmission.value() *
@@ -34,7 +34,7 @@ namespace {
     return 0.05f + 0.95f * std::clamp(brightest, 0.0f, 1.0f);
 }
 
-/// The share of light that goes below a layer and is not lost for the base.
+/// Returns the fraction of light that passes a layer to the base and back.
 [[nodiscard]] float passed(float there, float back)
 {
     return std::min(there, back);
@@ -119,7 +119,7 @@ BsdfEval LayeredBsdf::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
     return grazes(wo) || grazes(wi) ? BsdfEval{} : eval_lobes(side(wo), wo, wi, mode);
 }
 
-/// The whole sample where it is a delta lobe's, else the direction that counts.
+/// Samples the coat: the complete sample of a delta lobe, else only the direction matters.
 std::optional<BsdfSample> LayeredBsdf::sample_coat(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept
 {
@@ -135,7 +135,7 @@ std::optional<BsdfSample> LayeredBsdf::sample_coat(const Side& from, Vec3 wo, fl
     return sampled;
 }
 
-/// The same of the base.
+/// Samples the base, likewise.
 std::optional<BsdfSample> LayeredBsdf::sample_base(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept
 {

@@ -11,14 +11,14 @@
 namespace bdpt {
 
 /// Layers over the glTF material model: KHR_materials_{clearcoat, sheen}, and a base with
-/// KHR_materials_{anisotropy, diffuse_transmission, iridescence}. Directions are as those of all
-/// models; +x is the rougher direction. Layers cover the outside of solid bodies, and both
-/// sides of all else.
+/// KHR_materials_{anisotropy, diffuse_transmission, iridescence}. Directions as in all models; +x
+/// is the rougher direction. Layers cover the outside of solid bodies, and both sides of all other
+/// surfaces.
 ///
-/// What lies below a layer is multiplied by min(T(wo), T(wi)), where T is what the layer does not
-/// reflect: so no energy is made, and the way of light does not matter. That is the rule that
-/// KHR_materials_sheen gives for its layer. What this takes from a base below a coat is given back
-/// as diffuse light (`CoatInterreflection`).
+/// Everything below a layer is multiplied by min(T(wo), T(wi)), where T is the fraction that the
+/// layer does not reflect: so no energy is created, and the model is reciprocal. That is the rule
+/// that KHR_materials_sheen gives for its layer. The energy that a base below a coat loses by it is
+/// restored as diffuse light (`CoatInterreflection`).
 class LayeredBsdf {
 public:
     explicit LayeredBsdf(const LayeredParameters& parameters);
@@ -27,24 +27,25 @@ public:
     /// `u_lobe` and `u` are uniform in [0, 1).
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept;
-    /// Scatters into a lobe that is not delta.
+    /// Tests whether it has a lobe that is not delta.
     [[nodiscard]] bool has_smooth_lobe() const noexcept;
-    /// Roughly the albedo of the base, > 0.
+    /// Returns the approximate albedo of the base, > 0.
     [[nodiscard]] float base_weight() const noexcept { return base_weight_; }
-    /// What a coat above all sends back.
+    /// Returns the light that a coat on top reflects back.
     [[nodiscard]] CoatInterreflection interreflection(const Coat& coat,
                                                       const CoatLoss* loss) const noexcept
     {
         return coat.interreflection(base_.coated(), loss);
     }
-    /// The share of light from a direction with this z, on a covered side, that is lost without it.
+    /// Returns the fraction of light from a direction with this z, on a covered side, that is lost
+    /// without it.
     [[nodiscard]] float lost(const CoatInterreflection& again, float z) const noexcept
     {
         return lost(again, z, base_.side(z));
     }
 
 private:
-    /// What follows from one direction alone.
+    /// Values that depend on one direction alone.
     struct Side {
         LayerBase::Side base;
         // Probabilities of the lobes.
@@ -52,8 +53,8 @@ private:
         float sheen_choice = 0.0f;
         float base_choice = 1.0f;
         float again_choice = 0.0f;
-        float lost = 0.0f;  ///< share of light between coat and base
-        // What is left of light below each layer.
+        float lost = 0.0f;  ///< fraction of light between coat and base
+        // Fraction of light that remains below each layer.
         float below_coat = 1.0f;
         float below_sheen = 1.0f;
     };

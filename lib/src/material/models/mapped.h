@@ -9,12 +9,12 @@
 
 namespace bdpt {
 
-/// A model on the facet of a normal map (`MappedBsdf`), whose normal is +z; a coat lies even on the
+/// A model on the facet of a normal map (`MappedBsdf`), whose normal is +z; a coat follows the
 /// surface or has a map of its own (`CoatedFacet`).
 template <ScatteringModel Model>
 class Mapped {
 public:
-    /// `ns`, local: the unit normal of the surface without the map, above the facet.
+    /// `ns`, local, is the unit normal of the surface without the map, above the facet.
     Mapped(const Model& model, Vec3 ns) noexcept : model_(model), ns_(ns) {}
 
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
@@ -23,7 +23,7 @@ public:
     [[nodiscard]] bool has_smooth_lobe() const noexcept { return model_.has_smooth_lobe(); }
     [[nodiscard]] bool transmits() const noexcept { return model_.transmits(); }
     [[nodiscard]] Rgb base_color() const noexcept { return model_.base_color(); }
-    /// The cosine to the normal of the surface without the map.
+    /// Returns the cosine to the normal of the surface without the map.
     [[nodiscard]] float height(Vec3 w) const noexcept { return dot(w, ns_.value()); }
 
 private:

@@ -9,7 +9,7 @@
 
 namespace bdpt {
 
-/// Rough refraction into an index this close to the outer one has no half vector.
+/// Minimum relative index of rough refraction: closer to 1 it has no half vector.
 constexpr float min_refraction = 1.001f;
 
 template <typename Film, typename Roughness, typename Base>
@@ -35,8 +35,8 @@ BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
         .film = film};
     boundary_.film.bind(boundary_.f0);
     if (boundary_.is_solid && roughness_.is_rough() && boundary_.ior < min_refraction) {
-        // Equal indices: a dielectric boundary cannot be seen, however rough; where it is mixed
-        // with metal, a refraction too weak to be noticed keeps the metal's roughness.
+        // Equal indices: a dielectric boundary is invisible, however rough; if it is mixed with
+        // metal, an imperceptible refraction keeps the metal's roughness.
         if (metallic == 0.0f) {
             roughness_.make_smooth();
         } else {
@@ -53,7 +53,7 @@ BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
 template <typename Film, typename Roughness, typename Base>
 float BasicMetallicRoughness<Film, Roughness, Base>::reaches_base() const noexcept
 {
-    constexpr float min_loss = 1e-6f;  // a base below a perfect mirror gets no light at all
+    constexpr float min_loss = 1e-6f;  // a base below a perfect mirror receives no light
     const float average = roughness_.average([&](SpecularAlbedo::Roughness row) {
         return boundary_.reflected(boundary_.albedo->average(row));
     });
@@ -148,7 +148,7 @@ float BasicMetallicRoughness<Film, Roughness, Base>::lost(float z) const noexcep
             return 1.0f - boundary_.albedo->refraction_loss()->directional(
                               side, cosine, row.value(), f0, boundary_.f90);
         }
-        // What passes a thin wall has the geometry of what is reflected.
+        // Transmission through a thin wall has the geometry of reflection.
         const SpecularAlbedo::Split split = boundary_.albedo->directional(cosine, row);
         return split.f0 + split.f90;
     });
@@ -181,7 +181,7 @@ Interreflection BasicMetallicRoughness<Film, Roughness, Base>::interreflection()
     return {boundary_.base_color, 1.0f - average_unreflected(), boundary_.metallic};
 }
 
-/// The probability of the base.
+/// Returns the probability of the base.
 template <typename Side>
 float base_choice(const Side& side)
 {

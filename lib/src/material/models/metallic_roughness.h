@@ -19,9 +19,9 @@
 
 namespace bdpt {
 
-/// What a surface that transmits light is part of.
+/// The kind of body of a transmitting surface.
 enum class Body : std::uint8_t {
-    thin_walled,  ///< a sheet: light passes without changing its course
+    thin_walled,  ///< a sheet: light passes straight through
     solid,        ///< the boundary of a closed body: light is refracted
 };
 
@@ -35,7 +35,7 @@ struct GltfParameters {
     float transmission = 0.0f;
     Body body = Body::thin_walled;
 
-    /// Is there a boundary above the base that can be seen?
+    /// Tests whether there is a visible boundary above the base.
     [[nodiscard]] bool has_boundary() const
     {
         return specular > 0.0f || metallic > 0.0f || transmission > 0.0f || body == Body::solid;
@@ -43,10 +43,10 @@ struct GltfParameters {
     [[nodiscard]] bool is_lambertian() const { return !has_boundary(); }
 };
 
-// The base, below the boundary, is one of these.
-// - `set_up`: `diffuse` is the share of light for which there is a base, `reaches_base` the average
-//   of what the boundary lets through. Returns the greatest component of the albedo.
-// - `add_to`: adds the lobes; `coupling` is the share of light that the boundary lets through, in
+// Interface of the base below the boundary.
+// - `set_up`: `diffuse` is the fraction of light for which there is a base, `reaches_base` the
+//   average transmission of the boundary. Returns the largest component of the albedo.
+// - `add_to`: adds the lobes; `coupling` is the fraction of light that the boundary transmits, in
 //   and out, and `choice_fwd` and `choice_rev` are the probabilities of the base from wo and wi.
 
 /// A Lambertian base.
@@ -75,11 +75,11 @@ private:
     float per_color_ = 0.0f;  ///< f over base colour [1/sr]
 };
 
-/// A Lambertian base of which a share is on the other side, if the body is thin.
+/// A Lambertian base that transmits a fraction to the other side if the body is thin.
 class TranslucentBase {
 public:
     TranslucentBase() = default;
-    /// Clamped to [0, 1].
+    /// Arguments are clamped to [0, 1].
     TranslucentBase(float share, Rgb color) : transmitted_(color), transmitted_choice_(share) {}
 
     [[nodiscard]] float set_up(Rgb base_color, float diffuse, float reaches_base,
@@ -113,7 +113,8 @@ public:
                             transmitted_choice_ * choice_fwd, transmitted_choice_ * choice_rev));
         }
     }
-    /// Of the light that a white base scatters: what stays on the side that it came from.
+    /// Returns the fraction of the light scattered by a white base that stays on the side it came
+    /// from.
     [[nodiscard]] float reflected_share() const noexcept { return reflected_share_; }
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_base, Vec2 u,
                                                    TransportMode mode) const noexcept
@@ -134,18 +135,18 @@ private:
 /// transmission, volume}: the lobes of a boundary above a base.
 ///
 /// The boundary is that of a dielectric, or metal, or a mix; it reflects and transmits at the same
-/// microfacets. The base gets what the boundary lets through in both directions, so that it is
-/// reciprocal and no energy is lost or made [Kelemen and Szirmay-Kalos 2001, "A Microfacet Based
+/// microfacets. The base receives the light transmitted by the boundary in both directions, so that
+/// it is reciprocal and conserves energy [Kelemen and Szirmay-Kalos 2001, "A Microfacet Based
 /// Coupled Specular-Matte BRDF Model"]. Light that the microfacets of a metal mask is reflected
-/// among them and comes out after all [Kulla and Conty 2017, "Revisiting Physically Based Shading
-/// at Imageworks"]: a white metal reflects all light, however rough, and clear glass scatters all.
-/// All but solid transmitters scatter alike from both sides. From inside a solid transmitter there
-/// is no base: the pigment lies below the boundary for light from outside only, and a base seen
-/// from within would add to the light that is already reflected in full.
+/// among them and eventually leaves [Kulla and Conty 2017, "Revisiting Physically Based Shading at
+/// Imageworks"]: a white metal reflects all light, however rough, and clear glass scatters all. All
+/// but solid transmitters scatter equally from both sides. From inside a solid transmitter there is
+/// no base: the pigment lies below the boundary for light from outside only, and a base seen from
+/// within would add to the light that is already reflected in full.
 template <typename Film, typename Roughness, typename Base>
 class BasicMetallicRoughness {
 public:
-    /// Parameters are clamped to [0, 1]. `albedo` has the refractive index; it must outlive this.
+    /// Clamps the parameters to [0, 1]. `albedo` has the refractive index; it must outlive this.
     BasicMetallicRoughness(const GltfParameters& parameters, const SpecularAlbedo& albedo,
                            const Roughness& roughness, const Film& film, const Base& base);
     BasicMetallicRoughness(const GltfParameters& parameters, const SpecularAlbedo& albedo)
@@ -153,26 +154,26 @@ public:
                                  Base())
     {}
 
-    /// What follows from one direction alone.
+    /// Values that depend on one direction alone.
     struct Side {
         float boundary_choice = 0.0f;         ///< probability of the lobes of the boundary
-        float base_transmitted = 0.0f;        ///< share of light that reaches the base, 1 - E
+        float base_transmitted = 0.0f;        ///< fraction of light that reaches the base, 1 - E
         float interreflection_choice = 0.0f;  ///< probability of the lobe of interreflection
         float refraction_choice = 0.0f;       ///< probability of the lobe of repeated refraction
     };
-    /// `z` is that of the direction.
+    /// Returns the values of a direction with this z.
     [[nodiscard]] Side side(float z) const noexcept;
 
-    /// What a coat above it needs to know.
+    /// Returns the properties that a coat above needs.
     [[nodiscard]] CoatedBase coated() const noexcept;
-    /// The share of light from a direction with this z that white microfacets do not reflect at
-    /// once; 0 where they are smooth, or no metal.
+    /// Returns the fraction of light from a direction with this z that white microfacets do not
+    /// reflect at once; 0 if they are smooth, or not metallic.
     [[nodiscard]] float metal_unreflected(float z) const noexcept
     {
         return interreflects() ? unreflected(z) : 0.0f;
     }
 
-    /// `from` is the side of wo.
+    /// Evaluates the model; `from` belongs to wo.
     [[nodiscard]] BsdfEval eval(const Side& from, Vec3 wo, Vec3 wi,
                                 TransportMode mode) const noexcept;
     [[nodiscard]] std::optional<BsdfSample> sample(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
@@ -195,27 +196,27 @@ public:
     [[nodiscard]] Rgb base_color() const noexcept { return boundary_.base_color; }
 
 private:
-    /// Do its microfacets reflect light more than once? Those of a dielectric do so too, but what
-    /// they do not reflect at once reaches the base.
+    /// Tests whether its microfacets reflect light more than once. Those of a dielectric do so too,
+    /// but light that they do not reflect at once reaches the base.
     [[nodiscard]] bool interreflects() const noexcept
     {
         return boundary_.metallic > 0.0f && roughness_.is_rough();
     }
     [[nodiscard]] Interreflection interreflection() const noexcept;
-    /// Does light pass its microfacets after having been scattered by several of them?
+    /// Tests whether light is transmitted after scattering by several microfacets.
     [[nodiscard]] bool refracts_repeatedly() const noexcept
     {
         return boundary_.transmits() && roughness_.is_rough() &&
                (!boundary_.is_solid || boundary_.albedo->refraction_loss() != nullptr);
     }
     [[nodiscard]] RepeatedRefraction repeated_refraction() const noexcept;
-    /// The average of what the boundary lets through to the base.
+    /// Returns the average transmission of the boundary to the base.
     [[nodiscard]] float reaches_base() const noexcept;
-    // Shares of light from a direction with this z.
-    /// That white microfacets do not reflect at once.
+    // Fractions of light from a direction with this z.
+    /// Returns the fraction that white microfacets do not reflect at once.
     [[nodiscard]] float unreflected(float z) const noexcept;
     [[nodiscard]] float average_unreflected() const noexcept;
-    /// That transparent microfacets do not scatter out at once.
+    /// Returns the fraction that transparent microfacets do not scatter out at once.
     [[nodiscard]] float lost(float z) const noexcept;
     [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
                                       TransportMode mode) const noexcept;
@@ -223,7 +224,7 @@ private:
     Boundary<Film> boundary_;
     Roughness roughness_;
     Base base_;
-    // The largest components of albedos, for choosing among the lobes.
+    // Largest components of albedos, for choosing among the lobes.
     float base_weight_ = 0.0f;
     float transmission_weight_ = 0.0f;
     float metal_weight_ = 0.0f;

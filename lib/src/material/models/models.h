@@ -12,17 +12,17 @@
 
 namespace bdpt {
 
-/// The list of all models that a `Bsdf` may be, cheap and common ones first. Whoever visits it has
-/// no default case: the compiler names each place that does not know a model.
+/// All models that a `Bsdf` may hold, cheap and common ones first. Visitors have no default case:
+/// the compiler reports each place that does not handle a model.
 using AnyModel =
     std::variant<Black, Lambertian, SeenFrom<MetallicRoughness>, Layered, Mapped<Lambertian>,
                  Mapped<MetallicRoughness>, Mapped<Layered>, HenyeyGreenstein>;
 
-/// A material without layers.
+/// Model of a material without layers.
 using PlainModel = std::variant<Black, Lambertian, MetallicRoughness>;
 
-/// The simplest model of these parameters. `albedo` has the refractive index; it must outlive the
-/// model.
+/// Returns the simplest model for these parameters. `albedo` has the refractive index; it must
+/// outlive the model.
 [[nodiscard]] inline PlainModel plain_model(const GltfParameters& parameters,
                                             const SpecularAlbedo& albedo)
 {
@@ -36,7 +36,7 @@ using PlainModel = std::variant<Black, Lambertian, MetallicRoughness>;
     return Lambertian(color);
 }
 
-// How models are held, seen from a local wo.
+// Converts models to their form in a `Bsdf`, seen from a local wo.
 
 template <ScatteringModel Model>
 [[nodiscard]] Model placed(const Model& model, Vec3) noexcept
@@ -49,7 +49,8 @@ template <ScatteringModel Model>
     return {model, wo};
 }
 
-// And on the facet of a normal map, where `ns` is the local normal of the surface without it.
+// Converts models to their form on the facet of a normal map, where `ns` is the local normal of the
+// surface without it.
 
 template <ScatteringModel Model>
 [[nodiscard]] Mapped<Model> mapped(const Model& model, Vec3 ns) noexcept
@@ -61,7 +62,7 @@ template <ScatteringModel Model>
     return model;
 }
 
-/// The cosine by which a model sees a direction above or below the surface.
+/// Returns the cosine by which a model distinguishes directions above and below the surface.
 template <ScatteringModel Model>
 [[nodiscard]] float height(const Model&, Vec3 w) noexcept
 {

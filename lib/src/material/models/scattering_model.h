@@ -8,11 +8,12 @@
 
 namespace bdpt {
 
-/// All that scatters at one surface point, as a `Bsdf` asks for it. Directions are local unit
-/// vectors that point away from the surface, +z being the shading normal, outside a solid body.
+/// Interface of the scattering at one surface point that a `Bsdf` requires. Directions are local
+/// unit vectors that point away from the surface, +z being the shading normal, outside a solid
+/// body.
 ///
 /// - `eval`: the sum over all lobes that are not delta, with the densities of all of them.
-/// - `sample`: a whole sample; `u_lobe` and `u` are uniform in [0, 1).
+/// - `sample`: a complete sample; `u_lobe` and `u` are uniform in [0, 1).
 /// - `has_smooth_lobe`: has a lobe that is not delta. `transmits`: light passes to the other side.
 template <typename M>
 concept ScatteringModel = std::is_trivially_copyable_v<M> &&

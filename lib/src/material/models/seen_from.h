@@ -4,8 +4,8 @@
 
 namespace bdpt {
 
-/// A model and what follows from wo alone, worked out once for all the joins of a path vertex. The
-/// wo of all calls must be that one.
+/// A model and values that depend on wo alone, computed once for all connections of a path vertex.
+/// All calls must use that wo.
 template <typename Model>
 class SeenFrom {
 public:

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Vec3 straight_up(0.0f, 1.0f, 0.0f);
 
-/// Numbers in [0, 1), the same in every run.
+/// Generates numbers in [0, 1), the same in every run.
 class FixedNumbers {
 public:
     explicit FixedNumbers(std::uint64_t seed) : state_(split_mix(seed)) {}
@@ -28,7 +28,7 @@ private:
     std::uint64_t state_;
 };
 
-/// A rough estimate of the luminance of the irradiance.
+/// Returns a rough estimate of the luminance of the irradiance.
 float light_at(const LightSet& lights, const GroundOccluders& occluders, std::size_t place,
                float height)
 {
@@ -69,7 +69,8 @@ GroundLamps::GroundLamps(const LightSet& lights, const GroundOccluders& occluder
         const float lamps = light_at(lights, occluders, place, height);
         shares[place] = lamps / (lamps + elsewhere);
     });
-    // The greatest share around each place, for the estimate of one may have missed a lamp.
+    // Uses the maximum around each place, because the estimate of a single one may have missed a
+    // light.
     constexpr float min_chance = 1.0f / 16.0f;
     constexpr float certain_share = 0.125f;
     constexpr std::size_t side = GroundOccluders::side;

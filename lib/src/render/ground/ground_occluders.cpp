@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A level rectangle.
+/// A horizontal rectangle.
 struct Rectangle {
     double x0 = infinity;
     double z0 = infinity;
@@ -58,8 +58,8 @@ struct Block {
     }
 };
 
-/// Calls `visit(block)` for blocks that hold all surfaces: of triangles while they are few enough
-/// to look at in a moment, else of whole instances.
+/// Calls `visit(block)` for blocks that contain all surfaces: of triangles if they are few enough
+/// to process quickly, else of whole instances.
 template <typename Visit>
 void for_each_block(const SceneGeometry& geometry, double ground, const Visit& visit)
 {
@@ -108,7 +108,7 @@ void for_each_block(const SceneGeometry& geometry, double ground, const Visit& v
     }
 }
 
-/// What the scene is in columns, each from the lowest to the highest surface in it.
+/// Partition of the scene into columns, each from the lowest to the highest surface in it.
 class Columns {
 public:
     Columns(const Rectangle& base, double margin) : base_(base), margin_(margin) {}
@@ -119,7 +119,7 @@ public:
         const auto [z0, z1] = cells(block.base.z0, block.base.z1, base_.z0, base_.z1);
         for (std::size_t z = z0; z <= z1; ++z) {
             for (std::size_t x = x0; x <= x1; ++x) {
-                // Only the part of the block that is in the column, for most are smaller than it.
+                // Adds only the part of the block within the column, as most are smaller than it.
                 Block& column = columns_[z * side + x];
                 column.base.x0 = std::min(column.base.x0, std::max(block.base.x0, edge_x(x)));
                 column.base.x1 = std::max(column.base.x1, std::min(block.base.x1, edge_x(x + 1)));
@@ -130,8 +130,8 @@ public:
             }
         }
     }
-    /// What stands above the ground, with a margin for rounding, in squares of `width` x `width`
-    /// columns.
+    /// Returns the occluders above the ground, with a margin for rounding, in squares of `width` x
+    /// `width` columns.
     [[nodiscard]] std::vector<Block> blocks(std::size_t width) const
     {
         std::vector<Block> result;
@@ -179,7 +179,7 @@ private:
     std::array<Block, side * side> columns_;
 };
 
-/// Where a thing stands, seen from anywhere in a place: in azimuth from `from` on, counted in
+/// Azimuth and distance of an occluder, seen from anywhere in a place: azimuths from `from` on, in
 /// strips, over `width` strips.
 struct Sector {
     double from = 0.0;
@@ -197,8 +197,8 @@ Sector sector_of(const Rectangle& r)
         return result;
     }
     result.nearest = length(std::max({r.x0, 0.0, -r.x1}), std::max({r.z0, 0.0, -r.z1}));
-    // The rectangle is on one side of a line through the origin, so a corner is the first and
-    // another one the last, counted as azimuths grow.
+    // The rectangle is on one side of a line through the origin, so the first and the last azimuth,
+    // in ascending order, are at corners.
     const std::array<std::array<double, 2>, 4> corners{
         {{r.x0, r.z0}, {r.x0, r.z1}, {r.x1, r.z0}, {r.x1, r.z1}}};
     auto first = corners[0];
@@ -220,7 +220,7 @@ Sector sector_of(const Rectangle& r)
     return result;
 }
 
-/// More than the rounding of angles, in strips and rows.
+/// Exceeds the rounding of angles, in strips and rows.
 constexpr double rounding = 1e-3;
 
 double row_at(double distance, double height)
@@ -278,7 +278,7 @@ GroundOccluders::GroundOccluders(const SceneGeometry& geometry, float height)
     const double half = 0.5 * std::max({base.x1 - base.x0, base.z1 - base.z0, all.top});
     const double farthest = std::max({std::abs(base.x0), std::abs(base.x1), std::abs(base.z0),
                                       std::abs(base.z1), all.top, std::abs(ground)});
-    // Rays start a little beside their points, and points of surfaces are rounded.
+    // Ray origins are offset from their points, and points on surfaces are rounded.
     Columns columns(base, 1e-4 * half + 1e-5 * farthest);
     for_each_block(geometry, ground, [&](const Block& block) {
         if (!block.is_empty()) {
@@ -288,13 +288,13 @@ GroundOccluders::GroundOccluders(const SceneGeometry& geometry, float height)
     center_ = {static_cast<float>(0.5 * (base.x0 + base.x1)),
                static_cast<float>(0.5 * (base.z0 + base.z1))};
     reach_ = static_cast<float>(half);
-    // Seen from farther away, coarser ones are as good.
+    // From farther away, coarser columns suffice.
     const std::array<std::vector<Block>, 3> blocks{columns.blocks(1), columns.blocks(2),
                                                    columns.blocks(4)};
-    const auto distance = [](std::size_t i) {  // from the middle, in eighths of the grid
+    const auto distance = [](std::size_t i) {  // from the centre, in eighths of the grid
         return i < side / 2 ? (side / 2 - 1 - i) / (side / 8) : (i - side / 2) / (side / 8);
     };
-    // The edges of places are where `place` has them, and a little beyond.
+    // The edges of places are those of `place`, slightly enlarged.
     const auto edge = [&](std::size_t i, float center) {
         constexpr double far_away = 1e18;
         const double m = 2.0 * static_cast<double>(i) / static_cast<double>(side) - 1.0;

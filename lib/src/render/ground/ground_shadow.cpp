@@ -14,7 +14,7 @@ namespace {
 
 constexpr Vec3 up(0.0f, 1.0f, 0.0f);
 
-/// Light that brings nothing, or comes from so near that it is no number.
+/// Tests whether an estimate is black, or not finite because the light is too close.
 bool is_useless(Rgb estimate)
 {
     return is_black(estimate) || !is_finite(estimate);
@@ -26,7 +26,7 @@ void add(GroundLight& sum, const GroundLight& light, float weight)
     sum.shadowed += weight * light.shadowed;
 }
 
-/// What a random number of a sample is for: each light, and each shadow ray, has its own.
+/// Returns the index of a random number: each light, and each shadow ray, has its own.
 std::uint32_t number_of_ray(std::uint32_t kind, int sample)
 {
     constexpr std::uint32_t kinds = 3;
@@ -35,16 +35,17 @@ std::uint32_t number_of_ray(std::uint32_t kind, int sample)
 
 }  // namespace
 
-/// Of the ground, with all that sampling it needs.
+/// A point on the ground, with the data needed to sample its light.
 struct GroundShadow::Point {
     SegmentEnd end;
-    std::size_t place;  // among `occluders_`
+    std::size_t place;  // index in `occluders_`
     TimeAndWavelength moment;
     Sampler& sampler;
     RayCounts& rays;
 
     [[nodiscard]] LightSampleContext receiver() const { return {.p = end.p, .normal = up}; }
-    /// Of a shadow ray. The camera subpath has no second vertex, so segments to it are free.
+    /// Returns the key of a shadow ray. The camera subpath has no second vertex, so segments to it
+    /// are unused.
     [[nodiscard]] SegmentKey segment(std::uint32_t number) const
     {
         SegmentKey key = sampler.segment_key(static_cast<int>(number), 2);
@@ -118,8 +119,8 @@ std::optional<GroundLight> GroundShadow::light_at(const CameraRay& ray,
     return sum;
 }
 
-/// The more of the sky the scene may block, the more samples are taken there: the noise is that of
-/// what may be blocked.
+/// Adds light of the sky. The number of samples increases with the fraction of the sky that the
+/// scene may block: only that part is noisy.
 void GroundShadow::add_sky(const Point& point, GroundLight& sum) const
 {
     if (!sky_) {
@@ -134,9 +135,9 @@ void GroundShadow::add_sky(const Point& point, GroundLight& sum) const
     if (!(shares.exposed > 0.0f)) {
         return;
     }
-    constexpr float samples_of_all = 4.0f;  // if all of the sky may be blocked
+    constexpr float samples_of_all = 4.0f;  // samples if all of the sky may be blocked
     const float wanted = samples_of_all * shares.exposed / (shares.open + shares.exposed);
-    // Less than one sample is one at a time, by chance.
+    // Fewer than one sample is one with that probability.
     const int samples = static_cast<int>(std::ceil(wanted));
     const float chance = std::min(wanted, 1.0f);
     const float weight = 1.0f / (chance * static_cast<float>(samples));
@@ -161,7 +162,7 @@ void GroundShadow::add_sky(const Point& point, GroundLight& sum) const
 
 void GroundShadow::add_suns(const Point& point, GroundLight& sum) const
 {
-    // If there are more, each of these stands for as many.
+    // If there are more lights, a random subset is weighted by the inverse of its fraction.
     constexpr std::size_t most = 4;
     const std::size_t samples = std::min(suns_.size(), most);
     for (std::size_t i = 0; i < samples; ++i) {
@@ -189,7 +190,7 @@ void GroundShadow::add_lamps(const Point& point, GroundLight& sum) const
     if (!lamps_) {
         return;
     }
-    // Where there is nothing but lamps, all noise is theirs.
+    // If there are only local lights, they cause all of the noise.
     const int samples = has_other_lights_ ? 1 : 2;
     const float chance = lamps_->chance(point.place);
     const LightSet& lights = world_.lights();
@@ -246,7 +247,7 @@ bool GroundShadow::hides_itself(const Point& point, LightId id, const IncidentSa
     if (triangle == nullptr) {
         return false;
     }
-    // Whatever else there is on the way, it does not matter.
+    // Other surfaces on the way do not matter.
     constexpr int max_surfaces = 64;
     SegmentEnd from = point.end;
     for (int i = 0; i < max_surfaces; ++i) {

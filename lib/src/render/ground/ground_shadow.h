@@ -19,17 +19,16 @@
 
 namespace bdpt {
 
-/// A shadow catcher: direct light on a level ground that is no part of the scene, with and without
-/// the scene in its way. The ground reflects nothing and is seen by camera rays alone
+/// A shadow catcher: direct light on a horizontal ground that is no part of the scene, with and
+/// without occlusion by the scene. The ground reflects nothing and is visible to camera rays alone
 /// (docs/decisions/0054-shadow-catcher.md).
 class GroundShadow {
 public:
-    /// The world must outlive this.
+    /// Keeps a reference to `world`, which must outlive this.
     GroundShadow(const World& world, const RenderOptions& options);
 
-    /// Light where a camera ray that meets no surface meets the ground: an estimate of its
-    /// irradiance, and the shadow rays that it took. Nothing where the ray does not come down to
-    /// the ground within reach of rays.
+    /// Estimates the irradiance of the ground where a camera ray that hits no surface hits it, and
+    /// counts its shadow rays. nullopt if the ray does not hit the ground within reach of rays.
     [[nodiscard]] std::optional<GroundLight> light_at(const CameraRay& ray,
                                                       const TimeAndWavelength& moment,
                                                       Sampler& sampler, RayCounts& rays) const;
@@ -40,19 +39,19 @@ private:
     void add_sky(const Point& point, GroundLight& sum) const;
     void add_suns(const Point& point, GroundLight& sum) const;
     void add_lamps(const Point& point, GroundLight& sum) const;
-    /// What the light brings, and what of it gets past the scene.
+    /// Returns the contribution of a light without and with occlusion by the scene.
     [[nodiscard]] GroundLight past_scene(const Point& point, LightId id,
                                          const IncidentSample& light, Rgb irradiance,
                                          std::uint32_t ray) const;
-    /// Does a surface of the light itself stand between the ground and this point of it?
+    /// Tests whether a surface of the light itself occludes this point on it from the ground.
     [[nodiscard]] bool hides_itself(const Point& point, LightId id, const IncidentSample& light,
                                     SegmentKey segment) const;
 
     const World& world_;
     float height_;
-    std::optional<GroundOccluders> occluders_;  // if a shadow is asked for
+    std::optional<GroundOccluders> occluders_;  // set if a shadow is requested
     std::optional<GroundSky> sky_;
-    std::vector<LightId> suns_;  // all others at infinity
+    std::vector<LightId> suns_;  // all other lights at infinity
     std::optional<GroundLamps> lamps_;
     bool has_other_lights_ = false;
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float below_one = 0x1.fffffep-1f;
 
-/// The unit direction of an azimuth, counted as that of `GroundOccluders`, and a polar angle.
+/// Returns the unit direction of an azimuth, measured as in `GroundOccluders`, and a polar angle.
 Vec3 direction_of(float azimuth, float sine, float cosine)
 {
     constexpr float radians = 2.0f * pi / static_cast<float>(GroundOccluders::strips);
@@ -57,8 +57,8 @@ GroundSky::GroundSky(const EnvironmentLight& sky, const GroundOccluders& occlude
     });
 }
 
-/// Each cell is looked up at a grid of points that are no farther apart than texels. Bilinear
-/// interpolation makes even grids exact for what lies inside: a texel's shares at points one texel
+/// Evaluates each cell at a grid of points that are at most a texel apart. With bilinear
+/// interpolation, uniform grids are exact in the interior: a texel's weights at points one texel
 /// apart add up to one, wherever the points are.
 void GroundSky::fill_cells()
 {
@@ -91,7 +91,7 @@ void GroundSky::fill_cells()
                 static_cast<float>(sum * solid_angle / static_cast<double>(across * along));
         }
     });
-    // A cell where all points are dark may have light between them if its neighbours do.
+    // A cell whose points are all dark may have light between them if its neighbours do.
     constexpr float min_share = 0.01f;
     tbb::parallel_for(std::size_t{0}, columns, [&](std::size_t column) {
         RowSums& sums = weights_[column];
@@ -122,7 +122,8 @@ void GroundSky::fill_cells()
 GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
 {
     const Place& from = places_[place];
-    // A strip of those that may be blocked, a column of it, and the rest of the number.
+    // Choose one of the strips that may be blocked and a column of it, and keep the remaining
+    // random number.
     const float target = std::min(u.x, below_one) * from.weight;
     const auto found = std::upper_bound(from.weights.begin(), from.weights.end() - 1, target);
     const auto strip = static_cast<std::size_t>(found - from.weights.begin());
@@ -148,7 +149,7 @@ GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
         return {.to_light = {0.0f, 1.0f, 0.0f}};
     }
     const auto across = std::min(static_cast<float>(before / weight), below_one);
-    // A row of it.
+    // Choose a row of the column.
     const RowSums& sums = weights_[column];
     const double height = sums[blocked.begin] + static_cast<double>(u.y) * weight;
     const auto above =
@@ -161,7 +162,7 @@ GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
     }
     const auto along =
         std::min(static_cast<float>(std::max(height - sums[row], 0.0) / of_cell), below_one);
-    // In a cell all of the projected solid angle is the same.
+    // Sampling is uniform in projected solid angle within a cell.
     const float sine_squared =
         sines_squared_[row] + along * (sines_squared_[row + 1] - sines_squared_[row]);
     const float azimuth =

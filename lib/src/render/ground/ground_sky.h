@@ -11,28 +11,28 @@
 
 namespace bdpt {
 
-/// Light of the environment on level ground. All of it is known beforehand; samples are taken of
-/// those directions only that the scene may block (docs/decisions/0064).
+/// Light of the environment on horizontal ground. Unblocked light is precomputed; only directions
+/// that the scene may block are sampled (docs/decisions/0064).
 class GroundSky {
 public:
-    /// Refers to both, which must outlive it.
+    /// Keeps references to both arguments, which must outlive it.
     GroundSky(const EnvironmentLight& sky, const GroundOccluders& occluders);
 
-    /// The luminance of the irradiance, by whether the scene may block it [lx].
+    /// Luminance of the irradiance [lx], split by whether the scene may block it.
     struct Shares {
         float open = 0.0f;
         float exposed = 0.0f;
     };
     [[nodiscard]] Shares shares(std::size_t place) const { return places_[place].shares; }
-    /// Where nothing stands on the ground.
+    /// Returns the irradiance of unblocked ground.
     [[nodiscard]] float irradiance() const { return irradiance_; }
 
     struct Sample {
         Vec3 to_light{0.0f};   ///< unit
         Rgb irradiance{0.0f};  ///< radiance times cosine over the density
     };
-    /// A direction that the scene may block, about in proportion to what it brings. The place's
-    /// share must be positive.
+    /// Samples a direction that the scene may block, approximately in proportion to its
+    /// contribution. The place's share must be positive.
     [[nodiscard]] Sample sample(std::size_t place, Vec2 u) const;
 
 private:
@@ -40,12 +40,12 @@ private:
     static constexpr std::size_t rows = GroundOccluders::rows;
     static constexpr std::size_t columns_of_strip = 8;
     static constexpr std::size_t columns = strips * columns_of_strip;
-    /// Sums over the rows above each row, and at last over all.
+    /// Sums over the rows above each row; the last one over all.
     using RowSums = std::array<double, rows + 1>;
     struct Place {
         Shares shares;
-        float weight = 0.0f;                  ///< of all directions that may be blocked
-        std::array<float, strips> weights{};  ///< the same up to and with each strip
+        float weight = 0.0f;                  ///< weight of all directions that may be blocked
+        std::array<float, strips> weights{};  ///< cumulative weights of strips, inclusive
     };
 
     void fill_cells();
@@ -56,8 +56,8 @@ private:
 
     const EnvironmentLight& sky_;
     const GroundOccluders& occluders_;
-    std::array<float, rows + 1> sines_squared_{};  ///< of the polar angle where rows begin
-    std::vector<RowSums> weights_;                 ///< of cells in sampling, by column
+    std::array<float, rows + 1> sines_squared_{};  ///< at the polar angles where rows begin
+    std::vector<RowSums> weights_;                 ///< sampling weights of cells, by column
     std::vector<RowSums> irradiances_;             ///< by strip
     float irradiance_ = 0.0f;
     std::vector<Place> places_;

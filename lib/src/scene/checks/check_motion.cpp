@@ -79,7 +79,7 @@ void check_moving(const MeshDesc& mesh, const std::string& item)
     }
 }
 
-/// `extent`: of the mesh in all of its poses.
+/// Checks an instance; `extent` is that of the mesh in all of its poses.
 void check_moving(const InstanceDesc& instance, const std::string& item, const MeshDesc& mesh,
                   Vec3 extent, float reach)
 {

@@ -4,8 +4,8 @@
 
 namespace bdpt {
 
-/// Checks all that moves in a scene that is valid when the shutter opens; `reach` as in
-/// geometry/coordinate_limit.h, and of lights only if the places of meshes are known to be valid.
+/// Checks everything that moves in a scene that is valid when the shutter opens; `reach` as in
+/// geometry/coordinate_limit.h, and lights only if the positions of meshes are known to be valid.
 /// Throws `Error` (invalid_input).
 void check_motion(const SharedSceneDesc& desc, float reach, bool places_are_valid);
 

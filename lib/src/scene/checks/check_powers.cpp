@@ -15,7 +15,7 @@ float max_channel(Rgb value)
     return std::max({value.r, value.g, value.b});
 }
 
-/// A NaN, as it comes from products of infinity and zero, is too great, too.
+/// Tests whether a power exceeds the limit; a NaN, the product of infinity and zero, does, too.
 bool is_too_great(Rgb power)
 {
     return !(power.r <= max_light_power && power.g <= max_light_power &&

@@ -10,7 +10,7 @@
 namespace bdpt {
 
 /// Throws `Error` (invalid_input) that names the first light whose power is more than
-/// `max_light_power`. The others are those of the valid description `desc`.
+/// `max_light_power`. The other arguments are those of the valid description `desc`.
 void check_powers(const SharedSceneDesc& desc, std::span<const MaterialId> material_ids,
                   std::span<const Material> materials, const LightSet& lights);
 

@@ -9,7 +9,7 @@
 namespace bdpt {
 namespace {
 
-/// Of halves and floats: neither negative, but for -0, nor infinite nor NaN.
+/// Tests whether a half or float is finite and not negative, except -0.
 [[nodiscard]] bool is_usable(const std::uint8_t* value, TexelType type)
 {
     const bool half = type == TexelType::half;

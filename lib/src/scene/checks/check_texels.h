@@ -6,8 +6,8 @@
 
 namespace bdpt {
 
-/// Throws `Error` (invalid_input) that begins with `item` when the image has no texels, another
-/// number of bytes than they need, or values that textures cannot have.
+/// Throws `Error` (invalid_input) whose message begins with `item` if the image has no texels, a
+/// wrong number of bytes, or values that textures cannot have.
 void check_texels(const TexelImage& image, const std::string& item);
 
 }  // namespace bdpt

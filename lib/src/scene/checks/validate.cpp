@@ -69,7 +69,7 @@ void check(const TextureRef& texture, const std::string& item, std::size_t image
     }
 }
 
-/// The numbers of a material, or of one of its layers.
+/// Checks the numbers of a material, or of one of its layers.
 template <HasFields Desc>
 void check_numbers(const Desc& desc, const std::string& item)
 {
@@ -128,7 +128,7 @@ void check(const VolumeDesc& volume, const std::string& item)
         check_limits(item, "density", volume.density[i], Limits::at_least(0.0f));
         densest = std::max(densest, static_cast<double>(volume.density[i]));
     }
-    // Rays stop so many times on their way through it.
+    // Limits the number of collisions of a ray.
     constexpr double max_depth = 1e5;
     const glm::dvec3 diagonal = glm::dmat3(volume.world_from_grid) * glm::dvec3(size);
     const double depth =
@@ -152,7 +152,7 @@ void check(const InstanceDesc& instance, const std::string& item, const SharedSc
     check_transform(instance.world_from_object, item);
 }
 
-/// What is traced must be within reach of rays, as they are single-precision numbers.
+/// Checks that all coordinates are within the reach of rays, which are single-precision.
 void check_coordinates(const SharedSceneDesc& desc, float reach)
 {
     std::vector<Vec3> extents;

@@ -38,7 +38,7 @@ void check_position(const std::string& item, Vec3 position, float reach)
 
 void check_radius(const std::string& item, float radius, Rgb intensity)
 {
-    constexpr float least = 1e-15f;  // the area of the sphere stays a normal float
+    constexpr float least = 1e-15f;  // keeps the area of the sphere a normal float
     constexpr float most = 1e15f;
     if (radius == 0.0f) {
         return;
@@ -96,7 +96,8 @@ void check_rotation(const std::string& item, const Mat3& m)
     }
 }
 
-/// Is a field checked whatever light it belongs to: here, by its limits, or by `check_motion`?
+/// Tests whether a field is checked for every kind of light: here, by its limits, or by
+/// `check_motion`.
 template <typename Field>
 constexpr bool is_always_checked(const Field& field)
 {
@@ -108,8 +109,7 @@ constexpr bool is_always_checked(const Field& field)
     }
 }
 
-/// What a light's own kind needs beside the checks of all lights; a kind that needs nothing has no
-/// function here.
+/// Checks specific to one kind of light; kinds without any have no function here.
 struct OwnCheck {
     const std::string& item;
     const std::vector<float>& profile_peaks;  // [cd]
@@ -161,7 +161,7 @@ struct OwnCheck {
             const Rgb& pixel = image.pixels[i];
             const float least = std::min({pixel.r, pixel.g, pixel.b});
             if (least >= 0.0f && pixel.r + pixel.g + pixel.b <= any_positive) {
-                continue;  // texts of places take longer than all else
+                continue;  // formatting the position would dominate the time
             }
             const auto column = i % static_cast<std::size_t>(image.width);
             const auto row = i / static_cast<std::size_t>(image.width);
@@ -175,7 +175,7 @@ struct OwnCheck {
     }
 };
 
-/// What lights have in common is checked by the names of their members.
+/// Checks the common members of lights by name, then the specific ones.
 template <typename Light>
 void check(const Light& light, std::size_t index, float reach,
            const std::vector<float>& profile_peaks)

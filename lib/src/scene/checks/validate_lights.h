@@ -6,11 +6,11 @@
 
 namespace bdpt {
 
-/// Throws `Error` (invalid_input) for the first value of the lights and their profiles that no
-/// scene can have. `reach`: how far from the origin lights may be [m].
+/// Throws `Error` (invalid_input) for the first invalid value of the lights and their profiles.
+/// `reach` is the maximum distance of lights from the origin [m].
 void validate_lights(const SharedSceneDesc& desc, float reach);
 
-/// How far things may be, and why: the end of a message.
+/// Returns the end of a message that states the distance limit and its reason.
 [[nodiscard]] std::string limit_text(float reach);
 
 }  // namespace bdpt

@@ -13,7 +13,7 @@
 
 namespace bdpt {
 
-/// Throws `Error` (invalid_input) with these parts as its text.
+/// Throws `Error` (invalid_input) with the concatenated parts as message.
 template <typename... Parts>
 [[noreturn]] void fail(const Parts&... parts)
 {
@@ -22,7 +22,7 @@ template <typename... Parts>
     throw Error(ErrorCode::invalid_input, message.str());
 }
 
-/// `mesh 3 "chair"`
+/// Returns a label such as `mesh 3 "chair"`.
 [[nodiscard]] inline std::string label(std::string_view kind, std::size_t index,
                                        const std::string& name)
 {
@@ -30,7 +30,7 @@ template <typename... Parts>
     return name.empty() ? text : text + " \"" + name + "\"";
 }
 
-/// `spot light 2 "stage"`
+/// Returns a label such as `spot light 2 "stage"`.
 template <typename Light>
 [[nodiscard]] std::string light_label(const Light& light, std::size_t index)
 {
@@ -41,13 +41,13 @@ template <typename Light>
     }
 }
 
-/// Pixels of an image.
+/// Returns the number of pixels of an image.
 [[nodiscard]] inline std::size_t area(int width, int height)
 {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-/// Are `count` values?
+/// Tests whether `count` values are finite.
 [[nodiscard]] inline bool all_finite(const float* values, int count)
 {
     for (int i = 0; i < count; ++i) {
@@ -67,7 +67,7 @@ inline void check_range(const std::string& item, std::string_view what, float va
     }
 }
 
-/// The same for all channels, from 0.
+/// Checks all channels of a colour, from 0 to `high`.
 template <typename Color>
 void check_color(const std::string& item, std::string_view what, const Color& value, float high)
 {
@@ -94,7 +94,7 @@ void check_limits(const std::string& item, std::string_view what, const T& value
     }
 }
 
-/// Checks the numbers of a description that have limits of their own.
+/// Checks the numbers of a description that have limits in its list of fields.
 template <HasFields Desc>
 void check_own_limits(const std::string& item, const Desc& desc)
 {
@@ -105,7 +105,7 @@ void check_own_limits(const std::string& item, const Desc& desc)
     });
 }
 
-/// The greatest of all values that are finite.
+/// Largest finite value.
 inline constexpr float any_positive = std::numeric_limits<float>::max();
 
 }  // namespace bdpt

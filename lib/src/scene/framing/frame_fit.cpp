@@ -14,19 +14,20 @@
 namespace bdpt {
 namespace {
 
-/// The support of a scene in a few directions: how far it reaches in each, from an origin [m].
+/// Support function of a scene in a few directions: its extent in each, from an origin [m].
 class Supports {
 public:
     using Directions = std::array<Vec3, 4>;
 
-    /// Directions of any length.
+    /// `directions` may have any length.
     Supports(Vec3 origin, const Directions& directions, bool whole_turn)
         : origin_(origin), directions_(directions)
     {
         reach_.fill(-std::numeric_limits<float>::infinity());
         for (std::size_t i = 0; i < directions.size(); ++i) {
             const Vec3 d = directions[i];
-            // On a whole turn about the vertical axis, a point comes to where it reaches farthest.
+            // During a whole turn about the vertical axis, a point passes the position where its
+            // extent is largest.
             level_[i] = whole_turn ? std::sqrt(d.x * d.x + d.z * d.z) : -1.0f;
         }
     }
@@ -51,11 +52,11 @@ public:
 private:
     Vec3 origin_;
     Directions directions_;
-    std::array<float, 4> level_{};  // length of the level part of each; below 0: no turn
+    std::array<float, 4> level_{};  // length of the horizontal part of each; below 0: no turn
     std::array<float, 4> reach_{};
 };
 
-/// Adds the corners of the triangles of `placed`, at all steps of its motion.
+/// Adds the vertices of the triangles of `placed`, at all steps of its motion.
 void add_triangles(const PlacedMesh& placed, Supports& supports)
 {
     for (const UVec3& triangle : placed.mesh().triangles) {
@@ -67,7 +68,7 @@ void add_triangles(const PlacedMesh& placed, Supports& supports)
     }
 }
 
-/// The same for the corners of the box around the mesh, which takes no time.
+/// Adds the corners of the mesh's bounding box instead, in constant time.
 void add_box(const PlacedMesh& placed, const MeshBox& box, Supports& supports)
 {
     for (std::size_t step = 0; step <= placed.steps(); ++step) {
@@ -82,7 +83,7 @@ void add_box(const PlacedMesh& placed, const MeshBox& box, Supports& supports)
 
 void add_all(const SceneGeometry& geometry, Supports& supports)
 {
-    // Beyond this many triangles, meshes that keep their shape are fitted by their boxes.
+    // Beyond this many triangles, rigid meshes are fitted by their boxes.
     constexpr std::size_t max_triangles = 4'000'000;
     const bool by_box = geometry.counts.instanced_triangles > max_triangles;
     for (std::size_t i = 0; i < geometry.placed.size(); ++i) {
@@ -109,10 +110,10 @@ void add_all(const SceneGeometry& geometry, Supports& supports)
     }
 }
 
-/// What the sides of a frustum touch, or of a box when both slopes are 0.
+/// Sides of the frustum, or of a box if both slopes are 0, that touch the scene.
 struct Sides {
-    Vec2 center;  ///< of an eye as far from the right as from the left side; along right and up [m]
-    Vec2 width;   ///< from one side to the opposite one, in the plane of that eye and `middle` [m]
+    Vec2 center;  ///< position along right and up of an eye equally far from opposite sides [m]
+    Vec2 width;   ///< distance of opposite sides in the plane of that eye and `middle` [m]
 };
 
 /// A frame of reference in which scenes are fitted.
@@ -127,8 +128,8 @@ public:
 
     [[nodiscard]] Vec3 middle() const { return middle_; }
 
-    /// A point p is left of the right side of the frustum of an eye c where
-    /// dot(p, right + slope back) <= dot(c, right + slope back), and so on.
+    /// Computes the sides that touch the scene. A point p is left of the right side of the frustum
+    /// of an eye c if dot(p, right + slope back) <= dot(c, right + slope back), and so on.
     [[nodiscard]] Sides sides(Vec2 slope) const
     {
         const Vec3 aslant_x = slope.x * axes_[2];
@@ -139,18 +140,19 @@ public:
             whole_turn_);
         add_all(geometry_, supports);
         if (!std::isfinite(supports[0])) {
-            supports.add(middle_);  // an empty scene
+            supports.add(middle_);  // for an empty scene
         }
         return {.center = 0.5f * Vec2(supports[0] - supports[1], supports[2] - supports[3]),
                 .width = Vec2(supports[0] + supports[1], supports[2] + supports[3])};
     }
 
-    /// Where an eye at that depth sees the scene in the middle of the image along `axis`: the
-    /// centre of the sides of the smallest slope that shows all of it. `shown` has room for all.
+    /// Returns the position along `axis` from which an eye at that depth sees the scene centred in
+    /// the image: the centre of the sides of the smallest slope that shows all of it. `shown` has
+    /// room for all.
     [[nodiscard]] float centered(int axis, float depth, Vec2 slope, Sides shown) const
     {
-        // The free room, 2 slope depth - width, is concave in the slope, so chords from slope 0
-        // lead to slopes that show all.
+        // The margin, 2 slope depth - width, is concave in the slope, so chords from slope 0 lead
+        // to slopes that show all.
         constexpr int steps = 4;
         float most = slope[axis];
         const float parallel = sides(Vec2(0.0f)).width[axis];

@@ -6,21 +6,21 @@
 
 namespace bdpt {
 
-/// The image that a scene is fitted into.
+/// Image that a scene is fitted into.
 struct FitTarget {
     float aspect = 1.0f;  ///< width over height
-    /// Share of the width and of the height that stays free on each side, in [0, 0.5).
+    /// Fraction of the width and of the height that stays free on each side, in [0, 0.5).
     float margin = 0.0f;
-    /// Perspective or orthographic, with its field of view; the rest is not looked at.
+    /// Perspective or orthographic camera with its field of view; the other members are ignored.
     CameraDesc camera{};
-    /// All views of a camera that goes around the vertical axis through the middle of the bounds.
+    /// Fits all views of a camera that orbits the vertical axis through the centre of the bounds.
     bool whole_turn = false;
 };
 
-/// The camera with these axes (columns: right, up, back; unit) that sees all surfaces of the scene
-/// and is as near as that allows: on two opposite sides of the image, nothing but the margin stays
-/// free. Exact for perspective, too: each side of the frustum is a plane, and the scene touches it
-/// where its support in the direction of the plane's normal is.
+/// Returns the closest camera with these axes (columns: right, up, back; unit) that sees all
+/// surfaces of the scene: on two opposite sides of the image, only the margin stays free. Exact for
+/// perspective, too: each side of the frustum is a plane that touches the scene at its support
+/// point along the plane's normal.
 [[nodiscard]] CameraDesc fitted_camera(const SceneGeometry& geometry, const Mat3& axes,
                                        const FitTarget& target);
 

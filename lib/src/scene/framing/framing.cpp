@@ -24,32 +24,38 @@ namespace {
 constexpr float outside_fov = 0.6981317f;  // 40 degrees: little perspective for objects
 constexpr float inside_fov = 1.0471976f;   // 60 degrees: rooms are small
 constexpr float object_margin = 0.1f;
-constexpr float box_margin = 0.037f;  // of rooms without a wall: their frame is no object
+constexpr float box_margin = 0.037f;  // for rooms without a wall: their frame is no object
 
-// Thresholds that tell rooms from objects, found by trying both kinds.
-constexpr float closed_front = 0.93f;   // share of directions in which a closed room shows a front
-constexpr float closed_shell = 0.3f;    // ... that lies near the bounds: walls, not neighbours
-constexpr float closed_escape = 0.03f;  // share that leaves at most, through windows
-constexpr int closed_places = 3;        // how many places of the survey a closed room has at least
-constexpr float box_front = 0.65f;      // the same for a room without one of its walls
+// Thresholds that distinguish rooms from objects, tuned on scenes of both kinds.
+constexpr float closed_front = 0.93f;   // fraction of directions in which a closed room shows a
+                                        // front
+constexpr float closed_shell = 0.3f;    // fraction whose front lies near the bounds: walls, not
+                                        // neighbours
+constexpr float closed_escape = 0.03f;  // maximum fraction that leaves, through windows
+constexpr int closed_places = 3;        // minimum number of such places of the survey in a closed
+                                        // room
+constexpr float box_front = 0.65f;      // corresponding thresholds for a room that lacks one wall
 constexpr float box_shell = 0.5f;
-constexpr float box_escape = 0.1f;  // mean share that leaves at least: more than windows let out
+constexpr float box_escape = 0.1f;  // minimum mean fraction that leaves: more than through windows
 constexpr int box_places = 30;
-constexpr float box_agreement = 0.5f;  // how much the free directions agree on the missing wall
+constexpr float box_agreement = 0.5f;  // minimum agreement of the free directions on the missing
+                                       // wall
 constexpr float enclosed_escape = 0.02f;
 
-// Thresholds that tell flat and long objects from others, found by looking at models of both kinds.
-constexpr float board_depth = 0.26f;  // of the lesser of the other two extents: labels, reliefs
+// Thresholds that distinguish flat and long objects from others, tuned on models of both kinds.
+constexpr float board_depth = 0.26f;  // relative to the smaller of the other two extents: labels,
+                                      // reliefs
 constexpr float plate_height = 0.1f;  // likewise: floors, terrains
-constexpr float row_length = 4.0f;    // times the greater of the other two extents
+constexpr float row_length = 4.0f;    // relative to the larger of the other two extents
 
 constexpr ViewDirection board_view{.azimuth = 0.2617994f,
                                    .elevation = 0.1396263f};  // 15, 8 degrees
 constexpr float quarter_turn = 1.5707964f;
 constexpr float plate_elevation = 0.7853982f;  // 45 degrees
 
-/// Where to look at an object from, by the extents of its bounds: a board nearly from its front, as
-/// what is on it is not seen aslant; a plate from higher above; a row from its long side.
+/// Returns the viewing direction for an object, given the extents of its bounds: a board is viewed
+/// nearly from its front, as its content cannot be seen at a slant; a plate from higher above; a
+/// row from its long side.
 ViewDirection direction_for(Vec3 extent)
 {
     const float aside = quarter_turn - board_view.azimuth;
@@ -84,7 +90,7 @@ CameraDesc look_at(Vec3 from, Vec3 to, float vertical_fov)
     return camera;
 }
 
-/// Axes (right, up, back) of a camera that stands in that direction, upright.
+/// Returns the axes (right, up, back) of an upright camera in that direction.
 Mat3 axes_towards(const ViewDirection& direction)
 {
     const SinCos azimuth = sin_cos(direction.azimuth);
@@ -94,7 +100,7 @@ Mat3 axes_towards(const ViewDirection& direction)
     return Mat3(right, cross(back, right), back);
 }
 
-/// Frames the scene from outside along the negative last of `axes`.
+/// Frames the scene from outside along the negative last column of `axes`.
 CameraDesc frame_from_outside(const World& world, const Mat3& axes, float aspect, float margin,
                               const FrameOptions& options)
 {
@@ -109,7 +115,7 @@ CameraDesc frame_from_outside(const World& world, const Mat3& axes, float aspect
                           .whole_turn = options.whole_turn});
 }
 
-/// Points of a grid in the bounds, with what is seen from each.
+/// Probes the visibility from points of a grid in the bounds.
 std::vector<VisibilityProbe> survey(const World& world)
 {
     constexpr int steps = 5;
@@ -134,7 +140,7 @@ std::vector<VisibilityProbe> places_with(const std::vector<VisibilityProbe>& pla
     return result;
 }
 
-/// The level direction in which a room lacks a wall, straight if it is nearly straight.
+/// Returns the horizontal direction in which a room lacks a wall, aligned to an axis if nearly so.
 std::optional<Vec3> missing_wall(const std::vector<VisibilityProbe>& room)
 {
     Vec3 opening(0.0f);
@@ -155,7 +161,8 @@ std::optional<Vec3> missing_wall(const std::vector<VisibilityProbe>& room)
     return std::max(std::abs(level.x), std::abs(level.z)) > 0.9f ? glm::round(level) : level;
 }
 
-/// The view among the places of a room that sees farthest without anything right before the lens.
+/// Returns the view from a place of a room that sees farthest with nothing right in front of the
+/// lens.
 CameraDesc frame_from_inside(const World& world, const std::vector<VisibilityProbe>& room,
                              float aspect, float fov)
 {
@@ -183,7 +190,7 @@ CameraDesc frame_from_inside(const World& world, const std::vector<VisibilityPro
     return best;
 }
 
-/// The highest place of a room, near its middle, that does not touch anything.
+/// Returns the highest free point of a room, near its centre.
 Vec3 lamp_in(const World& world, const std::vector<VisibilityProbe>& room)
 {
     const Bounds& bounds = world.bounds();
@@ -204,7 +211,7 @@ Vec3 lamp_in(const World& world, const std::vector<VisibilityProbe>& room)
     return best;
 }
 
-/// Counter-clockwise as seen from above.
+/// Returns a counter-clockwise rotation as seen from above.
 glm::dmat3 turn_about_y(float angle)
 {
     const SinCos exact = sin_cos(angle);

@@ -16,7 +16,7 @@ namespace {
 
 bool near_bounds(const Bounds& bounds, Vec3 p)
 {
-    constexpr float shell = 0.12f;  // of the scene's extent in that axis
+    constexpr float shell = 0.12f;  // fraction of the scene's extent along that axis
     const Vec3 extent = bounds.max - bounds.min;
     for (int axis = 0; axis < 3; ++axis) {
         if (p[axis] - bounds.min[axis] < shell * extent[axis] ||

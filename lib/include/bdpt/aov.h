@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Names the layers that a render measures beside radiance: depth, normals, ids.
+///
+/// @code{.cpp}
+/// void render_layers(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     const bdpt::AovSet aovs = {bdpt::Aov::alpha, bdpt::Aov::depth, bdpt::Aov::normal};
+///     const bdpt::RenderResult result = bdpt::render(scene, camera, {.film = {.aovs = aovs}});
+///     const std::vector<bdpt::Layer> layers = result.aovs.develop(result.film);
+///     bdpt::io::write_exr("layers.exr", result.film.develop(), layers, {});
+/// }
+/// @endcode
+
 #include <cstdint>
 #include <initializer_list>
 

@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Lights a scene that comes without light.
+///
+/// @code{.cpp}
+/// bdpt::io::LoadedScene file = bdpt::io::load_gltf("model.glb");
+/// if (bdpt::add_default_lights(file.scene) != bdpt::DefaultLights::none) {
+///     std::cerr << "model.glb has no light, so the default lights shine\n";
+/// }
+/// const bdpt::Scene scene(std::move(file.scene));
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/framing.h>
 #include <bdpt/scene.h>

@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Tells why a call failed.
+///
+/// @code{.cpp}
+/// try {
+///     const bdpt::Scene scene(bdpt::io::load_gltf("model.glb").scene);
+/// } catch (const bdpt::Error& error) {
+///     std::cerr << error.what() << '\n';
+///     std::exit(static_cast<int>(error.code()));
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <stdexcept>

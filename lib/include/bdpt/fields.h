@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Lists the fields of descriptions, so that code can loop over them.
+///
+/// @code{.cpp}
+/// const bdpt::MaterialDesc material{};
+/// bdpt::for_each_field(material, [](const auto& field, const auto& value) {
+///     if constexpr (std::is_same_v<decltype(value), const float&>) {
+///         std::cout << field.name << ": " << value << '\n';
+///     }
+/// });
+/// @endcode
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -125,6 +137,7 @@ concept HasMoreThan = requires(T... values)
 
 namespace detail {
 
+/// Tests whether two pointers point to the same member. Those of different types do not.
 template <typename A, typename B>
 constexpr bool is_same_member(const A& a, const B& b)
 {

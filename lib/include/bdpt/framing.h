@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Finds a camera for a scene that has none, and moves cameras around scenes.
+///
+/// @code{.cpp}
+/// void render_back(const bdpt::Scene& scene)
+/// {
+///     const auto front = bdpt::frame_scene(scene, 16.0f / 9.0f, {.whole_turn = true}).camera;
+///     const bdpt::Vec3 center = 0.5f * (scene.bounds().min + scene.bounds().max);
+///     const bdpt::CameraDesc back = bdpt::orbited(front, center, std::numbers::pi_v<float>);
+///     const bdpt::RenderResult result = bdpt::render(scene, back, {});
+///     bdpt::io::write_exr("back.exr", result.film.develop(), {});
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/scene.h>
 

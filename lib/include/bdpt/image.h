@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Holds the pixels of images, layers and textures.
+///
+/// @code{.cpp}
+/// void print_centre(const bdpt::Image& image)
+/// {
+///     const bdpt::Rgb radiance = image.at(image.width / 2, image.height / 2);
+///     std::cout << radiance.r << ' ' << radiance.g << ' ' << radiance.b << " nit\n";
+/// }
+/// @endcode
+
 #include <bdpt/types.h>
 
 #include <cstddef>

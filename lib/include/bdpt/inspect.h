@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Shows the paths and the strategies of one sample of a pixel.
+///
+/// @code{.cpp}
+/// void explain_pixel(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     const auto sample = bdpt::inspect_sample(scene, camera, {}, {.x = 640, .y = 360});
+///     for (const bdpt::InspectedContribution& found : sample.contributions) {
+///         std::cout << bdpt::strategy_name(found.strategy) << ": " << found.weight << '\n';
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 #include <bdpt/render_options.h>

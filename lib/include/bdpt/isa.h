@@ -1,5 +1,14 @@
 #pragma once
 
+/// @file
+/// Names the instruction sets that rays are traced with.
+///
+/// @code{.cpp}
+/// bdpt::io::LoadedScene file = bdpt::io::load_gltf("model.glb");
+/// const bdpt::Scene scene(std::move(file.scene), bdpt::Isa::avx2);  // the same bits on all CPUs
+/// std::cout << "traced with " << bdpt::isa_name(scene.isa()) << '\n';
+/// @endcode
+
 #include <array>
 #include <cstdint>
 

@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Describes the lights of a scene.
+///
+/// @code{.cpp}
+/// bdpt::PointLightDesc lamp;
+/// lamp.position = {0.0f, 2.0f, 0.0f};
+/// lamp.intensity = bdpt::Rgb(60.0f);  // [cd]
+/// lamp.radius = 0.05f;                // soft shadows
+/// bdpt::SceneBuilder builder;
+/// builder.add(lamp);
+/// builder.add(bdpt::DirectionalLightDesc{.name = "sun", .direction = {1, -2, 1}});
+/// @endcode
+
 #include <bdpt/fields.h>
 #include <bdpt/image.h>
 #include <bdpt/scene_ids.h>

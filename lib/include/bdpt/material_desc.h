@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Describes the materials of a scene.
+///
+/// @code{.cpp}
+/// bdpt::MaterialDesc glass;
+/// glass.name = "glass";
+/// glass.metallic = 0.0f;
+/// glass.roughness = 0.0f;
+/// glass.transmission = 1.0f;
+/// glass.thickness = 0.01f;  // the mesh bounds a solid body
+/// bdpt::SceneBuilder builder;
+/// builder.place(builder.add(bdpt::sphere_mesh(0.5f)), builder.add(glass));
+/// @endcode
+
 #include <bdpt/fields.h>
 #include <bdpt/medium_desc.h>
 #include <bdpt/scene_ids.h>

@@ -1,5 +1,14 @@
 #pragma once
 
+/// @file
+/// Describes fog.
+///
+/// @code{.cpp}
+/// bdpt::SceneDesc desc = bdpt::io::load_gltf("street.glb").scene;
+/// desc.fog = bdpt::MediumDesc{.extinction = bdpt::Rgb(0.02f)};  // a mean free path of 50 m
+/// const bdpt::Scene scene(std::move(desc));
+/// @endcode
+
 #include <bdpt/fields.h>
 #include <bdpt/types.h>
 

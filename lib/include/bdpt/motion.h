@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Checks what moves while the shutter is open.
+///
+/// @code{.cpp}
+/// bdpt::InstanceDesc car;
+/// bdpt::Mat4 later = car.world_from_object;
+/// later[3].x += 0.2f;
+/// if (bdpt::can_move(car.world_from_object, later)) {
+///     car.motion = {later};  // where it is when the shutter closes
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/types.h>
 

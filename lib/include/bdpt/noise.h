@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Measures the noise of a film, and estimates how many samples a lower noise takes.
+///
+/// @code{.cpp}
+/// void print_noise(const bdpt::Film& film)
+/// {
+///     const double noise = bdpt::noise_of(film);
+///     const std::int64_t samples = bdpt::samples_for_noise(noise, film.sample_count(), 0.01);
+///     std::cout << 100.0 * noise << " %, and 1 % after " << samples << " samples a pixel\n";
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/film/film.h>
 

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Describes each path that brings light to an image.
+///
+/// @code{.cpp}
+/// void count_splats(bdpt::RenderControl& control, std::atomic<std::int64_t>& splats)
+/// {
+///     control.on_path = [&splats](const bdpt::PathContribution& path) {  // on many threads
+///         if (path.strategy.t <= 1) {
+///             ++splats;  // a light path that the lens sees
+///         }
+///     };
+/// }
+/// @endcode
+
 #include <bdpt/render_options.h>
 #include <bdpt/types.h>
 

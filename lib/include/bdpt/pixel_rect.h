@@ -1,5 +1,13 @@
 #pragma once
 
+/// @file
+/// Marks a rectangle of pixels in an image.
+///
+/// @code{.cpp}
+/// const bdpt::PixelRect face = {.x0 = 480, .y0 = 200, .x1 = 800, .y1 = 520};
+/// const bdpt::RenderOptions options = {.film = {.width = 1280, .height = 720, .crop = face}};
+/// @endcode
+
 namespace bdpt {
 
 /// Half-open rectangle of pixels: columns [x0, x1), rows [y0, y1). Pixel (0, 0) is at the top left.

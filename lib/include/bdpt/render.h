@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Renders a scene into a film.
+///
+/// @code{.cpp}
+/// void render_to_file(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     bdpt::RenderControl control;
+///     control.noise_goal = 0.02;
+///     const bdpt::RenderOptions options = {.sampling = {.samples = {0, 4096}}};
+///     const bdpt::RenderResult result = bdpt::render(scene, camera, options, control);
+///     bdpt::io::write_exr("out.exr", result.film.develop(), {});
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/film/aov_film.h>
 #include <bdpt/film/film.h>

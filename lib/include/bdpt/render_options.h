@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Chooses the integrator, the size, the samples and all other options of a render.
+///
+/// @code{.cpp}
+/// const bdpt::RenderOptions options = {
+///     .integrator = bdpt::IntegratorKind::bdpt,
+///     .film = {.width = 1920, .height = 1080},
+///     .sampling = {.samples = {0, 256}, .seed = 7},
+///     .transport = {.max_depth = 16},
+/// };
+/// @endcode
+
 #include <bdpt/aov.h>
 #include <bdpt/export.h>
 #include <bdpt/options/filter_options.h>

@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Counts the rays and the paths of a render.
+///
+/// @code{.cpp}
+/// void print_rays(const bdpt::RenderResult& result)
+/// {
+///     const auto rays = static_cast<double>(result.stats.rays.total());
+///     std::cout << rays / result.seconds << " rays a second\n";
+/// }
+/// @endcode
+
 #include <cstdint>
 
 namespace bdpt {

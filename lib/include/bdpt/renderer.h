@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Renders more samples on demand, with an image in between.
+///
+/// @code{.cpp}
+/// void refine(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     bdpt::Renderer renderer(scene, camera, {.film = {.width = 512, .height = 512}});
+///     while (renderer.noise() > 0.02) {
+///         renderer.render(16);
+///         bdpt::io::write_exr("growing.exr", renderer.image(), {});
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 #include <bdpt/part/render_part.h>

@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Holds a scene that is ready to trace, and makes edited ones of it.
+///
+/// @code{.cpp}
+/// const bdpt::Scene scene(bdpt::io::load_gltf("room.glb").scene);
+/// for (const std::string& warning : scene.warnings()) {
+///     std::cerr << warning << '\n';
+/// }
+/// bdpt::MaterialDesc wall = scene.description().materials[0];
+/// wall.base_color = {0.2f, 0.3f, 0.8f, 1.0f};
+/// const bdpt::Scene blue = scene.with(bdpt::MaterialId{0}, wall);
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/isa.h>
 #include <bdpt/part/identity.h>

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Describes a scene as plain data.
+///
+/// @code{.cpp}
+/// bdpt::MeshDesc mesh;
+/// mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+/// mesh.triangles = {{0, 1, 2}};
+/// bdpt::SceneDesc desc;
+/// desc.meshes = {mesh};
+/// desc.materials.resize(1);
+/// desc.instances.push_back({.mesh = bdpt::MeshId{0}, .material = bdpt::MaterialId{0}});
+/// const bdpt::Scene scene(std::move(desc));
+/// @endcode
+
 #include <bdpt/fields.h>
 #include <bdpt/image.h>
 #include <bdpt/light_desc.h>

@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Gives the indices of meshes, materials, images and light profiles types of their own.
+///
+/// @code{.cpp}
+/// std::string name_of_material(const bdpt::SceneDesc& desc, bdpt::MaterialId id)
+/// {
+///     return desc.materials.at(static_cast<std::size_t>(id)).name;
+/// }
+/// @endcode
+
 #include <cstdint>
 
 namespace bdpt {

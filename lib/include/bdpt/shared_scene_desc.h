@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Shares the lists of a description with its copies, so that edits are quick.
+///
+/// @code{.cpp}
+/// void move_last_instance(bdpt::Scene& scene)
+/// {
+///     bdpt::SharedSceneDesc desc = scene.description();            // shares all lists
+///     std::vector<bdpt::InstanceDesc> instances = desc.instances;  // copies one
+///     instances.back().world_from_object[3].x += 0.1f;
+///     desc.instances = std::move(instances);
+///     scene = scene.edited(desc);
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/scene_desc.h>
 

@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Computes linear values from sRGB codes.
+///
+/// @code{.cpp}
+/// const float red = bdpt::srgb_to_linear(0xf0 / 255.0);
+/// const float green = bdpt::srgb_to_linear(0xa0 / 255.0);
+/// const float blue = bdpt::srgb_to_linear(0x20 / 255.0);
+/// bdpt::MaterialDesc paint;
+/// paint.base_color = {red, green, blue, 1.0f};  // #f0a020
+/// @endcode
+
 namespace bdpt {
 
 /// Returns x^2.4 for x in (0, 1], by Newton's method for the fifth root of x^2. Bit-identical on

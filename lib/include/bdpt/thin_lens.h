@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Computes lens radii from f-numbers, and fields of view from focal lengths.
+///
+/// @code{.cpp}
+/// const double fov = bdpt::vertical_fov_of(0.085);  // a lens of 85 mm
+/// bdpt::CameraDesc camera = bdpt::look_at({0, 1, 3}, {0, 1, 0}, static_cast<float>(fov));
+/// camera.lens_radius = static_cast<float>(bdpt::lens_radius_of(1.8, fov));
+/// camera.focus_distance = 3.0f;
+/// @endcode
+
 #include <bdpt/export.h>
 
 namespace bdpt {

@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Finds out how many threads the system allows.
+///
+/// @code{.cpp}
+/// const bdpt::ThreadLimit limit = bdpt::limit_threads(64);
+/// if (limit.allowed < limit.wanted) {
+///     std::cerr << "the system allows " << limit.allowed << " threads\n";
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 
 namespace bdpt {

@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Tells where the time of a render's samples goes.
+///
+/// @code{.cpp}
+/// void print_profile(const bdpt::TimeProfile& profile)  // of a render with Profiling::on
+/// {
+///     for (const bdpt::Phase phase : bdpt::all_phases) {
+///         std::cout << bdpt::to_string(phase) << ": " << profile.seconds(phase) << " s\n";
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/pixel_rect.h>
 
 #include <array>

@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Names the vectors, matrices and colours of the library.
+///
+/// @code{.cpp}
+/// const bdpt::Rgb warm_white(1.0f, 0.8f, 0.6f);
+/// const bdpt::Vec3 position(0.0f, 2.0f, 0.0f);
+/// bdpt::Mat4 world_from_object(1.0f);
+/// world_from_object[3] = bdpt::Vec4(position, 1.0f);  // moves an object there
+/// @endcode
+
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>

@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Describes smoke and clouds.
+///
+/// @code{.cpp}
+/// bdpt::VolumeDesc smoke;
+/// smoke.size = {64, 64, 64};  // voxels of 1 m
+/// smoke.density.assign(std::size_t{64} * 64 * 64, 1.0f);
+/// smoke.extinction = bdpt::Rgb(0.05f);
+/// bdpt::SceneDesc desc;
+/// desc.volumes.push_back(smoke);
+/// @endcode
+
 #include <bdpt/fields.h>
 #include <bdpt/medium_desc.h>
 #include <bdpt/types.h>

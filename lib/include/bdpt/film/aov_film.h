@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Sums up what camera rays meet, for the layers of AOVs.
+///
+/// @code{.cpp}
+/// void print_depth(const bdpt::RenderResult& result)  // rendered with Aov::depth
+/// {
+///     for (const bdpt::Layer& layer : result.aovs.develop(result.film)) {
+///         if (layer.name == "depth") {
+///             std::cout << layer.values[0] << " m at the top left\n";
+///         }
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/aov.h>
 #include <bdpt/export.h>
 #include <bdpt/film/exact_sum.h>

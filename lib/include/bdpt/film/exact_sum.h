@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Adds floats in any order, from any thread, to the same bits.
+///
+/// @code{.cpp}
+/// bdpt::ExactSum sum;
+/// for (const float value : {1e9f, 1e-9f, -1e9f}) {
+///     sum.add(value);
+/// }
+/// std::cout << sum.value() << '\n';  // 1e-09, where floats would add up to 0
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <atomic>

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Holds the sums of a render, from which its image is developed.
+///
+/// @code{.cpp}
+/// bdpt::Image image_of_both(bdpt::Film film, const bdpt::Film& other_samples)
+/// {
+///     film.merge(other_samples);  // exact, in any order
+///     if (film.defects().invalid > 0) {
+///         std::cerr << "contributions were NaN, infinite or negative\n";
+///     }
+///     return film.develop();
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/film/exact_sum.h>
 #include <bdpt/image.h>

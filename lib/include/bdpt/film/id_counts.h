@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Counts the ids that the camera rays of a pixel meet.
+///
+/// @code{.cpp}
+/// bdpt::IdCounts counts;
+/// counts.add(bdpt::name_id("chair"), 48);
+/// counts.add(bdpt::name_id("floor"), 16);
+/// for (std::size_t i = 0; i < counts.size(); ++i) {
+///     std::cout << bdpt::hex_text(counts[i].id) << ": " << counts[i].count << " rays\n";
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/film/name_id.h>
 

@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Counts the objects and materials that camera rays meet, for Cryptomatte.
+///
+/// @code{.cpp}
+/// void write_cryptomatte(const bdpt::RenderResult& result)  // rendered with Aov::object
+/// {
+///     const std::vector<bdpt::Layer> layers = result.ids.develop(result.film);
+///     bdpt::io::ExrOptions options;
+///     options.manifests = result.ids.manifests();
+///     bdpt::io::write_exr("ids.exr", result.film.develop(), layers, options);
+/// }
+/// @endcode
+
 #include <bdpt/aov.h>
 #include <bdpt/export.h>
 #include <bdpt/film/exact_sum.h>

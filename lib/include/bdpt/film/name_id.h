@@ -1,5 +1,13 @@
 #pragma once
 
+/// @file
+/// Computes the ids of Cryptomatte from names.
+///
+/// @code{.cpp}
+/// const bdpt::NameId id = bdpt::name_id("chair");
+/// std::cout << "chair: " << bdpt::hex_text(id) << '\n';
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <cstdint>

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Holds the images of strategies: what each finds by itself, and its part of the image.
+///
+/// @code{.cpp}
+/// void write_strategies(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     const bdpt::RenderOptions options = {.integrator = bdpt::IntegratorKind::bdpt,
+///                                          .bidirectional = {.strategy_depth = 5}};
+///     const bdpt::RenderResult result = bdpt::render(scene, camera, options);
+///     const std::vector<bdpt::Layer> layers = result.strategies.develop();
+///     bdpt::io::write_exr("strategies.exr", result.film.develop(), layers, {});
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/film/exact_sum.h>
 #include <bdpt/image.h>

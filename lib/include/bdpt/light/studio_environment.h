@@ -1,5 +1,13 @@
 #pragma once
 
+/// @file
+/// Makes the light of a photographer's studio.
+///
+/// @code{.cpp}
+/// const bdpt::Scene scene(bdpt::io::load_gltf("shoe.glb").scene);
+/// const bdpt::Scene lit = scene.with_environment(bdpt::studio_environment());
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/light_desc.h>
 

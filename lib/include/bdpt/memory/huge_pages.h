@@ -1,5 +1,13 @@
 #pragma once
 
+/// @file
+/// Puts large vectors into large pages of memory.
+///
+/// @code{.cpp}
+/// std::vector<bdpt::Rgb> pixels;
+/// bdpt::resize_in_huge_pages(pixels, std::size_t{16384} * 16384);
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <cstddef>

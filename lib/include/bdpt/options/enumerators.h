@@ -1,5 +1,14 @@
 #pragma once
 
+/// @file
+/// Gives the values of enumerations their names in options and files.
+///
+/// @code{.cpp}
+/// if (const auto kind = bdpt::enumerator_of<bdpt::IntegratorKind>("vcm")) {
+///     std::cout << "--integrator " << bdpt::name_of(*kind) << '\n';
+/// }
+/// @endcode
+
 #include <cstddef>
 #include <optional>
 #include <string_view>

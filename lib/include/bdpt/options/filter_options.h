@@ -1,5 +1,14 @@
 #pragma once
 
+/// @file
+/// Chooses the pixel filter.
+///
+/// @code{.cpp}
+/// bdpt::RenderOptions options;
+/// options.film.filter.kind = bdpt::FilterKind::gaussian;
+/// options.film.filter.radius = 2.0f * bdpt::default_radius(bdpt::FilterKind::gaussian);
+/// @endcode
+
 #include <cstdint>
 #include <optional>
 

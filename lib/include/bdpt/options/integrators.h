@@ -1,5 +1,14 @@
 #pragma once
 
+/// @file
+/// Lists the integrators and what they can do.
+///
+/// @code{.cpp}
+/// for (const bdpt::IntegratorInfo& integrator : bdpt::integrators()) {
+///     std::cout << integrator.name << ": " << integrator.summary << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/render_options.h>
 

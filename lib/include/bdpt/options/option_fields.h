@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Lists all render options with their names, ranges and help texts.
+///
+/// @code{.cpp}
+/// const bdpt::RenderOptions options;
+/// bdpt::for_each_option(options, [](const auto& option, const auto& /*value*/) {
+///     std::cout << option.name << ": " << option.info.help << '\n';
+/// });
+/// @endcode
+
 #include <bdpt/aov.h>
 #include <bdpt/fields.h>
 #include <bdpt/options/enumerators.h>

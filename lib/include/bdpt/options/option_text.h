@@ -1,5 +1,13 @@
 #pragma once
 
+/// @file
+/// Writes the values of options as the command takes them.
+///
+/// @code{.cpp}
+/// const bdpt::FilterOptions filter = {.kind = bdpt::FilterKind::gaussian, .radius = 2.0f};
+/// std::cout << "--filter " << bdpt::option_text(filter) << '\n';  // --filter gaussian:2
+/// @endcode
+
 #include <bdpt/options/option_fields.h>
 
 #include <array>

@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Hashes bytes, to tell contents apart.
+///
+/// @code{.cpp}
+/// const std::string text = "the contents of a file";
+/// bdpt::ContentHasher hasher;
+/// hasher.add(text.data(), text.size());
+/// std::cout << bdpt::to_string(hasher.hash()) << '\n';
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <cstddef>

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Tells whether samples belong to the same render.
+///
+/// @code{.cpp}
+/// void print_difference(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     const bdpt::Identity here = bdpt::identity(scene, camera, {});
+///     const bdpt::Identity there = bdpt::identity(scene, camera, {.sampling = {.seed = 1}});
+///     if (const auto difference = bdpt::difference(here, there)) {
+///         std::cout << "another render: " << *difference << '\n';
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/render_options.h>
 

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Adds up samples of one render that were rendered separately.
+///
+/// @code{.cpp}
+/// void render_in_two(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     bdpt::RenderOptions options{.sampling = {.samples = {0, 32}}};
+///     bdpt::RenderPart sum = bdpt::render_part(scene, camera, options, {}).part;
+///     options.sampling.samples = {32, 64};
+///     bdpt::merge(sum, bdpt::render_part(scene, camera, options, {}).part);
+///     std::cout << sum.samples.text() << '\n';  // 0:64
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/film/aov_film.h>
 #include <bdpt/film/film.h>

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Gives noisy pixels more samples than others.
+///
+/// @code{.cpp}
+/// void render_adaptively(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     bdpt::RenderOptions options;
+///     const bdpt::SampleRates rates = bdpt::sample_rates(scene, camera, options);
+///     options.sampling.rates = std::make_shared<const bdpt::SampleRates>(rates);
+///     const bdpt::RenderResult result = bdpt::render(scene, camera, options);
+///     bdpt::io::write_exr("adaptive.exr", result.film.develop(), {});
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <cstddef>

@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Keeps track of which samples of a render have been taken.
+///
+/// @code{.cpp}
+/// bdpt::SampleSet samples(bdpt::SampleRange{0, 64});
+/// samples.add(bdpt::SampleRange{128, 192});
+/// const bdpt::SampleSet wanted(bdpt::SampleRange{0, 192});
+/// std::cout << samples.text() << '\n';                  // 0:64,128:192
+/// std::cout << samples.missing(wanted).text() << '\n';  // 64:128
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/render_options.h>
 

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Finds the first surface on a ray, and tells whether points see each other.
+///
+/// @code{.cpp}
+/// void print_object(const bdpt::Scene& scene, bdpt::Vec3 eye, bdpt::Vec3 direction)
+/// {
+///     const auto hit = bdpt::first_hit(scene, eye, direction);
+///     if (hit && hit->instance) {
+///         const std::string& name = scene.description().instances[*hit->instance].name;
+///         std::cout << name << ", " << hit->distance << " m away\n";
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/scene_ids.h>
 #include <bdpt/types.h>

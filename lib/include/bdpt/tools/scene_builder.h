@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Builds scenes in code.
+///
+/// @code{.cpp}
+/// bdpt::SceneBuilder builder;
+/// const bdpt::MaterialId white = builder.add(bdpt::MaterialDesc{});
+/// builder.place(builder.add(bdpt::sphere_mesh(0.5f)), white).name = "ball";
+/// builder.place(builder.add(bdpt::box_mesh({-2, -1, -2}, {2, -0.5f, 2})), white).name = "floor";
+/// builder.add(bdpt::default_environment());
+/// const bdpt::Scene scene(builder.take());
+/// const bdpt::CameraDesc camera = bdpt::look_at({2, 1, 3}, {0, 0, 0});
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/scene_desc.h>
 

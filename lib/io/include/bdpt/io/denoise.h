@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Takes the noise out of an image.
+///
+/// @code{.cpp}
+/// void write_denoised(const bdpt::RenderResult& result)
+/// {
+///     const bdpt::Image noisy = result.film.develop();
+///     const bdpt::io::Denoiser denoiser;  // opens Open Image Denoise
+///     bdpt::io::write_exr("clean.exr", denoiser.denoise({.image = noisy}), {});
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 

@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Prepares an image for a screen, over a background or with alpha.
+///
+/// @code{.cpp}
+/// void write_over_white(const bdpt::Image& image, std::span<const float> alpha)
+/// {
+///     bdpt::io::DisplayOptions options;
+///     options.curve = bdpt::io::ToneCurve::agx;
+///     options.background = bdpt::io::SrgbColor{255, 255, 255};
+///     bdpt::io::write_png("white.png", bdpt::io::to_display(image, alpha, options), {});
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 #include <bdpt/io/tone_curve.h>

@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Reads environment lights from images.
+///
+/// @code{.cpp}
+/// const bdpt::io::LoadedEnvironment sky = bdpt::io::load_environment("sky.exr");
+/// for (const std::string& warning : sky.warnings) {
+///     std::cerr << "sky.exr: " << warning << '\n';
+/// }
+/// const bdpt::Scene scene(bdpt::io::load_gltf("car.glb").scene);
+/// const bdpt::Scene lit = scene.with_environment(sky.light);
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>

@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Writes OpenEXR images.
+///
+/// @code{.cpp}
+/// void write_half_floats(const bdpt::Image& image)
+/// {
+///     bdpt::io::ExrOptions options;
+///     options.type = bdpt::io::ExrChannelType::half_float;
+///     const bdpt::io::ExrReport report = bdpt::io::write_exr("out.exr", image, options);
+///     std::cout << report.clamped_pixels << " pixels are too bright for half floats\n";
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/film/id_film.h>
 #include <bdpt/image.h>

@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Hashes the files of a scene, to tell whether one has changed.
+///
+/// @code{.cpp}
+/// for (const bdpt::io::FileContent& file : bdpt::io::gltf_file_contents("room.gltf")) {
+///     const std::string hash = file.hash ? bdpt::to_string(*file.hash) : "not readable";
+///     std::cout << file.name << ": " << hash << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/io/read_limits.h>
 #include <bdpt/part/content_hash.h>

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Reads glTF files.
+///
+/// @code{.cpp}
+/// bdpt::io::GltfOptions options;
+/// options.time = 1.5;                                               // [s] of its animation
+/// options.shutter = bdpt::io::Shutter{.open = 0.0, .close = 0.02};  // blurs what moves
+/// bdpt::io::LoadedScene file = bdpt::io::load_gltf("walk.glb", options);
+/// for (const std::string& warning : file.warnings) {
+///     std::cerr << "walk.glb: " << warning << '\n';
+/// }
+/// const bdpt::Scene scene(std::move(file.scene));
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/io/image_cache.h>
 #include <bdpt/io/memory_budget.h>

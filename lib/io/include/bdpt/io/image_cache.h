@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Keeps decoded images for the next time that a file is loaded.
+///
+/// @code{.cpp}
+/// bdpt::io::GltfOptions options;
+/// options.images = std::make_shared<bdpt::io::ImageCache>(std::uint64_t{1} << 30);
+/// for (int frame = 0; frame < 48; ++frame) {
+///     options.time = frame / 24.0;
+///     const bdpt::Scene scene(bdpt::io::load_gltf("walk.glb", options).scene);
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 #include <bdpt/part/content_hash.h>

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Records how an image came about, for the header of its file.
+///
+/// @code{.cpp}
+/// void write_with_metadata(const bdpt::RenderResult& result)
+/// {
+///     bdpt::io::ImageMetadata metadata;
+///     metadata.version = BDPT_VERSION;
+///     metadata.scene = "room.glb";
+///     metadata.samples_per_pixel = result.film.sample_count();
+///     bdpt::io::write_exr("out.exr", result.film.develop(), {.metadata = metadata});
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/scene_desc.h>
 

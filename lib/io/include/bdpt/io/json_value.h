@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Reads JSON that anybody may have changed.
+///
+/// @code{.cpp}
+/// const bdpt::io::JsonValue job = bdpt::io::JsonValue::read("job.json");
+/// bdpt::RenderOptions options;
+/// options.film.width = job.at("width").number<int>(1, 65536);  // throws for other values
+/// options.film.height = job.at("height").number<int>(1, 65536);
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <cstddef>

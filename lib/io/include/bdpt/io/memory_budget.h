@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Limits the memory that a scene and its render take together.
+///
+/// @code{.cpp}
+/// const auto memory = std::make_shared<bdpt::io::MemoryBudget>(
+///     bdpt::io::MemoryLimit{.bytes = std::uint64_t{4} << 30, .source = "the job's limit"});
+/// bdpt::io::GltfOptions options;
+/// options.memory = memory;
+/// const bdpt::Scene scene(bdpt::io::load_gltf("city.glb", options).scene);
+/// std::cout << memory->left() << " bytes are left for the film\n";
+/// @endcode
+
 #include <bdpt/error.h>
 #include <bdpt/export.h>
 

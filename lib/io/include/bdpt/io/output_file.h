@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Writes files that appear under their name only when they are whole.
+///
+/// @code{.cpp}
+/// const std::string text = "samples,error\n16,0.02\n";
+/// bdpt::io::OutputFile file("errors.csv");
+/// file.write(text);
+/// file.commit();
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <cstdint>

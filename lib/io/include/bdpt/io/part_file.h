@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Keeps the samples of a render in files, to go on later or to merge those of several machines.
+///
+/// @code{.cpp}
+/// bdpt::RenderPart merged(const std::vector<std::filesystem::path>& files)
+/// {
+///     bdpt::RenderPart sum;
+///     for (const std::filesystem::path& file : files) {
+///         bdpt::io::merge_part(sum, bdpt::io::read_part_info(file));
+///     }
+///     return sum;
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/io/image_metadata.h>
 #include <bdpt/io/memory_budget.h>

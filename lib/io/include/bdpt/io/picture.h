@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Writes JPEG, WebP and Radiance HDR images.
+///
+/// @code{.cpp}
+/// void write_pictures(const bdpt::Image& image)
+/// {
+///     const bdpt::TexelImage shown = bdpt::io::to_display(image, {}, {});
+///     bdpt::io::write_jpeg("out.jpg", shown, {});
+///     bdpt::io::write_webp("out.webp", shown);
+///     bdpt::io::write_hdr("out.hdr", image, {});
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 #include <bdpt/io/image_metadata.h>

@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Writes PNG images.
+///
+/// @code{.cpp}
+/// void write_picture(const bdpt::Image& image)
+/// {
+///     bdpt::io::PngOptions options;
+///     options.exposure = bdpt::io::automatic_exposure(image);
+///     bdpt::io::write_png("out.png", bdpt::io::tone_map(image, options.exposure), options);
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/io/image_metadata.h>
 #include <bdpt/io/tone_map.h>

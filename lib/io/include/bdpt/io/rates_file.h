@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Keeps the rates of an adaptive render in a file, for all machines that take part.
+///
+/// @code{.cpp}
+/// void write_rates_for_farm(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     bdpt::io::write_rates("rates.exr", bdpt::sample_rates(scene, camera, {}), {});
+///     const bdpt::SampleRates rates = bdpt::io::read_rates("rates.exr");  // on each machine
+///     std::cout << rates.mean() << " samples a round\n";
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/io/image_metadata.h>
 #include <bdpt/part/sample_rates.h>

@@ -1,5 +1,14 @@
 #pragma once
 
+/// @file
+/// Reads images and their layers.
+///
+/// @code{.cpp}
+/// const bdpt::io::LoadedImage file = bdpt::io::read_image("out.exr", {.layer = "normal"});
+/// const bdpt::Rgb normal = file.image.at(0, 0);
+/// std::cout << normal.x << ' ' << normal.y << ' ' << normal.z << '\n';
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 #include <bdpt/io/read_limits.h>

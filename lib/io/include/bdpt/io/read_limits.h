@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Limits the memory and the time that files may take.
+///
+/// @code{.cpp}
+/// bdpt::io::GltfOptions options;
+/// options.limits.file_bytes = 100'000'000;
+/// options.limits.triangles = 1'000'000;
+/// const bdpt::Scene scene(bdpt::io::load_gltf("upload.glb", options).scene);
+/// @endcode
+
 #include <cstddef>
 #include <cstdint>
 

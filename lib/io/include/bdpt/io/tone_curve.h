@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Maps scene-linear colours to those of a screen.
+///
+/// @code{.cpp}
+/// for (const bdpt::io::ToneCurve curve : bdpt::io::all_tone_curves) {
+///     const bdpt::Rgb shown = bdpt::io::apply(curve, {4.0f, 2.0f, 1.0f});
+///     std::cout << bdpt::io::tone_curve_name(curve) << ": " << shown.r << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/types.h>
 

@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Turns a render into pixels for a screen.
+///
+/// @code{.cpp}
+/// bdpt::io::DisplayImage shown(const bdpt::Image& image)
+/// {
+///     const float exposure = bdpt::io::automatic_exposure(image);
+///     return bdpt::io::tone_map(image, exposure, bdpt::io::ToneCurve::pbr_neutral);
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 #include <bdpt/io/tone_curve.h>

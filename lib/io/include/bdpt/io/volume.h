@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Reads smoke and clouds from OpenVDB files.
+///
+/// @code{.cpp}
+/// bdpt::SceneDesc desc = bdpt::io::load_gltf("landscape.glb").scene;
+/// const bdpt::io::VolumeOptions options = {.extinction = bdpt::Rgb(0.1f)};
+/// desc.volumes.push_back(bdpt::io::load_volume("cloud.vdb", options));
+/// const bdpt::Scene scene(std::move(desc));
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>

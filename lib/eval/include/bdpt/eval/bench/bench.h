@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Runs the integrators on a scene, to compare their errors.
+///
+/// @code{.cpp}
+/// void bench(const bdpt::eval::BenchScene& scene)
+/// {
+///     const bdpt::eval::BenchOptions options = {.seconds = 10.0, .seeds = 3};
+///     if (const auto result = bdpt::eval::run_scene(scene, options, "out/bench", {})) {
+///         std::cout << result->name << ": " << result->runs.size() << " runs\n";
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/eval/bench/bench_options.h>
 #include <bdpt/eval/bench/bench_run.h>
 #include <bdpt/eval/bench/bench_scene.h>

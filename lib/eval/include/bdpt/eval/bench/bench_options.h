@@ -1,5 +1,13 @@
 #pragma once
 
+/// @file
+/// Chooses the integrators, the times and the seeds of a benchmark.
+///
+/// @code{.cpp}
+/// const bdpt::eval::BenchOptions options = {.seconds = 10.0, .seeds = 3};
+/// std::cout << bdpt::eval::planned_seconds(options) / 60.0 << " minutes of CPU time\n";
+/// @endcode
+
 #include <bdpt/eval/bench/integrator_kinds.h>
 #include <bdpt/render_options.h>
 

@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Records how the error of a render falls with its samples.
+///
+/// @code{.cpp}
+/// void print_run(const bdpt::eval::BenchRun& run)
+/// {
+///     for (const bdpt::eval::Checkpoint& point : run.checkpoints) {
+///         std::cout << point.samples << " samples: relMSE " << point.relmse << '\n';
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
 

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Names the scene, the camera and the size of a benchmark.
+///
+/// @code{.cpp}
+/// bdpt::io::LoadedScene file = bdpt::io::load_gltf("room.glb");
+/// const bdpt::Scene scene(std::move(file.scene));
+/// const bdpt::eval::BenchScene room = {.name = "room",
+///                                      .file = "room.glb",
+///                                      .scene = scene,
+///                                      .camera = file.cameras.at(0),
+///                                      .width = 320,
+///                                      .height = 180};
+/// @endcode
+
 #include <bdpt/scene.h>
 #include <bdpt/scene_desc.h>
 

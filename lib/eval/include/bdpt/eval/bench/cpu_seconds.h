@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Reads the CPU time of the process.
+///
+/// @code{.cpp}
+/// void print_cpu_time(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     const double start = bdpt::eval::cpu_seconds();
+///     const bdpt::RenderResult result = bdpt::render(scene, camera, {});
+///     std::cout << bdpt::eval::cpu_seconds() - start << " s of CPU time\n";
+/// }
+/// @endcode
+
 #include <ctime>
 
 namespace bdpt::eval {

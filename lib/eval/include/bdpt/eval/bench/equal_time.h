@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Compares ways to render a scene at equal CPU time.
+///
+/// @code{.cpp}
+/// void compare(const bdpt::eval::BenchScene& scene, const bdpt::eval::Reference& reference)
+/// {
+///     const std::vector<bdpt::eval::Variant> variants = {
+///         {"mis", {.integrator = bdpt::IntegratorKind::mis}},
+///         {"bdpt", {.integrator = bdpt::IntegratorKind::bdpt}}};
+///     const auto scores = bdpt::eval::compare_at_equal_time(scene, reference, variants, {});
+///     std::cout << scores[0].error.median << " and " << scores[1].error.median << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/eval/bench/bench_scene.h>
 #include <bdpt/eval/bench/reference.h>
 #include <bdpt/eval/statistics/spread.h>

@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Finds the error that stays however long an integrator renders.
+///
+/// @code{.cpp}
+/// void print_floor(std::span<const bdpt::Image> seeds, const bdpt::eval::Reference& reference)
+/// {
+///     const auto floor = bdpt::eval::error_floor(seeds, reference.image, reference.noise);
+///     std::cout << "error floor: " << floor.value_or(0.0) << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 

@@ -1,5 +1,14 @@
 #pragma once
 
+/// @file
+/// Lists the integrators that benchmarks compare.
+///
+/// @code{.cpp}
+/// for (const bdpt::IntegratorKind kind : bdpt::eval::unbiased_integrators()) {
+///     std::cout << bdpt::info(kind).name << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/render_options.h>
 

@@ -1,5 +1,13 @@
 #pragma once
 
+/// @file
+/// Describes the machine that a benchmark runs on.
+///
+/// @code{.cpp}
+/// const bdpt::eval::MachineFacts machine = bdpt::eval::machine_facts();
+/// std::cout << machine.cpu << ", " << machine.processors << " threads\n";
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <string>

@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Makes references from renders, and tells how noisy they are.
+///
+/// @code{.cpp}
+/// void print_noise(const bdpt::Film& film)
+/// {
+///     const bdpt::eval::HalvedImage render = {
+///         .image = film.develop(), .first = film.develop_half(0), .second = film.develop_half(1)};
+///     std::cout << "relMSE of its noise: " << bdpt::eval::noise_of(render, render.image) << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/eval/metrics/metric_scale.h>
 #include <bdpt/export.h>
 #include <bdpt/image.h>

@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Sums up the runs of a benchmark for each integrator.
+///
+/// @code{.cpp}
+/// void print_summary(const bdpt::eval::SceneResult& result, double seconds)
+/// {
+///     for (const auto& summary : bdpt::eval::summarize(result, seconds)) {
+///         const double error = summary.equal_time.error.median;
+///         std::cout << bdpt::info(summary.integrator).name << ": relMSE " << error << '\n';
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/eval/bench/bench.h>
 #include <bdpt/eval/statistics/spread.h>
 #include <bdpt/export.h>

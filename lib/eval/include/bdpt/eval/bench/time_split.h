@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Tells where the time of an integrator goes in a scene.
+///
+/// @code{.cpp}
+/// void print_split(const bdpt::eval::TimeSplit& split)
+/// {
+///     for (std::size_t i = 0; i < split.shares.size(); ++i) {
+///         std::cout << bdpt::to_string(bdpt::all_phases[i]) << ": " << split.shares[i] << '\n';
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/render_options.h>
 #include <bdpt/time_profile.h>
 

@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Estimates the bias of renders with different seeds.
+///
+/// @code{.cpp}
+/// const bdpt::Image reference = bdpt::io::read_image("reference.exr").image;
+/// const bdpt::PixelRect all = {.x1 = reference.width, .y1 = reference.height};
+/// bdpt::eval::BiasEstimator estimator(all.x1, all.y1, {all});
+/// for (const char* file : {"seed0.exr", "seed1.exr"}) {
+///     estimator.add(bdpt::io::read_image(file).image, reference);
+/// }
+/// std::cout << estimator.bias().channels[3].value << " nit\n";
+/// @endcode
+
 #include <bdpt/eval/compare/comparison_report.h>
 #include <bdpt/eval/statistics/moments.h>
 #include <bdpt/export.h>

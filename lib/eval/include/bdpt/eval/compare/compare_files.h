@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Compares files of images with a reference.
+///
+/// @code{.cpp}
+/// const std::vector<std::filesystem::path> files = {"seed0.exr", "seed1.exr"};
+/// const auto [report, warnings] = bdpt::eval::compare_files(files, "reference.exr", {}, {});
+/// for (const bdpt::eval::MetricSummary& metric : report.metrics) {
+///     std::cout << bdpt::eval::to_string(metric.metric) << ": " << metric.mean << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/eval/compare/comparison.h>
 #include <bdpt/eval/compare/comparison_report.h>
 #include <bdpt/export.h>

@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Compares images in memory with a reference.
+///
+/// @code{.cpp}
+/// void print_worst_tile(const bdpt::Image& image, const bdpt::Image& reference)
+/// {
+///     bdpt::eval::Comparison comparison("reference", reference, {.tile_size = 16});
+///     comparison.add("image", image);
+///     const bdpt::eval::TileError worst = comparison.report().worst_tiles.at(0);
+///     std::cout << worst.tile.x0 << ',' << worst.tile.y0 << ": " << worst.value << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/eval/compare/bias_estimator.h>
 #include <bdpt/eval/compare/comparison_report.h>
 #include <bdpt/eval/metrics/metric.h>

@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Writes the report of a comparison as JSON.
+///
+/// @code{.cpp}
+/// void write_report(const bdpt::eval::ComparisonReport& report)
+/// {
+///     std::ofstream file("report.json");
+///     file << bdpt::eval::comparison_json(report, {}, "out.exr", "reference.exr");
+/// }
+/// @endcode
+
 #include <bdpt/eval/compare/comparison_report.h>
 #include <bdpt/eval/compare/threshold.h>
 #include <bdpt/export.h>

@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Holds the results of a comparison.
+///
+/// @code{.cpp}
+/// void print_biased_tiles(const bdpt::eval::ComparisonReport& report)
+/// {
+///     for (const bdpt::eval::TileBias& tile : report.biased_tiles) {
+///         std::cout << tile.tile.x0 << ',' << tile.tile.y0 << ": p " << tile.p << '\n';
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/eval/metrics/error_map.h>
 #include <bdpt/eval/metrics/metric.h>
 #include <bdpt/eval/metrics/metric_scale.h>

@@ -1,5 +1,14 @@
 #pragma once
 
+/// @file
+/// Finds the images of a folder that belong to a reference.
+///
+/// @code{.cpp}
+/// for (const auto& file : bdpt::eval::seed_files("seeds", "seeds/reference.exr")) {
+///     std::cout << file.filename().string() << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <filesystem>

@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Decides whether images are good enough.
+///
+/// @code{.cpp}
+/// bool is_good_enough(const bdpt::eval::ComparisonReport& report)
+/// {
+///     const auto threshold = bdpt::eval::parse_threshold("relmse=0.01");
+///     return threshold && bdpt::eval::check_threshold(report, *threshold).passed;
+/// }
+/// @endcode
+
 #include <bdpt/eval/compare/comparison_report.h>
 #include <bdpt/eval/metrics/metric.h>
 #include <bdpt/export.h>

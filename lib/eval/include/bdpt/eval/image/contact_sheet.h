@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Shows the images of all strategies on one sheet.
+///
+/// @code{.cpp}
+/// void write_sheet(const bdpt::RenderResult& result)  // rendered with a strategy_depth
+/// {
+///     const float exposure = bdpt::io::automatic_exposure(result.film.develop());
+///     const auto sheet = bdpt::eval::contact_sheet(result.strategies, exposure);
+///     bdpt::io::write_png("strategies.png", sheet, {});
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/film/strategy_film.h>
 #include <bdpt/io/tone_map.h>

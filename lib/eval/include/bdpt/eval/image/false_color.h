@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Shows the errors of an image as colours.
+///
+/// @code{.cpp}
+/// void write_errors(const bdpt::Image& image, const bdpt::Image& reference)
+/// {
+///     const bdpt::eval::ErrorMap map = bdpt::eval::flip(image, reference);
+///     const bdpt::eval::FalseColorOptions options = {.scale = 0.5, .title = "flip"};
+///     bdpt::io::write_png("errors.png", bdpt::eval::false_color(map, options), {});
+/// }
+/// @endcode
+
 #include <bdpt/eval/metrics/error_map.h>
 #include <bdpt/export.h>
 #include <bdpt/io/tone_map.h>

@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Gives numbers the colours of a heat map.
+///
+/// @code{.cpp}
+/// bdpt::eval::Color8 heat_color(double value)  // in [0, 1]
+/// {
+///     static const std::vector<bdpt::eval::Color8> colors = bdpt::eval::heat_colors();
+///     return colors.at(static_cast<std::size_t>(value * 255.0));
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <array>

@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Writes labels into images.
+///
+/// @code{.cpp}
+/// bdpt::io::DisplayImage labelled(bdpt::io::DisplayImage image)
+/// {
+///     return bdpt::eval::with_text(std::move(image), "64 samples", {.x = 8, .y = 8, .dot = 2});
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/io/tone_map.h>
 

@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Shrinks images.
+///
+/// @code{.cpp}
+/// bdpt::Image thumbnail(const bdpt::Image& image)
+/// {
+///     return bdpt::eval::shrunk(image, std::max(1, image.width / 256));
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 

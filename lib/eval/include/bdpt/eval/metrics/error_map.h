@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Holds the error of each pixel.
+///
+/// @code{.cpp}
+/// void print_greatest(const bdpt::Image& image, const bdpt::Image& reference)
+/// {
+///     const bdpt::eval::ErrorMap map = bdpt::eval::flip(image, reference);
+///     const auto greatest = std::max_element(map.values.begin(), map.values.end());
+///     const auto index = static_cast<int>(greatest - map.values.begin());
+///     std::cout << *greatest << " at " << index % map.width << ',' << index / map.width << '\n';
+/// }
+/// @endcode
+
 #include <cstddef>
 #include <vector>
 

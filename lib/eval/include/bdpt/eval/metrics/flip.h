@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Measures the differences that people see between two images.
+///
+/// @code{.cpp}
+/// void print_flip(const bdpt::Image& image, const bdpt::Image& reference)
+/// {
+///     const bdpt::eval::FlipExposures exposures = bdpt::eval::flip_exposures(reference);
+///     const bdpt::eval::ErrorMap map = bdpt::eval::hdr_flip(image, reference, exposures);
+///     std::cout << "HDR-FLIP " << bdpt::eval::mean(map) << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/eval/metrics/error_map.h>
 #include <bdpt/export.h>
 #include <bdpt/image.h>

@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Measures the error of an image.
+///
+/// @code{.cpp}
+/// void print_errors(const bdpt::Image& image, const bdpt::Image& reference)
+/// {
+///     for (const bdpt::eval::Metric metric : bdpt::eval::all_metrics) {
+///         const double error = bdpt::eval::evaluate(metric, image, reference);
+///         std::cout << bdpt::eval::to_string(metric) << ' ' << error << '\n';
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/eval/metrics/error_map.h>
 #include <bdpt/eval/metrics/metric_scale.h>
 #include <bdpt/export.h>

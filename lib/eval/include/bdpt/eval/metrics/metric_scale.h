@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Fixes the scale of errors for all images that are compared with a reference.
+///
+/// @code{.cpp}
+/// bdpt::eval::MetricScale scale_of(const bdpt::Image& reference)
+/// {
+///     bdpt::eval::MetricOptions options;
+///     options.epsilon_unit = bdpt::eval::EpsilonUnit::reference_mean;
+///     return bdpt::eval::make_scale(reference, options);
+/// }
+/// @endcode
+
 #include <bdpt/eval/metrics/flip.h>
 #include <bdpt/export.h>
 #include <bdpt/image.h>

@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Writes a benchmark as JSON, as CSV and as a page of HTML.
+///
+/// @code{.cpp}
+/// void write_bench(const bdpt::eval::BenchRecord& record)
+/// {
+///     std::ofstream("out/bench/results.json") << bdpt::eval::bench_json(record);
+///     std::ofstream("out/bench/report.html") << bdpt::eval::bench_page(record, "out/bench");
+/// }
+/// @endcode
+
 #include <bdpt/eval/bench/bench.h>
 #include <bdpt/eval/bench/machine.h>
 #include <bdpt/export.h>

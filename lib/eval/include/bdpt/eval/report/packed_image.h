@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Packs images for pages of HTML.
+///
+/// @code{.cpp}
+/// std::string pixels_for_page(const bdpt::Image& image, double mean)
+/// {
+///     return bdpt::eval::packed_image(image, bdpt::eval::page_scale(mean));
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 

@@ -1,5 +1,15 @@
 #pragma once
 
+/// @file
+/// Fills pages of HTML with texts and numbers.
+///
+/// @code{.cpp}
+/// const std::string data = bdpt::eval::script_safe(R"({"scene": "room"})");
+/// const std::string page =
+///     bdpt::eval::fill_page("<script>show({{DATA}}, '{{HEAT}}')</script>",
+///                           {{"DATA", data}, {"HEAT", bdpt::eval::heat_text()}});
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <string>

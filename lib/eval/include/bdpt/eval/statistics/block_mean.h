@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Estimates the error of a mean of values that depend on their neighbours.
+///
+/// @code{.cpp}
+/// void print_mean(const bdpt::eval::ErrorMap& map)
+/// {
+///     const auto error = bdpt::eval::block_standard_error(map.values, map.width, map.height, 32);
+///     std::cout << bdpt::eval::mean(map) << " +- " << error.value_or(0.0) << '\n';
+/// }
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <optional>

@@ -1,5 +1,13 @@
 #pragma once
 
+/// @file
+/// Corrects the p-values of many tests.
+///
+/// @code{.cpp}
+/// const std::vector<double> p = {0.01, 0.2, 0.04};
+/// const std::vector<double> adjusted = bdpt::eval::holm_adjusted(p);  // 0.03, 0.2, 0.08
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <span>

@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Finds the mean and the spread of a stream of numbers.
+///
+/// @code{.cpp}
+/// bdpt::eval::Moments errors;
+/// for (const double error : {0.11, 0.09, 0.10}) {
+///     errors.add(error);
+/// }
+/// std::cout << errors.mean() << " +- " << errors.standard_error() << '\n';
+/// @endcode
+
 #include <cmath>
 #include <cstdint>
 

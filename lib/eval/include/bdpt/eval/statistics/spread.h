@@ -1,5 +1,13 @@
 #pragma once
 
+/// @file
+/// Finds the median and the extremes of some numbers.
+///
+/// @code{.cpp}
+/// const bdpt::eval::Spread seconds = bdpt::eval::spread({1.2, 0.9, 1.1});
+/// std::cout << seconds.median << ", from " << seconds.least << " to " << seconds.greatest << '\n';
+/// @endcode
+
 #include <bdpt/export.h>
 
 #include <vector>

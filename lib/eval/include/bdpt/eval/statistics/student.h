@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Tests whether a mean is 0.
+///
+/// @code{.cpp}
+/// bool is_biased(const bdpt::eval::Moments& differences)
+/// {
+///     const auto test = bdpt::eval::test_zero_mean(differences);
+///     return test && test->p < 0.001;
+/// }
+/// @endcode
+
 #include <bdpt/eval/statistics/moments.h>
 #include <bdpt/export.h>
 

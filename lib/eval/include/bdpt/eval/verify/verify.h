@@ -1,5 +1,17 @@
 #pragma once
 
+/// @file
+/// Tests whether all strategies and integrators agree on a scene.
+///
+/// @code{.cpp}
+/// bool agree(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     const bdpt::eval::VerifyOptions options = {.max_depth = 4, .seconds = 30.0};
+///     const bdpt::eval::VerifyReport report = bdpt::eval::verify(scene, camera, options);
+///     return report.verdict == bdpt::eval::Verdict::pass;
+/// }
+/// @endcode
+
 #include <bdpt/eval/verify/verify_options.h>
 #include <bdpt/eval/verify/verify_report.h>
 #include <bdpt/export.h>

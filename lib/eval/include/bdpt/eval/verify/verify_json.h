@@ -1,5 +1,16 @@
 #pragma once
 
+/// @file
+/// Writes the report of a verification as JSON.
+///
+/// @code{.cpp}
+/// void write_report(const bdpt::eval::VerifyReport& report)
+/// {
+///     std::cout << bdpt::eval::to_string(report.verdict) << '\n';
+///     std::ofstream("verify.json") << bdpt::eval::verify_json(report, "room.glb");
+/// }
+/// @endcode
+
 #include <bdpt/eval/verify/verify_report.h>
 #include <bdpt/export.h>
 

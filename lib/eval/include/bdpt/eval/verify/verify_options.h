@@ -1,5 +1,18 @@
 #pragma once
 
+/// @file
+/// Chooses the paths and the sharpness of a verification, and watches it.
+///
+/// @code{.cpp}
+/// bdpt::eval::VerifyOptions options;
+/// options.detectable_bias = 0.005;
+/// options.merge_radius = bdpt::eval::VerifyOptions::small_merge_radius;  // tests vcm, too
+/// bdpt::eval::VerifyControl control;
+/// control.on_progress = [](const bdpt::eval::VerifyProgress& progress) {
+///     std::cerr << progress.batches << " batches\n";
+/// };
+/// @endcode
+
 #include <cstdint>
 #include <functional>
 #include <limits>

@@ -1,5 +1,19 @@
 #pragma once
 
+/// @file
+/// Holds the findings of a verification.
+///
+/// @code{.cpp}
+/// void print_failures(const bdpt::eval::VerifyReport& report)
+/// {
+///     for (const bdpt::eval::StrategyFinding& finding : report.strategies) {
+///         if (bdpt::eval::fails(finding.whole, report)) {
+///             std::cout << bdpt::strategy_name(finding.strategy) << " disagrees\n";
+///         }
+///     }
+/// }
+/// @endcode
+
 #include <bdpt/film/film.h>
 #include <bdpt/pixel_rect.h>
 #include <bdpt/render_options.h>

@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""Writes a source file that compiles the examples of all public headers: header_examples.py ROOT OUTPUT.cpp. Fails,
+with a line for each, when headers have no example.
+
+A public header begins with `#pragma once`, an empty line and a comment that says what one uses it for:
+
+    /// @file
+    /// Reads glTF files.
+    ///
+    /// @code{.cpp}
+    /// bdpt::io::LoadedScene file = bdpt::io::load_gltf("room.glb");
+    /// const bdpt::Scene scene(std::move(file.scene));
+    /// @endcode
+
+The example is the body of a function, or, to take parameters, a whole function: then `{` has a line of its own.
+All public headers and the usual ones of the standard library are included.
+"""
+
+import pathlib
+import re
+import sys
+
+FOLDERS = ("lib/include", "lib/io/include", "lib/eval/include")
+EXEMPT = ("bdpt/export.h",)  # a macro for the headers themselves
+STANDARD = ("algorithm", "array", "atomic", "chrono", "cmath", "cstddef", "cstdint", "cstdlib", "filesystem", "fstream",
+            "functional", "iostream", "limits", "memory", "numbers", "optional", "span", "stop_token", "string",
+            "string_view", "thread", "type_traits", "utility", "variant", "vector")
+COMMENT = re.compile(r"#pragma once\n\n(/// @file\n(?:///.*\n)+)")
+EXAMPLE = re.compile(r"^/// @code\{\.cpp\}\n((?:///.*\n)+?)/// @endcode\n", re.MULTILINE)
+
+
+def public_headers(root):
+    """Files and the names by which they are included, in the order of the names."""
+    headers = []
+    for folder in FOLDERS:
+        for file in (root / folder).rglob("*"):
+            name = file.relative_to(root / folder).as_posix()
+            if name.endswith((".h", ".h.in")):
+                headers.append((name.removesuffix(".in"), file))
+    return sorted(headers)
+
+
+def example_of(text):
+    """The line where a header's example begins, counted from 1, and its lines, indented; or None."""
+    comment = COMMENT.match(text)
+    example = comment and EXAMPLE.search(comment[1])
+    if not example:
+        return None
+    line = text.count("\n", 0, comment.start(1) + example.start(1)) + 1
+    # Columns stay those of the header, for messages of the compiler.
+    return line, ["    " + line[4:] for line in example[1].splitlines()]
+
+
+def function_of(name, file, example):
+    """The text of a namespace with the example of the header `name`."""
+    line, code = example
+    begin, end = ("", "") if "    {" in code else ("void run()\n{\n", "}\n")
+    space = "example_" + re.sub(r"\W", "_", name.removesuffix(".h"))
+    return f'namespace {space} {{\n{begin}#line {line} "{file.as_posix()}"\n' + "\n".join(code) + f"\n{end}}}\n"
+
+
+def source(root):
+    """The text of the source file, and what is wrong: a line for each header without an example."""
+    headers = public_headers(root)
+    errors = [] if headers else [f"{root}: no public headers"]
+    functions = []
+    for name, file in headers:
+        example = example_of(file.read_text(encoding="utf-8"))
+        if example:
+            functions.append(function_of(name, file, example))
+        elif name not in EXEMPT:
+            errors.append(f"{file.relative_to(root).as_posix()}: no example after #pragma once: a comment with "
+                          "/// @file, /// @code{.cpp} and /// @endcode")
+    includes = [f"#include <{name}>\n" for name in [name for name, _ in headers] + list(STANDARD)]
+    return "// Made by tests/examples/header_examples.py.\n" + "".join(includes) + "\n" + "\n".join(functions), errors
+
+
+def main():
+    text, errors = source(pathlib.Path(sys.argv[1]).resolve())
+    if errors:
+        sys.exit("\n".join(errors))
+    pathlib.Path(sys.argv[2]).write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -8,7 +8,7 @@
 
 namespace bdpt::eval {
 
-/// JSON has no NaN and no infinity: null in their place, and where there is no value.
+/// Returns a number as JSON; null for NaN, infinity (which JSON does not have) and none.
 inline nlohmann::ordered_json number_or_null(std::optional<double> value)
 {
     return value && std::isfinite(*value) ? nlohmann::ordered_json(*value)

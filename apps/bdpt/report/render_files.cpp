@@ -23,7 +23,7 @@ std::vector<std::filesystem::path> all_image_files(const RenderArguments& argume
 
 namespace {
 
-/// A part is read again, so it cannot be a device or a pipe.
+/// A part is read back, so it cannot be a device or a pipe.
 void check_part_file(const std::filesystem::path& file)
 {
     std::error_code missing;

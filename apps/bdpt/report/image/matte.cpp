@@ -13,7 +13,7 @@
 namespace bdpt::app {
 namespace {
 
-/// The layer of that name with alpha alone.
+/// Returns the layer of that name that has only alpha.
 template <typename Layers>
 auto* find(Layers& layers, std::string_view name)
 {

@@ -22,7 +22,7 @@ struct RayTotals {
 struct RayThroughput {
     RayTotals totals;
     double bdpt = 0.0;    ///< in a render
-    double embree = 0.0;  ///< of the same rays traced by Embree alone
+    double embree = 0.0;  ///< for the same rays traced by Embree alone
     double ratio = 0.0;   ///< median over rounds of bdpt / embree
     bool equal = true;    ///< renders and replays have the rays and hits of the recorded render
 };

@@ -38,7 +38,7 @@ struct Subject {
     std::string name;  ///< name of the file, without folder and extension
     Scene scene;
     CameraDesc camera;
-    RenderOptions options;  ///< of bdpt
+    RenderOptions options;  ///< options for bdpt
 
     /// Returns the scene for the library; valid during the lifetime of this object.
     [[nodiscard]] eval::BenchScene bench_scene() const;

@@ -30,7 +30,7 @@ struct Settings {
     int pixels = 1024;        // side of the image
     int lookups = 1'000'000;  // per run
     int rounds = 3;
-    int cache_mb = 256;  // of the texture system
+    int cache_mb = 256;  // cache of the texture system
 };
 
 /// Returns stripes of several widths with noise: fine and coarse detail.

@@ -25,7 +25,7 @@ void translate(const std::exception_ptr& exception, void* /*payload*/)
     }
 }
 
-/// Called when Python ends, before it destroys anything.
+/// Waits for renders. Called when Python ends, before it destroys anything.
 void wait_for_renders()
 {
     PyThreadState* state = PyEval_SaveThread();

@@ -46,7 +46,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Called between passes: checks for Ctrl-C, and reports the progress.
+/// Checks for Ctrl-C and reports the progress, between passes.
 void tell(const Progress& progress, const nb::object& listener)
 {
     const Locked lock;

@@ -27,7 +27,7 @@ struct MeanComparison {
     double found_bias = 0.0;  ///< greatest relative difference of tiles that are not equal
     double max_bias = 0.0;    ///< greatest relative difference of all tiles
     double detectable_bias =
-        0.0;          ///< of the noisiest tile that is not black; at least 1 if all are
+        0.0;  ///< detectable bias of the noisiest tile that is not black; at least 1 if all are
     int batches = 0;  ///< minimum over tiles and renderers
 
     [[nodiscard]] std::string text() const;

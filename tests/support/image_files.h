@@ -94,8 +94,8 @@ struct PngFile {
     int channels = 0;
     int bits = 0;  ///< per channel
     std::map<std::string, std::string> text;
-    std::vector<std::uint16_t> values;  ///< of all channels
-    std::vector<std::uint8_t> rgb;      ///< of a file of 8 bits
+    std::vector<std::uint16_t> values;  ///< values of all channels
+    std::vector<std::uint8_t> rgb;      ///< colours of a file of 8 bits
 };
 
 [[nodiscard]] inline PngFile read_png(const std::filesystem::path& file)

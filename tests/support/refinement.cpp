@@ -27,7 +27,7 @@ int needed(const BatchEvidence& other, std::size_t cell, double rest)
 
 /// Numbers of batches of the cells `which`, and their cost.
 struct Choice {
-    int first = max_batches;  ///< of the first renderer, in each of those cells
+    int first = max_batches;  ///< batches of the first renderer, in each of those cells
     std::array<int, compared_cells> second{};
     double work = std::numeric_limits<double>::infinity();
 };

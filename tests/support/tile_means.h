@@ -22,7 +22,7 @@ public:
     static constexpr std::size_t cells = grid * grid;
     static_assert(cells == compared_cells);
 
-    /// `sampler` replaces that of `options`. Seeds are less than 2^32.
+    /// Renders nothing yet. `sampler` replaces that of `options`. Seeds are less than 2^32.
     TileMeans(const Scene& scene, const CameraDesc& camera, RenderOptions options,
               SamplerKind sampler = SamplerKind::independent);
 

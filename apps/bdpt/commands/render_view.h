@@ -21,7 +21,7 @@ struct RenderSession {
     Interrupt& interrupt;
     Display* display;                ///< null: no viewer
     const io::Denoiser* denoiser;    ///< null: images are not denoised
-    std::vector<std::string> words;  ///< of a command that renders this image
+    std::vector<std::string> words;  ///< command line that renders this image
 };
 
 /// Returns the label of the image of `arguments`, for messages.

@@ -159,7 +159,7 @@ struct CommandLineParser {
     }
 
     CLI::App app;
-    std::deque<CliOptions> options;  ///< of the commands
+    std::deque<CliOptions> options;  ///< one per command
     bool all_flag = false;
 };
 

@@ -22,7 +22,7 @@ struct CompareArguments {
     eval::ComparisonOptions options{};
     std::vector<eval::Threshold> thresholds{};
     std::optional<std::filesystem::path> error_image{};
-    double scale = 1.0;  ///< of the error image
+    double scale = 1.0;  ///< scale of the error image
     Printed printed{};
 };
 

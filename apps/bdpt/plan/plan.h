@@ -17,7 +17,7 @@ namespace bdpt::app {
 
 /// One image of a plan.
 struct PlanImage {
-    std::optional<int> frame{};           ///< of an animation or a turntable
+    std::optional<int> frame{};           ///< frame of an animation or a turntable
     std::optional<std::string> camera{};  ///< name or index, if all cameras are rendered
     std::optional<std::uint64_t> seed{};  ///< for a plan of several images
     [[nodiscard]] bool operator==(const PlanImage&) const = default;
@@ -27,7 +27,7 @@ struct PlanImage {
 struct PlanTask {
     std::size_t first_image = 0;  ///< index in the plan
     std::size_t images = 1;       ///< number of images to render, one after the other
-    SampleRange samples;          ///< of each image
+    SampleRange samples;          ///< samples of each image
     std::filesystem::path part;  ///< file that it writes; with #### and {camera} for several images
     [[nodiscard]] bool operator==(const PlanTask&) const = default;
 };

@@ -121,7 +121,7 @@ Rgb sphere_integral(const Image& map)
     for (int y = 0; y < map.height; ++y) {
         const double top = std::cos(square * y);
         const double solid_angle = (top - std::cos(square * (y + 1))) * 2.0 * std::numbers::pi /
-                                   map.width;  // of each pixel of the row
+                                   map.width;  // of one pixel of the row
         for (int x = 0; x < map.width; ++x) {
             const Rgb& value = map.at(x, y);
             sums[0] += static_cast<double>(value.r) * solid_angle;

@@ -78,8 +78,8 @@ public:
     /// Prints a line for people, if there is only one image.
     void detail(std::string_view message);
     void warning(std::string_view message, Repeat repeat = Repeat::never);
-    /// From now on adds "frame" and "camera", as far as there are any, to events, and the label to
-    /// progress lines.
+    /// Sets the image: further events get its "frame" and "camera", if any, and progress lines its
+    /// label.
     void begin_image(const ImageLabel& label);
     /// Shows the progress of a render; rate-limited, however often it is called.
     void progress(const Progress& progress, const Goal& goal);

@@ -97,11 +97,11 @@ private:
     Mailbox mailbox_;
     const ViewWords first_words_;
     ViewWords words_;        ///< requested by pages
-    ViewWords shown_words_;  ///< of the scene as last shown
+    ViewWords shown_words_;  ///< words of the scene as last shown
     LiveScene scene_;
     std::array<std::optional<LiveRender>, 2> renders_;
     std::optional<LiveRender> strategies_;
-    std::array<std::int64_t, 2> shown_samples_{};  ///< of each slot, in the last frame sent
+    std::array<std::int64_t, 2> shown_samples_{};  ///< samples of each slot in the last frame sent
     CoarseToFine coarse_;
     std::string integrator_b_;
     ViewLayer layer_ = ViewLayer::picture;
@@ -113,7 +113,7 @@ private:
     std::string file_message_;    ///< reason why the file was not reloaded
     float automatic_exposure_ = 0.0f;
     bool is_metered_ = false;   ///< `automatic_exposure_` belongs to this scene
-    std::optional<Pose> pose_;  ///< of the camera, if known
+    std::optional<Pose> pose_;  ///< pose of the camera, if known
     std::uint32_t generation_ = 0;
     std::map<ClientId, std::uint32_t> clients_;  ///< with their last handled request
     std::chrono::steady_clock::time_point told_{};

@@ -30,7 +30,7 @@ std::optional<Vec2> raster_of_offset(const CameraDesc& camera, const Size& size,
     if (!(depth > 0.0f)) {
         return std::nullopt;
     }
-    const float height = view_height(camera, depth) * depth;  // of the image at that depth
+    const float height = view_height(camera, depth) * depth;  // height of the image at that depth
     const auto pixels = static_cast<float>(size.height);
     const Vec2 place = Vec2(glm::dot(offset, axes.right), -glm::dot(offset, axes.up)) / height;
     const Vec2 raster = pixels * place + 0.5f * Vec2(static_cast<float>(size.width), pixels);

@@ -44,7 +44,7 @@ enum class TurntableMotion : std::uint8_t {
 
 /// Images that one command renders.
 struct Sequence {
-    std::optional<FrameRange> frames{};  ///< of the animation, or of the turn
+    std::optional<FrameRange> frames{};  ///< frames of the animation, or of the turn
     double fps = 0.0;                    ///< frames per second; 0: none
     int orbit = 0;                       ///< views of a full turn; 0: the camera stays
     TurntableMotion motion = TurntableMotion::camera;

@@ -20,15 +20,15 @@ namespace bdpt::app {
 
 struct ImageFileOptions {
     io::ExrOptions exr;
-    std::vector<Layer> layers;               ///< of EXR files, beside the image
-    DisplayArguments display;                ///< of files for screens
+    std::vector<Layer> layers;               ///< layers of EXR files, beside the image
+    DisplayArguments display;                ///< options of files for screens
     const io::Denoiser* denoiser = nullptr;  ///< null: images are not denoised
     DenoisedAs denoised_as = DenoisedAs::image;
 };
 
 struct WrittenImages {
     std::size_t clamped_pixels = 0;            ///< in an EXR file of halves
-    std::optional<float> exposure;             ///< of the files for screens [EV], if any
+    std::optional<float> exposure;             ///< exposure of files for screens [EV], if any
     std::vector<std::filesystem::path> files;  ///< files that were written
 };
 

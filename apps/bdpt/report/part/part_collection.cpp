@@ -45,7 +45,7 @@ void check_same_render(const PartInfo& part, const MergeArguments& arguments,
 
 struct ReadParts {
     std::vector<PartInfo> parts;
-    std::vector<std::string> faults;  ///< of files that may become readable later
+    std::vector<std::string> faults;  ///< errors of files that may become readable later
 };
 
 ReadParts read_parts(const MergeArguments& arguments, const std::optional<PlannedIdentity>& planned)

@@ -19,10 +19,10 @@ namespace bdpt::app {
 /// Disjoint parts of one render.
 struct PartCollection {
     std::vector<io::PartInfo> parts;
-    SampleSet samples;                ///< of all parts
+    SampleSet samples;                ///< samples of all parts
     SampleSet goal;                   ///< requested samples of the render, as far as known
     std::vector<std::string> notes;   ///< about parts that contribute nothing
-    std::vector<std::string> faults;  ///< of files that may become readable later
+    std::vector<std::string> faults;  ///< errors of files that may become readable later
     [[nodiscard]] SampleSet missing() const { return samples.missing(goal); }
 };
 

@@ -31,7 +31,7 @@ public:
     /// the render, `notes` are written into the file. Throws `Error` (invalid_input) if the file is
     /// a part of another render, or the plan is one of another.
     [[nodiscard]] RenderPart start(const Identity& identity, io::PartNotes notes);
-    /// Called between passes: writes a checkpoint if the last one is old enough. A failure is only
+    /// Writes a checkpoint if the last one is old enough; called between passes. A failure is only
     /// a warning, as there will be another checkpoint.
     void after_pass(const RenderPart& part, Checkpoint checkpoint);
     /// Writes the samples that are not in the file yet. Throws `Error` (output).

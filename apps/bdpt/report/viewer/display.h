@@ -30,7 +30,7 @@ public:
 
     /// Sets the name of further images in the viewer.
     void begin_image(const std::string& name);
-    /// Called between passes: shows the film if an update is due.
+    /// Shows the film if an update is due. Called between passes.
     void after_pass(const Film& film);
     /// Shows the film, however recent the last update was.
     void finish(const Film& film);

@@ -17,8 +17,9 @@ using ClientId = std::uint64_t;
 /// A picture for the pages, which share it.
 struct Frame {
     std::uint32_t slot = 0;        ///< index of the integrator that made it
-    std::uint32_t generation = 0;  ///< of the view: incremented with each change
-    std::uint32_t grid_width = 0;  ///< of the whole picture [pixels]; coarse pictures have fewer
+    std::uint32_t generation = 0;  ///< version of the view, incremented with each change
+    std::uint32_t grid_width =
+        0;  ///< width of the whole picture [pixels]; less for coarse pictures
     std::uint32_t grid_height = 0;
     std::uint32_t x = 0;  ///< position of `pixels` in the grid
     std::uint32_t y = 0;

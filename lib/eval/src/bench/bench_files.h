@@ -53,7 +53,7 @@ void write_json(const std::filesystem::path& file, const nlohmann::ordered_json&
 /// Throws `Error` (invalid_input) for an image of another size.
 void check_size(const Image& image, int width, int height, const std::filesystem::path& file);
 
-/// Convert a run to JSON and back. The latter throws `Error` (invalid_input) that names `file`.
+/// Converts a run to JSON and back. The latter throws `Error` (invalid_input) that names `file`.
 [[nodiscard]] nlohmann::ordered_json run_json(const BenchRun& run);
 [[nodiscard]] BenchRun parse_run(const nlohmann::ordered_json& json,
                                  const std::filesystem::path& file);

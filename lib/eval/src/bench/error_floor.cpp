@@ -7,7 +7,7 @@
 namespace bdpt::eval {
 namespace {
 
-constexpr double min_share = 0.1;  // of the error; a smaller floor does not spoil a comparison
+constexpr double min_share = 0.1;  // least share of the error; a smaller floor is negligible
 constexpr double min_errors = 3.0;
 
 /// Returns the mean of (a - r) (b - r) / (r^2 + e).
@@ -31,7 +31,7 @@ std::optional<double> error_floor(std::span<const Image> images, const Image& re
 {
     const double epsilon = bench_scale(reference).squared_epsilon;
     Moments own;     // relMSE of each image
-    Moments common;  // of each pair of images
+    Moments common;  // product of the errors of each pair of images
     for (std::size_t i = 0; i < images.size(); ++i) {
         own.add(product(images[i], images[i], reference, epsilon));
         for (std::size_t j = 0; j < i; ++j) {

@@ -35,7 +35,7 @@ std::vector<double> at(const std::vector<const BenchRun*>& runs, std::int64_t sa
 /// pixels a side reduce its variance by their area.
 constexpr double noise_at_scales = (1.0 + 1.0 / 4.0 + 1.0 / 16.0 + 1.0 / 64.0 + 1.0 / 256.0) / 5.0;
 
-/// `seconds`: the CPU time that errors are extrapolated to; none: no extrapolation.
+/// Summarizes runs. `seconds`: CPU time that errors are extrapolated to; none: no extrapolation.
 GoalSummary summarize_goal(const std::vector<const BenchRun*>& runs, std::int64_t samples,
                            double noise, std::optional<double> seconds)
 {

@@ -12,7 +12,7 @@
 namespace bdpt::eval {
 namespace {
 
-constexpr int longest_side = 160;  // of an image on the sheet [pixels]
+constexpr int longest_side = 160;  // maximum side of an image on the sheet [pixels]
 constexpr int gap = 4;             // between cells [pixels]
 constexpr std::uint8_t background = 40;
 

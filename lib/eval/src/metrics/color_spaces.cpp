@@ -18,7 +18,7 @@ Vec3 relative_xyz_from_linear(Rgb c)
     return xyz / white;
 }
 
-/// Inverse of `relative_xyz_from_linear`.
+/// Inverts `relative_xyz_from_linear`.
 Rgb linear_from_relative_xyz(Vec3 relative)
 {
     const Vec3 c = relative * white;
@@ -27,7 +27,8 @@ Rgb linear_from_relative_xyz(Vec3 relative)
             0.0556394198f * c.x - 0.2040112061f * c.y + 1.0571489770f * c.z};
 }
 
-constexpr float knee = 6.0f / 29.0f;  // of CIE 1976: below its cube the root is replaced by a line
+constexpr float knee =
+    6.0f / 29.0f;  // knee of CIE 1976: below its cube the root is replaced by a line
 
 float lab_curve(float t)
 {

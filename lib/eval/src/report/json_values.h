@@ -15,7 +15,7 @@ inline nlohmann::ordered_json number_or_null(std::optional<double> value)
                                           : nlohmann::ordered_json();
 }
 
-/// [x0, y0, x1, y1]
+/// Returns [x0, y0, x1, y1].
 inline nlohmann::ordered_json rect_json(const PixelRect& rect)
 {
     return nlohmann::ordered_json::array({rect.x0, rect.y0, rect.x1, rect.y1});

@@ -15,11 +15,12 @@ namespace bdpt::eval {
 /// = min(1, share / `full_share`) with the total share of all merges of a path. Sums over samples
 /// of a measure [nit].
 struct MergeSumsOfLength {
-    double brought = 0.0;        ///< weighted merged paths
-    double tested = 0.0;         ///< g times merged paths, weighted among merges alone
-    double expected = 0.0;       ///< g times the weighted paths of all techniques
-    double by_merges = 0.0;      ///< part of `expected` that was merged
-    SecondMoment second_moment;  ///< of a sample of `tested`, estimated from all paths
+    double brought = 0.0;    ///< weighted merged paths
+    double tested = 0.0;     ///< g times merged paths, weighted among merges alone
+    double expected = 0.0;   ///< g times the weighted paths of all techniques
+    double by_merges = 0.0;  ///< part of `expected` that was merged
+    SecondMoment
+        second_moment;  ///< second moment of a sample of `tested`, estimated from all paths
     SecondMoment seen;
 
     MergeSumsOfLength& operator+=(const MergeSumsOfLength& other);

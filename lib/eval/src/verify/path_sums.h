@@ -58,12 +58,13 @@ constexpr double full_share = 1.0 / 16.0;
 /// `full_share`); g is a function of the path, so it does not depend on the strategy that found it.
 /// Expected second moments hold for the greatest weight that roulette may give.
 struct StrategySums {
-    double tested = 0.0;         ///< g times the unweighted paths that u found
-    double expected = 0.0;       ///< g times the weighted paths of all strategies
-    SecondMoment second_moment;  ///< of a sample's `tested - expected`, estimated from all paths
-    SecondMoment seen;           ///< of a sample's `tested - expected`, from the paths as found
-    double reach = 0.0;          ///< weighted paths that u can sample, found by any strategy
-    double weighted = 0.0;       ///< paths that u found
+    double tested = 0.0;    ///< g times the unweighted paths that u found
+    double expected = 0.0;  ///< g times the weighted paths of all strategies
+    SecondMoment
+        second_moment;      ///< moment of a sample's `tested - expected`, estimated from all paths
+    SecondMoment seen;      ///< moment of a sample's `tested - expected`, from the paths as found
+    double reach = 0.0;     ///< weighted paths that u can sample, found by any strategy
+    double weighted = 0.0;  ///< paths that u found
     double unweighted = 0.0;
     double solitary = 0.0;   ///< weighted paths that u alone can sample
     double unchecked = 0.0;  ///< part of `solitary` that no integrator samples from the camera
@@ -132,8 +133,8 @@ private:
     void check_weight(const PathContribution& path, double definition);
     /// Values of a path for any strategy, by the balance and the power heuristic.
     struct PathValue {
-        double weighted;  // as found
-        double all;       // by the balance heuristic, independent of the strategy that found it
+        double weighted;  // MIS-weighted value, as found
+        double all;       // value by the balance heuristic, whichever strategy found it
         double squares;   // sum of squared shares
         double moment;    // upper bound of the second moment of a sample of bdpt along this path
         double largest;   // greatest such sample

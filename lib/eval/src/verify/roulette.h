@@ -44,7 +44,7 @@ public:
 
 private:
     double min_survival_ = 1.0;    // per edge
-    std::vector<double> weights_;  // of a subpath, by its number of vertices
+    std::vector<double> weights_;  // maximum weight of a subpath, by its number of vertices
 };
 
 }  // namespace bdpt::eval

@@ -27,7 +27,7 @@ std::string_view trimmed(std::string_view text)
 /// Reader of the lines of a text, one after the other.
 struct IesLines {
     std::string_view rest;
-    std::size_t number = 0;  // of the last line taken
+    std::size_t number = 0;  // number of the last line taken
 
     std::string_view take()
     {

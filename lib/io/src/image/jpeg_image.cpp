@@ -125,7 +125,7 @@ struct JpegImage::State {
     [[nodiscard]] bool is_cmyk() const { return codec.out_color_space == JCS_CMYK; }
     [[nodiscard]] bool is_grey() const { return codec.out_color_space == JCS_GRAYSCALE; }
 
-    /// `inks` is room for a row of inks, if the image has inks.
+    /// Decodes all rows. `inks` is room for a row of inks, if the image has inks.
     [[nodiscard]] bool read_rows(std::uint8_t* values, std::uint8_t* inks)
     {
         if (setjmp(jump) != 0) {

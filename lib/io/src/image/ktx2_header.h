@@ -18,7 +18,7 @@ struct Ktx2Header {
     int height = 0;    ///< >= 1
     int channels = 0;  ///< 3: RGB, 4: RGBA
     ColorEncoding encoding = ColorEncoding::unknown;
-    std::uint64_t pixels = 0;  ///< of all levels
+    std::uint64_t pixels = 0;  ///< sum over all levels
     /// Violations of KHR_texture_basisu that do not prevent decoding.
     std::vector<std::string> remarks;
 };

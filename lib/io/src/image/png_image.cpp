@@ -15,7 +15,7 @@ namespace bdpt::io {
 
 /// State of libpng's callbacks. They are called from C, so no exception may leave them.
 struct PngImage::State {
-    ByteView rest;  // of the file
+    ByteView rest;  // rest of the file
     std::array<char, 200> message{};
     png_structp png = nullptr;
     png_infop info = nullptr;

@@ -48,7 +48,7 @@ KtxFunctions open_ktx(const std::string& library)
     for (const std::string& file : files_to_try(library)) {
         void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
         if (module == nullptr) {
-            reason = reason.empty() ? dlerror() : reason;  // of the likelier name
+            reason = reason.empty() ? dlerror() : reason;  // the error of the likelier name
             continue;
         }
         KtxFunctions functions{};

@@ -25,9 +25,9 @@ struct FileAccess {
 
 struct OutputTarget {
     TargetKind kind = TargetKind::file;
-    std::filesystem::path path;          ///< of a file or pipe, with links followed
+    std::filesystem::path path;          ///< path of a file or pipe, with links followed
     int descriptor = -1;                 ///< for kind `descriptor`; to be closed
-    std::optional<FileAccess> access{};  ///< of the existing regular file
+    std::optional<FileAccess> access{};  ///< access rights of the existing regular file
 };
 
 /// Finds the target of an output: "-" is the standard output, and "/dev/fd/N" the file behind

@@ -27,7 +27,7 @@ namespace {
 
 using Text = std::vector<std::pair<std::string, std::string>>;
 
-/// Uncompressed UTF-8 entries that point into `text`.
+/// Returns uncompressed UTF-8 entries that point into `text`.
 std::vector<png_text> to_png_text(Text& text)
 {
     std::vector<png_text> result;

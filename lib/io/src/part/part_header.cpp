@@ -22,7 +22,7 @@ using nlohmann::ordered_json;
 
 constexpr int format = 1;
 constexpr int max_side = 1 << 16;       // [pixels]
-constexpr int max_vertices = 4096 + 1;  // of a strategy, on one side
+constexpr int max_vertices = 4096 + 1;  // maximum of a strategy, on one side
 constexpr double max_seconds = 1e12;    // render time, summed over all machines
 
 SampleSet read_samples(const JsonValue& json)

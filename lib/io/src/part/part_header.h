@@ -20,7 +20,7 @@ struct PartHeader {
     FilmLayout layout;
     AovSet aovs;
     PixelCounts counts = PixelCounts::equal;
-    IdNames names;    ///< of the AOVs that are images of ids
+    IdNames names;    ///< names in the AOVs that are images of ids
     IdRanks ranks{};  ///< ranks that the file has planes for
     std::vector<Strategy> strategies;
     FilmTotals totals;

@@ -6,7 +6,7 @@
 namespace bdpt::io {
 namespace {
 
-constexpr int words_of_sum = 4;  // of 32 bits
+constexpr int words_of_sum = 4;  // 32-bit words
 static_assert(sizeof(ExactSum::Words) == words_of_sum * sizeof(std::uint32_t));
 
 /// Returns "object.0", ..., a plane for each rank of each kind.

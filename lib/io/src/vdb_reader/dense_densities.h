@@ -15,7 +15,7 @@ namespace bdpt::vdb {
 /// than `max_bytes`.
 [[nodiscard]] io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t max_bytes);
 
-/// Return the size of all densities, and of those that are in memory at a time [bytes].
+/// Returns the size of all densities, or of those that are in memory at a time [bytes].
 [[nodiscard]] std::uint64_t density_bytes(const io::VdbReply& header);
 [[nodiscard]] std::uint64_t slab_bytes(const io::VdbReply& header);
 

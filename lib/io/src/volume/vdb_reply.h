@@ -26,7 +26,7 @@ struct VdbReply {
     std::array<std::uint32_t, 3> size{};  ///< voxels along x, y, z
     /// Affine, from voxel indices, column-major.
     std::array<double, 16> world_from_index{};
-    std::array<char, 256> name{};  ///< of the grid; ends with a zero byte
+    std::array<char, 256> name{};  ///< name of the grid; ends with a zero byte
 };
 
 }  // namespace bdpt::io

@@ -13,8 +13,8 @@ namespace bdpt::io {
 /// Input of a denoiser.
 struct NoisyImage {
     const Image& image;             ///< radiance [nit], not clamped; any exposure
-    const Layer* albedo = nullptr;  ///< of the same size, in [0, 1]
-    const Layer* normal = nullptr;  ///< of the same size, in [-1, 1]; requires albedo
+    const Layer* albedo = nullptr;  ///< albedo layer of the same size, in [0, 1]
+    const Layer* normal = nullptr;  ///< normals of the same size, in [-1, 1]; require albedo
 };
 
 /// Intel Open Image Denoise 2 [Afra 2019, openimagedenoise.org], from a library that is opened at

@@ -18,7 +18,7 @@ using SrgbColor = std::array<std::uint8_t, 3>;
 struct DisplayOptions {
     float exposure = 0.0f;  ///< pixels are multiplied by 2^exposure [EV]
     ToneCurve curve = ToneCurve::filmic;
-    TexelType type = TexelType::unorm8;  ///< of the result: unorm8 or unorm16
+    TexelType type = TexelType::unorm8;  ///< type of the result: unorm8 or unorm16
     /// Background where the image covers nothing; none: the result has alpha.
     std::optional<SrgbColor> background{};
     /// Image shown instead of the background, of the same size: display-linear, from black 0 to

@@ -19,7 +19,7 @@ namespace bdpt::io {
 struct PartNotes {
     /// Samples requested from its render, as far as that was limited.
     SampleSet goal;
-    ImageMetadata metadata;  ///< of images made from it
+    ImageMetadata metadata;  ///< metadata of images made from the part
     /// Words of a command that renders such samples, to which ranges and files are to be added; may
     /// be empty.
     std::vector<std::string> command{};
@@ -31,7 +31,7 @@ struct PartInfo {
     Identity identity;
     SampleSet samples;
     PartNotes notes;
-    ContentHash hash;  ///< of the whole file
+    ContentHash hash;  ///< hash of the whole file
 };
 
 /// Treatment of an existing file of that name.

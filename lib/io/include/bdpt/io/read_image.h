@@ -16,8 +16,8 @@ namespace bdpt::io {
 
 /// The layer to read from an image file, and the limits.
 struct ImageOptions {
-    /// "albedo" reads albedo.R, albedo.G, albedo.B; X, Y, Z serve as well, and a single channel
-    /// gives grey. None: the image itself, or else the first layer that has colours.
+    /// Name of the layer: "albedo" reads albedo.R, albedo.G, albedo.B; X, Y, Z serve as well, and a
+    /// single channel gives grey. None: the image itself, or else the first layer that has colours.
     std::optional<std::string> layer{};
     ReadLimits limits{};
 };

@@ -38,7 +38,8 @@ struct Span {
     std::uint64_t element_size = 0;
 };
 
-/// `place` is the subject of the message, `view` the index of the bufferView.
+/// Checks that a run lies within a view. `place` is the subject of the message, `view` the index of
+/// the bufferView.
 void check_span(const JsonPlace& place, const JsonPlace& views, std::uint64_t view,
                 const Span& span)
 {

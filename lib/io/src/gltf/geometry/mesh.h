@@ -26,7 +26,7 @@ struct PrimitiveId {
 
 /// Deformation of a mesh before it is placed.
 struct Deformation {
-    std::vector<double> weights;           ///< of the morph targets; the rest are 0
+    std::vector<double> weights;           ///< weights of the morph targets; the rest are 0
     std::span<const glm::dmat4> joints{};  ///< world from bind pose; empty: no skin
 };
 

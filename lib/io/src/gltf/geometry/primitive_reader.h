@@ -85,7 +85,7 @@ private:
     const tinygltf::Model* model_;
     const tinygltf::Primitive* source_;
     PrimitiveId id_;
-    std::string name_;  // of the mesh
+    std::string name_;  // name of the mesh
 };
 
 }  // namespace bdpt::io

@@ -120,7 +120,7 @@ std::vector<std::size_t> first_level(const tinygltf::Value& light)
     return images;
 }
 
-/// `images`: indices of the six sides.
+/// Reads a cube. `images`: indices of the six sides.
 CubeMap read_cube(const tinygltf::Model& model, const std::vector<std::size_t>& images,
                   const std::string& place, LoadContext& context)
 {

@@ -49,7 +49,7 @@ struct ImageTable::Job {
     Bytes own_bytes{};  // if it is not in a buffer
     ByteView bytes{};
     std::optional<EncodedImage> encoded{};
-    std::optional<ContentHash> hash{};  // of the bytes, if there is a cache
+    std::optional<ContentHash> hash{};  // hash of the bytes, if there is a cache
     DecodedImage decoded{};
     std::exception_ptr failure{};
     bool fatal = false;  // true: the failure ends the loading

@@ -53,14 +53,14 @@ private:
     std::vector<TexelImage>& images_;
     LoadContext& context_;
     struct SaidEncoding {
-        std::size_t index;  // of the image in the document
+        std::size_t index;  // index of the image in the document
         ColorEncoding encoding;
     };
     std::map<std::size_t, std::optional<ImageId>> known_;
     std::map<ImageId, SaidEncoding> encodings_;  // encodings stated by images
     std::uint64_t total_bytes_ = 0;
-    std::uint64_t packed_bytes_ = 0;      // of the batch
-    std::uint64_t max_packed_bytes_ = 0;  // of any batch so far
+    std::uint64_t packed_bytes_ = 0;      // size of the current batch
+    std::uint64_t max_packed_bytes_ = 0;  // maximum over batches so far
 };
 
 }  // namespace bdpt::io

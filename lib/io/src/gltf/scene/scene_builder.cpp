@@ -161,7 +161,7 @@ private:
         return deforms ? worlds : thinned(std::span<const glm::dmat4>(worlds));
     }
 
-    /// `worlds`: one transform for each time, or one for all.
+    /// Adds an instance. `worlds`: one transform for each time, or one for all.
     void add_instance(std::size_t node, PrimitiveId id, MeshId mesh,
                       const std::vector<glm::dmat4>& worlds)
     {

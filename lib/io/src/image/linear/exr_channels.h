@@ -10,7 +10,7 @@ namespace bdpt::io {
 
 /// Names of the channels of one layer that together are colours.
 struct ColorChannels {
-    std::string prefix;                ///< of the layer, with a dot, or empty
+    std::string prefix;                ///< prefix of the layer, with a dot, or empty
     std::array<std::string, 3> names;  ///< in full; grey: only the first
     bool chroma = false;               ///< RY and BY in addition to Y
 

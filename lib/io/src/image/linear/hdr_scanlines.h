@@ -33,7 +33,7 @@ private:
     [[noreturn]] void fail(const char* what) const;
 
     ByteView rest_;
-    std::size_t number_ = 0;  // of the scanline, from 1
+    std::size_t number_ = 0;  // number of the scanline, from 1
 };
 
 }  // namespace bdpt::io

@@ -51,8 +51,8 @@ struct SceneResult {
     std::filesystem::path reference_file;
     std::vector<BenchGoals> goals;
     std::vector<BenchRun> runs;        ///< by seed, then in the order of the integrators
-    std::vector<ErrorFloor> floors{};  ///< of the integrators that cannot find all light
-    std::vector<TimeSplit> splits{};   ///< of the integrators whose time was measured
+    std::vector<ErrorFloor> floors{};  ///< floors of the integrators that cannot find all light
+    std::vector<TimeSplit> splits{};   ///< splits of the integrators whose time was measured
     bool complete = false;             ///< true if all runs were made
 };
 

@@ -28,7 +28,7 @@ struct BenchRun {
     RenderStats stats{};                         ///< over all samples
     std::uint64_t invalid = 0;                   ///< counts of `FilmDefects`
     std::uint64_t saturated = 0;                 ///< counts of `FilmDefects`
-    std::optional<std::uint64_t> peak_memory{};  ///< of the process during the run [bytes]
+    std::optional<std::uint64_t> peak_memory{};  ///< peak of the process during the run [bytes]
 };
 
 /// Numbers of samples per pixel of an integrator in the two comparisons.

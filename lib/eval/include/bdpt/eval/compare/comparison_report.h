@@ -63,7 +63,7 @@ struct TileBias {
     double bias = 0.0;
     double standard_error = 0.0;
     double t = 0.0;  ///< bias / standard_error
-    double p = 1.0;  ///< of Student's t-test, Holm-corrected for all tiles and channels
+    double p = 1.0;  ///< p of Student's t-test, Holm-corrected for all tiles and channels
 };
 
 /// Results of the comparison of images with a reference.

@@ -19,10 +19,12 @@ enum class EpsilonUnit : std::uint8_t {
 struct MetricOptions {
     double epsilon = 0.01;  ///< > 0; keeps relative errors of black pixels finite
     EpsilonUnit epsilon_unit = EpsilonUnit::absolute;
-    std::optional<double> peak{};  ///< of PSNR, > 0; none: the reference's greatest component
-    double pixels_per_degree = default_pixels_per_degree;  ///< of FLIP, in [1, 1000]
-    std::optional<FlipExposures> exposures{};  ///< of HDR-FLIP; none: `flip_exposures(reference)`
-    std::optional<float> exposure{};  ///< of LDR-FLIP [EV]; none: io::automatic_exposure(reference)
+    std::optional<double> peak{};  ///< peak of PSNR, > 0; none: the reference's greatest component
+    double pixels_per_degree = default_pixels_per_degree;  ///< resolution for FLIP, in [1, 1000]
+    std::optional<FlipExposures>
+        exposures{};  ///< exposures of HDR-FLIP; none: `flip_exposures(reference)`
+    std::optional<float>
+        exposure{};  ///< exposure of LDR-FLIP [EV]; none: io::automatic_exposure(reference)
 };
 
 /// The options with all values that depend on the reference filled in: the same for every image

@@ -11,8 +11,8 @@ namespace bdpt::eval {
 /// Samples per pixel of a batch. bdpt and mis take most of the time, as the sharpness of the
 /// verdict depends on them: mis alone checks light that only one strategy of bdpt can find.
 constexpr int bdpt_samples = 32;
-constexpr int mis_samples = 64;    ///< of mis
-constexpr int other_samples = 16;  ///< of pt, nee, lt and vcm
+constexpr int mis_samples = 64;    ///< samples of mis
+constexpr int other_samples = 16;  ///< samples of pt, nee, lt and vcm
 /// Samples of pt for paths of one edge: a single ray each, and visible area lights are often small.
 constexpr int direct_samples = 64;
 

@@ -9,16 +9,16 @@
 
 namespace bdpt {
 
-/// The triangles of a scene, each of which is asked whether a ray meets it: what a BVH is held
-/// against. Spheres, alpha and motion are ignored.
+/// All triangles of a scene, each of which is tested against each ray: the baseline of a BVH.
+/// Spheres, alpha and motion are ignored.
 class AllTriangles {
 public:
     explicit AllTriangles(const SceneDesc& scene);
 
     [[nodiscard]] std::size_t size() const { return triangles_.size(); }
 
-    /// Does the ray meet any? If it asks for the closest hit, all are tried [Moeller and Trumbore
-    /// 1997].
+    /// Tests whether the ray hits a triangle. For a closest-hit query all triangles are tested
+    /// [Moeller and Trumbore 1997].
     [[nodiscard]] bool is_hit_by(const RecordedRay& ray) const;
 
 private:
@@ -28,7 +28,7 @@ private:
         Vec3 edge2;
     };
 
-    std::vector<Triangle> triangles_;  // in the world
+    std::vector<Triangle> triangles_;  // in world space
 };
 
 }  // namespace bdpt

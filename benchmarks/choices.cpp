@@ -1,4 +1,4 @@
-// What a way to sample brings, against the plain one: error and time of whole renders, in turn.
+// Measures sampling options against the plain ones: error and time of whole renders, interleaved.
 
 #include <CLI/CLI.hpp>
 
@@ -13,7 +13,7 @@ namespace {
 
 using namespace bdpt;
 
-/// Two ways to do the same.
+/// Two options to compare.
 struct Choice {
     const char* name;
     const char* plain;

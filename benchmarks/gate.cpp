@@ -1,5 +1,5 @@
-// The gate: is bdpt as much better than mis as it is meant to be? Error at equal CPU time where
-// light is hard to find, and where it is easy.
+// The gate: tests whether bdpt is as much better than mis as required. Compares the error at equal
+// CPU time in scenes where light is hard to find, and where it is easy.
 
 #include <CLI/CLI.hpp>
 
@@ -13,7 +13,7 @@ namespace {
 
 using namespace bdpt;
 
-/// A scene and how many times more error `mis` must have at least.
+/// A scene and the least required ratio of the error of `mis` to that of bdpt.
 struct Demand {
     const char* file;
     double min_ratio;
@@ -28,7 +28,7 @@ struct Settings {
     eval::EqualTimeOptions contest;
 };
 
-/// Does the scene meet the demand?
+/// Tests whether the scene meets the demand.
 bool measure(const Demand& demand, const Settings& settings)
 {
     const Subject subject = load_subject(settings.folder + "/" + demand.file, settings.subject);

@@ -1,5 +1,5 @@
-// What loading a file costs beyond its BVH: from the file to a scene that is ready to trace,
-// against nothing but Embree's commit of the same triangles, in turn.
+// Measures the cost of loading a file beyond building its BVH: from the file to a scene that is
+// ready to trace, against Embree's commit of the same triangles alone, interleaved.
 
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene.h>
@@ -27,9 +27,9 @@ struct Settings {
     int rounds = 5;
 };
 
-/// Triangles in the world, as Embree reads them.
+/// Triangles in world space, as Embree reads them.
 struct BareMesh {
-    std::vector<Vec3> positions;  // and one more, for Embree reads 16 bytes of each
+    std::vector<Vec3> positions;  // and one more, as Embree reads 16 bytes of each
     const std::vector<UVec3>* triangles = nullptr;
 };
 
@@ -48,7 +48,7 @@ std::vector<BareMesh> bare_meshes(const SceneDesc& desc)
     return meshes;
 }
 
-/// With the flags and the quality of bdpt's own scenes.
+/// Commits the meshes with the flags and the quality of bdpt's own scenes.
 void commit(const std::vector<BareMesh>& meshes)
 {
     RTCDevice device = rtcNewDevice(nullptr);

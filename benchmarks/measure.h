@@ -9,14 +9,14 @@
 
 namespace bdpt {
 
-/// Of at least one number.
+/// Returns the median of at least one number.
 [[nodiscard]] inline double median(std::vector<double> values)
 {
     return eval::spread(std::move(values)).median;
 }
 
-/// Results of `run(variant, round)` for each variant, by round. The variants take turns, A B C A B
-/// C ..., so that a machine that gets slower or busier does so for all.
+/// Returns the results of `run(variant, round)` for each variant, by round. Runs are interleaved (A
+/// B C A B C ...), so that a machine that slows down does so for all variants.
 template <typename Run>
 [[nodiscard]] auto in_turn(std::size_t variants, int rounds, const Run& run)
 {
@@ -30,7 +30,7 @@ template <typename Run>
     return results;
 }
 
-/// The median over rounds of how many times more `a` is than `b` in the same round.
+/// Returns the median over rounds of the ratio of `a` to `b` in the same round.
 [[nodiscard]] inline double median_ratio(const std::vector<double>& a, const std::vector<double>& b)
 {
     std::vector<double> ratios;

@@ -11,17 +11,16 @@
 namespace bdpt {
 namespace {
 
-// Embree's functions are called without an object of ours, so the recorder in charge has to be
-// found from nowhere.
+// Embree's functions are called without an object of ours, so the active recorder has to be global.
 std::atomic<RayRecorder*> active{nullptr};
 
-/// Embree's own function of that name.
+/// Returns Embree's own function of that name.
 template <typename Function>
 Function* original(const char* name)
 {
     void* found = dlsym(RTLD_NEXT, name);
     if (found == nullptr) {
-        std::abort();  // no Embree behind us: there is nothing to trace rays with
+        std::abort();  // no Embree behind this library: there is nothing to trace rays with
     }
     return reinterpret_cast<Function*>(found);
 }
@@ -37,7 +36,7 @@ RecordedRay recorded(const RTCRay& ray, SegmentKey segment, RayQuery query)
             .query = query};
 }
 
-/// Calls `trace`, and writes the ray and whether it hit into the log if there is one.
+/// Calls `trace`, and adds the ray and whether it hit to the log, if there is one.
 template <typename Trace, typename IsHit>
 void trace_and_record(RTCScene scene, const RTCRay& ray, SegmentKey segment, RayQuery query,
                       const Trace& trace, const IsHit& is_hit)
@@ -91,7 +90,7 @@ std::vector<std::unique_ptr<RayLog>> RayRecorder::take_logs()
 
 }  // namespace bdpt
 
-// Embree's functions, as libraries find them.
+// Embree's functions, as found by libraries.
 extern "C" {
 
 #if BDPT_EMBREE_MAJOR >= 4

@@ -12,10 +12,10 @@
 
 namespace bdpt {
 
-/// What a ray asked Embree for.
+/// Kind of a query to Embree.
 enum class RayQuery : std::uint8_t { closest_hit, any_hit };
 
-/// A ray as Embree got it.
+/// A ray as passed to Embree.
 struct RecordedRay {
     Vec3 origin{0.0f};
     float t_near = 0.0f;
@@ -28,14 +28,14 @@ struct RecordedRay {
 
 /// The rays of one thread, in order.
 struct RayLog {
-    void* scene = nullptr;  ///< the RTCScene that all were traced in
+    void* scene = nullptr;  ///< the RTCScene that all rays were traced in
     std::vector<RecordedRay> rays;
-    std::uint64_t hits = 0;  ///< that they had
+    std::uint64_t hits = 0;  ///< number of rays that hit
 };
 
-/// While one exists, every single-ray query to Embree that any library of this process makes is
-/// written down. The executable's own rtcIntersect1 and rtcOccluded1, which come before Embree's
-/// when libraries are linked, see to that; the library needs no hook. At most one at a time.
+/// Records every single-ray query to Embree by any library of this process during its lifetime. The
+/// executable defines its own rtcIntersect1 and rtcOccluded1, which precede Embree's when libraries
+/// are linked; the library needs no hook. At most one recorder exists at a time.
 class RayRecorder {
 public:
     RayRecorder();
@@ -43,9 +43,10 @@ public:
     RayRecorder(const RayRecorder&) = delete;
     RayRecorder& operator=(const RayRecorder&) = delete;
 
-    /// That of the calling thread.
+    /// Returns the log of the calling thread.
     [[nodiscard]] RayLog& log();
-    /// One for each thread that traced rays; ends the recording. Not while rays are traced.
+    /// Returns one log per thread that traced rays, and ends the recording. Not called while rays
+    /// are traced.
     [[nodiscard]] std::vector<std::unique_ptr<RayLog>> take_logs();
 
 private:

@@ -1,6 +1,7 @@
-// How much of a full bdpt render is rays: its rays per second against those of the very same rays
-// when nothing but Embree works on them, by single-ray calls in the same scene and order. In turn.
-// And what the BVH is worth: some of these rays when every triangle is tried.
+// Measures which part of a full bdpt render is ray tracing: compares its rays per second with those
+// of replaying the same rays by Embree alone, by single-ray calls in the same scene and order,
+// interleaved. Also measures the benefit of the BVH: some of these rays are tested against every
+// triangle.
 
 #include <bdpt/io/gltf.h>
 
@@ -61,12 +62,12 @@ void print_json(const Subject& subject, const RayThroughput& result,
     std::printf("%s\n", line.dump().c_str());
 }
 
-/// False when the replay does not do what the render did.
+/// Returns false if the replay differs from the render.
 bool measure(const std::string& file, const Settings& settings)
 {
     const Subject subject = load_subject(file, settings.subject);
     RenderOptions options = subject.options;
-    options.integrator = IntegratorKind::bdpt;  // auto traces rays of its own before
+    options.integrator = IntegratorKind::bdpt;  // auto would trace rays of its own before
     options.sampling.samples.end = settings.samples;
     const RayLogs logs = record_rays(subject, options);
     const RayThroughput result = measure_throughput(subject, options, logs, settings.rounds);
@@ -79,7 +80,7 @@ bool measure(const std::string& file, const Settings& settings)
     } else {
         print(subject, options, result, loop);
     }
-    constexpr double tolerance = 0.01;  // rays that meet an edge or start beside a triangle
+    constexpr double tolerance = 0.01;  // for rays that hit an edge or start beside a triangle
     if (!result.equal || (loop && loop->different > tolerance)) {
         std::fprintf(stderr, "error: the replay did not trace what the render did\n");
         return false;

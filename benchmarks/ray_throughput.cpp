@@ -27,7 +27,7 @@ RTCRay to_embree(const RecordedRay& ray)
     return out;
 }
 
-/// As callbacks get to know it.
+/// Converts a ray to the form that callbacks receive.
 Ray as_ray(const RecordedRay& ray)
 {
     return {.origin = ray.origin,
@@ -52,7 +52,7 @@ bool hits(RTCScene scene, const RecordedRay& ray)
     return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
-/// Traces all rays; how many of them hit.
+/// Traces all rays; returns the number of hits.
 std::uint64_t replay(const RayLogs& logs)
 {
     std::uint64_t count = 0;

@@ -1,4 +1,4 @@
-// Nanoseconds for what a path vertex takes from the sampler: a set of three numbers.
+// Measures the nanoseconds that the sampler takes per path vertex: a set of three numbers.
 
 #include "math/sampler.h"
 
@@ -8,7 +8,8 @@ namespace {
 
 using namespace bdpt;
 
-/// As a path does it: the next vertex needs the numbers of the last one, so nothing overlaps.
+/// Measures the latency as in a path: each vertex needs the numbers of the last one, so nothing
+/// overlaps.
 void walk_latency(benchmark::State& state, SamplerKind kind)
 {
     constexpr std::uint32_t vertices = 8;
@@ -31,7 +32,7 @@ void walk_latency(benchmark::State& state, SamplerKind kind)
     state.SetItemsProcessed(numbers);
 }
 
-/// The same without waiting, as when other work is in between.
+/// Measures the throughput without dependencies, as when other work is in between.
 void walk_throughput(benchmark::State& state, SamplerKind kind)
 {
     constexpr std::uint32_t vertices = 8;

@@ -1,4 +1,5 @@
-// What edits of a scene of many triangles cost, against building it anew: wall-clock time.
+// Measures the cost of edits of a scene of many triangles, against building it anew: wall-clock
+// time.
 
 #include <bdpt/default_lights.h>
 #include <bdpt/framing.h>
@@ -20,7 +21,7 @@ namespace {
 
 using namespace bdpt;
 
-/// Waves of 2 * side * side triangles.
+/// Returns waves of 2 * side * side triangles.
 MeshDesc waves(unsigned side)
 {
     MeshDesc mesh;
@@ -48,7 +49,7 @@ InstanceDesc placed(const char* name, std::uint32_t mesh, std::uint32_t material
     return instance;
 }
 
-/// Waves by themselves, and a quarter of as many twice, under a sky and a lamp.
+/// Returns waves, and a quarter of their triangles instanced twice, under a sky and a point light.
 SceneDesc large_scene(unsigned side)
 {
     SceneDesc desc;

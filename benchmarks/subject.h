@@ -15,12 +15,12 @@ class App;
 
 namespace bdpt {
 
-/// Which scene is rendered, and how: what the benchmarks of renders have in common.
+/// Scene and render settings shared by the benchmarks of renders.
 struct SubjectSettings {
-    std::string environment{};              ///< file; empty: only what the scene brings
+    std::string environment{};              ///< file; empty: only the scene's own lights
     int size = 128;                         ///< width and height [pixels]
-    int max_depth = 8;                      ///< longest path in edges
-    int threads = 1;                        ///< 0: one for each hardware thread
+    int max_depth = 8;                      ///< maximum path length [edges]
+    int threads = 1;                        ///< 0: one per hardware thread
     std::int64_t reference_samples = 2048;  ///< per pixel
 };
 
@@ -30,30 +30,30 @@ void add_options(CLI::App& app, SubjectSettings& settings);
 void add_reference_option(CLI::App& app, SubjectSettings& settings);
 /// Adds --time and --rounds.
 void add_options(CLI::App& app, eval::EqualTimeOptions& contest);
-/// Adds --spp and --rounds, of contests at equal samples.
+/// Adds --spp and --rounds, for comparisons at equal samples.
 void add_sample_options(CLI::App& app, eval::EqualTimeOptions& contest);
 
-/// A scene and the camera that it is seen by.
+/// A scene and its camera.
 struct Subject {
-    std::string name;  ///< of the file, without folder and ending
+    std::string name;  ///< name of the file, without folder and extension
     Scene scene;
     CameraDesc camera;
-    RenderOptions options;  ///< of bdpt
+    RenderOptions options;  ///< options for bdpt
 
-    /// The same for the library, as long as this object lives.
+    /// Returns the scene for the library; valid during the lifetime of this object.
     [[nodiscard]] eval::BenchScene bench_scene() const;
 };
 
-/// The scene of a glTF file as its first camera sees it, or framed if it has none. Throws `Error`.
+/// Loads the scene of a glTF file with its first camera, or framed if it has none. Throws `Error`.
 [[nodiscard]] Subject load_subject(const std::string& file, const SubjectSettings& settings);
 
-/// Renders it by `eval::render_reference`, and says so on stdout.
+/// Renders a reference by `eval::render_reference`, and says so on stdout.
 [[nodiscard]] eval::Reference make_reference(const Subject& subject, std::int64_t samples);
 
-/// On stderr.
+/// Prints an error on stderr.
 void print_error(const std::exception& error);
 
-/// What `body` returns; 1, with a message, when it throws. The rest of main().
+/// Returns the result of `body`; 1, with a message, if it throws. For main().
 template <typename Body>
 [[nodiscard]] int report_errors(const Body& body)
 {

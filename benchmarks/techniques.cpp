@@ -1,5 +1,5 @@
-// What parts of bdpt cost and bring: splats, weights, Russian roulette, more light paths. Each is
-// switched for itself, and compared with bdpt as it is by default.
+// Measures costs and benefits of parts of bdpt: splats, weights, Russian roulette, more light
+// paths. Each is switched separately, and compared with the default bdpt.
 
 #include <CLI/CLI.hpp>
 
@@ -19,7 +19,7 @@ struct Settings {
     eval::EqualTimeOptions contest;
 };
 
-/// All strategies with t <= 1: light paths that are seen through the lens.
+/// Returns all strategies with t <= 1: light paths seen through the lens.
 std::vector<Strategy> splats(const RenderOptions& options)
 {
     std::vector<Strategy> result;
@@ -49,7 +49,8 @@ std::vector<eval::Variant> variants_of(const RenderOptions& defaults)
     return variants;
 }
 
-/// In proportion to the relMSE of a single sample, if it falls with the inverse of their number.
+/// Returns a value proportional to the relMSE of a single sample, if relMSE falls with the inverse
+/// of their number.
 double sample_error(const eval::Score& score)
 {
     return score.error.median / score.sample_seconds;

@@ -1,5 +1,5 @@
-// What smaller copies of textures bring: time, memory and error of renders of a room whose walls
-// have large textures, against lookups in the textures as they are.
+// Measures the effect of mipmaps: time, memory and error of renders of a room whose walls have
+// large textures, against lookups in the full-resolution textures.
 
 #include <bdpt/io/environment.h>
 #include <bdpt/io/gltf.h>
@@ -28,7 +28,7 @@ struct Settings {
     eval::EqualTimeOptions contest;
 };
 
-/// Noise over stripes, as of plaster over bricks.
+/// Returns noise over stripes, such as plaster over bricks.
 TexelImage pattern(int size, unsigned seed)
 {
     TexelImage image{.width = size, .height = size, .bytes = {}, .channels = 3};
@@ -59,7 +59,7 @@ void add_quad(SceneDesc& scene, const std::array<Vec3, 4>& corners, const Materi
     scene.instances.push_back(std::move(instance));
 }
 
-/// A room of 2 m a side with colours and roughness from textures on each of its walls.
+/// Returns a room of 2 m a side with textures of colour and roughness on each of its walls.
 SceneDesc room(int size)
 {
     SceneDesc scene;
@@ -107,7 +107,7 @@ Subject make_subject(std::string name, SceneDesc desc, const CameraDesc& camera,
     return {std::move(name), Scene(std::move(desc)), camera, options};
 }
 
-/// Resident memory of this process [MB].
+/// Returns the resident memory of this process [MB].
 double memory()
 {
     std::ifstream status("/proc/self/status");

@@ -1,5 +1,5 @@
-// Lookups of textures: how many a second, in how much memory, as they are, with huge pages, in
-// smaller copies, and by OpenImageIO's texture system from a file.
+// Measures texture lookups per second and memory: of plain textures, with huge pages, of mipmaps,
+// and by OpenImageIO's texture system from a file.
 
 #include "texture/mip_maps.h"
 #include "texture/texture.h"
@@ -27,13 +27,13 @@ using namespace bdpt;
 
 struct Settings {
     std::vector<int> sizes{1024, 4096, 8192};
-    int pixels = 1024;        // of the image, a side
-    int lookups = 1'000'000;  // of each run
+    int pixels = 1024;        // side of the image
+    int lookups = 1'000'000;  // per run
     int rounds = 3;
-    int cache_mb = 256;  // of the texture system
+    int cache_mb = 256;  // cache of the texture system
 };
 
-/// Stripes of several widths with noise: fine detail, and coarse.
+/// Returns stripes of several widths with noise: fine and coarse detail.
 TexelImage pattern(int size)
 {
     TexelImage image{.width = size, .height = size, .bytes = {}, .channels = 3};
@@ -52,7 +52,7 @@ TexelImage pattern(int size)
     return image;
 }
 
-/// The same with the operating system's large pages, as far as it has some.
+/// Copies the image to the operating system's huge pages, as far as available.
 TexelImage with_huge_pages(const TexelImage& image)
 {
     TexelImage copy{.width = image.width,
@@ -71,8 +71,8 @@ TexelImage with_huge_pages(const TexelImage& image)
     return copy;
 }
 
-/// Where lookups go: along the rows of the image, as rays of neighbouring pixels do where they
-/// first meet the wall; or anywhere, as after a bounce and from light.
+/// Returns the places of lookups: along the rows of the image, as of first hits on the wall by rays
+/// of neighbouring pixels; or anywhere, as after a bounce and from light.
 std::vector<Vec2> places(const Settings& settings, bool anywhere)
 {
     std::vector<Vec2> result;
@@ -84,14 +84,14 @@ std::vector<Vec2> places(const Settings& settings, bool anywhere)
             result.emplace_back(uniform(random), uniform(random));
             continue;
         }
-        const int pixel = i / 4;  // four samples each
+        const int pixel = i / 4;  // four samples per pixel
         const Vec2 corner(pixel % settings.pixels, pixel / settings.pixels % settings.pixels);
         result.push_back((corner + Vec2(uniform(random), uniform(random))) / side);
     }
     return result;
 }
 
-/// Millions a second of CPU time: the best of the rounds.
+/// Returns millions of lookups per second of CPU time: the best of the rounds.
 double rate(const Settings& settings, const std::vector<Vec2>& where,
             const std::function<float(Vec2)>& look)
 {

@@ -1,4 +1,4 @@
-// How much faster several threads are than one: the same render with either, in turn.
+// Measures the speed-up of several threads over one: the same render with either, interleaved.
 
 #include <CLI/CLI.hpp>
 

@@ -44,8 +44,8 @@ int run(const std::vector<std::string>& given)
     }
 }
 
-/// `work`, by as many threads as the quota of a container lets run at a time, and the system lets
-/// start: oneTBB knows of the processors that the process may run on, and not of such limits.
+/// Runs `work` with as many threads as the quota of a container allows, and as the system lets
+/// start: oneTBB knows only the processors that the process may run on, not such limits.
 template <typename Work>
 int within_quota(const Work& work)
 {
@@ -55,7 +55,7 @@ int within_quota(const Work& work)
     return allowed < available ? tbb::task_arena(allowed).execute(work) : work();
 }
 
-/// The exit code. Whatever goes wrong becomes a message.
+/// Runs a command and returns the exit code. All failures become messages.
 int guarded_run(const std::vector<std::string>& words, Format format)
 {
     const auto fail = [format](ErrorCode code, const char* message) {
@@ -86,7 +86,7 @@ int main(int argc, char** argv)
 {
     using namespace bdpt;
     app::guard_standard_streams();
-    // A reader of our messages who leaves must not take the image along.
+    // A closed pipe must not end the render.
     ::signal(SIGPIPE, SIG_IGN);
     const std::span<char*> words(argv, static_cast<std::size_t>(argc));
     const bool json = std::any_of(words.begin(), words.end(), [](const char* word) {

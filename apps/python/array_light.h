@@ -10,7 +10,7 @@ namespace bdpt::python {
 using ArrayLight =
     std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc, EnvironmentLightDesc>;
 
-/// The same for scenes, which know lights of files, too.
+/// Converts lights to those of scenes, which also have lights of files.
 [[nodiscard]] inline std::vector<LightDesc> to_lights(const std::vector<ArrayLight>& lights)
 {
     std::vector<LightDesc> result;

@@ -8,13 +8,13 @@
 
 namespace bdpt::python {
 
-/// A material, and its textures by the slot that they are for.
+/// A material with its textures by slot.
 struct ArrayMaterial {
     MaterialDesc desc;
     std::map<std::string, TexelImage> textures;
 };
 
-/// The material for `scene`, whose images get its textures.
+/// Returns the material for `scene`, to whose images its textures are added.
 [[nodiscard]] MaterialDesc with_textures(const ArrayMaterial& material, SceneDesc& scene);
 
 }  // namespace bdpt::python

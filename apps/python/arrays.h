@@ -19,13 +19,13 @@ namespace bdpt::python {
 
 namespace nb = nanobind;
 
-/// An array of NumPy that owns its values.
+/// A NumPy array that owns its values.
 using FloatArray = nb::ndarray<nb::numpy, float>;
-/// What NumPy can make of an argument: floats in a row.
+/// Contiguous floats, as NumPy converts an argument.
 template <typename... Shape>
 using FloatInput = nb::ndarray<const float, nb::c_contig, nb::device::cpu, Shape...>;
-/// An `Array`, or whatever NumPy can make one of: other types of numbers, classes derived from its
-/// own, lists, renders.
+/// An `Array`, or anything that NumPy can convert to one: other types of numbers, derived classes,
+/// lists, renders.
 template <typename Array>
 struct ArrayLike {
     Array array;
@@ -34,7 +34,7 @@ template <typename... Shape>
 using FloatsLike = ArrayLike<FloatInput<Shape...>>;
 using ImageInput = FloatsLike<nb::shape<-1, -1, 3>>;
 
-/// `values`, given away, as an array of that shape: nothing is copied.
+/// Moves `values` into an array of that shape, without copying.
 template <typename Value>
 [[nodiscard]] FloatArray to_array(std::vector<Value> values,
                                   std::initializer_list<std::size_t> shape)
@@ -60,7 +60,7 @@ template <typename Value>
     return to_array(std::move(layer.values), {height, width, channels});
 }
 
-/// A copy, as an array (height, width, channels) of uint8, uint16 or float32.
+/// Copies texels to an array (height, width, channels) of uint8, uint16 or float32.
 [[nodiscard]] inline nb::object to_array(const TexelImage& texels)
 {
     const nb::dlpack::dtype type = texels.type == TexelType::unorm8    ? nb::dtype<std::uint8_t>()
@@ -77,7 +77,8 @@ template <typename Value>
         owner, {}, type));
 }
 
-/// `count` pixels as a side of an image. Throws `Error` (usage) for more than an `int` counts.
+/// Converts a number of pixels to a side of an image. Throws `Error` (usage) if it exceeds an
+/// `int`.
 [[nodiscard]] inline int to_side(std::size_t count)
 {
     if (!std::in_range<int>(count)) {
@@ -94,7 +95,7 @@ template <typename Value>
             std::vector<Rgb>(pixels, pixels + array.shape(0) * array.shape(1))};
 }
 
-/// Rows of `Value::length()` numbers.
+/// Converts rows of `Value::length()` numbers to vectors.
 template <typename Value, typename Array>
 [[nodiscard]] std::vector<Value> to_vectors(const Array& array)
 {
@@ -123,7 +124,7 @@ struct type_caster<bdpt::python::ArrayLike<Array>> {
         try {
             const object array = module_::import_("numpy").attr("asarray")(source);
             const auto kind = nanobind::cast<std::string>(array.attr("dtype").attr("kind"));
-            // Not None, texts or complex numbers, of which NumPy would make floats.
+            // Not None, texts or complex numbers, which NumPy would convert to floats.
             if (kind == "b" || kind == "i" || kind == "u" || kind == "f") {
                 if (caster.from_python(array, flags, cleanup)) {
                     value.array = std::move(caster.value);

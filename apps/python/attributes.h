@@ -24,7 +24,7 @@ inline Vec4 to_vec(const Four& values)
     return {values[0], values[1], values[2], values[3]};
 }
 
-/// Keyword arguments set the attributes of that name.
+/// Constructs an object and sets the attributes named by keyword arguments.
 template <typename T>
 void construct(nanobind::pointer_and_handle<T> self, const nanobind::kwargs& values)
 {
@@ -35,7 +35,7 @@ void construct(nanobind::pointer_and_handle<T> self, const nanobind::kwargs& val
     }
 }
 
-/// An attribute of three or four numbers.
+/// Defines an attribute of three or four numbers.
 template <typename T, typename Class>
 void def_vec(Class& type, const char* name, T member, const char* text)
 {

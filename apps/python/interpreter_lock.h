@@ -21,10 +21,10 @@ namespace bdpt::python {
     }
 }
 
-/// What `work` returns, which may take the interpreter's lock. While the interpreter ends, Python
-/// up to 3.13 unwinds the stack of another thread that wants the lock, and the C++ functions below
-/// end the process with an abort. The thread sleeps here instead until the process has ended, as it
-/// does in Python itself from 3.14 on.
+/// Returns the result of `work`, which may take the interpreter's lock. While the interpreter ends,
+/// Python up to 3.13 unwinds the stack of another thread that requests the lock, and the C++
+/// functions below end the process with an abort. The thread sleeps here instead until the process
+/// has ended, as it does in Python itself from 3.14 on.
 template <typename Work>
 decltype(auto) sleep_when_python_ends(Work&& work)
 {
@@ -35,8 +35,8 @@ decltype(auto) sleep_when_python_ends(Work&& work)
     }
 }
 
-/// The threads that work in C++ without the interpreter's lock. When Python ends, the process
-/// destroys what they work with (the threads of oneTBB, devices of Embree), so the end waits for
+/// Tracks the threads that work in C++ without the interpreter's lock. When Python ends, the
+/// process destroys what they use (the threads of oneTBB, devices of Embree), so the end waits for
 /// them.
 class Workers {
 public:
@@ -46,7 +46,7 @@ public:
         return workers;
     }
 
-    /// After the lock was given away.
+    /// Registers a thread. Called after releasing the lock.
     void begin()
     {
         std::unique_lock lock(mutex_);
@@ -56,7 +56,8 @@ public:
         }
         ++count_;
     }
-    /// Takes the lock by `take`, which the end waits for; when Python ends, this does not return.
+    /// Takes the lock by `take`, and unregisters the thread, which the end waits for; when Python
+    /// ends, this does not return.
     template <typename Take>
     void end(const Take& take)
     {
@@ -77,7 +78,7 @@ public:
         none_.notify_all();
     }
 
-    /// Renders that have it stop after the pass in flight when Python ends.
+    /// Returns a token that stops renders after the pass in flight when Python ends.
     [[nodiscard]] std::stop_token stop()
     {
         const std::lock_guard lock(mutex_);
@@ -85,8 +86,8 @@ public:
                                                             : python_ends_.get_token();
     }
 
-    /// Called without the interpreter's lock, when Python ends: returns when no thread works. None
-    /// begins afterwards but the caller's own.
+    /// Waits until no thread works. Called without the interpreter's lock when Python ends;
+    /// afterwards only the caller's own thread may work.
     void finish()
     {
         std::unique_lock lock(mutex_);
@@ -109,7 +110,7 @@ private:
     std::stop_source python_ends_;
 };
 
-/// Lets other threads of Python run meanwhile.
+/// Releases the interpreter's lock during its lifetime, so that other threads of Python run.
 class Unlocked {
 public:
     Unlocked() : state_(PyEval_SaveThread()) { Workers::all().begin(); }
@@ -124,7 +125,7 @@ private:
     PyThreadState* state_;
 };
 
-/// Holds the lock again, within the life of an `Unlocked`.
+/// Holds the lock again, within the lifetime of an `Unlocked`.
 class Locked {
 public:
     Locked()

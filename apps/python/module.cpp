@@ -13,7 +13,7 @@ namespace nb = nanobind;
 
 nb::object* error_type = nullptr;  // lives as long as the module
 
-/// bdpt::Error as bdpt.Error, whose `code` is the exit code of the command.
+/// Translates bdpt::Error to bdpt.Error, whose `code` is the exit code of the command.
 void translate(const std::exception_ptr& exception, void* /*payload*/)
 {
     try {
@@ -25,7 +25,7 @@ void translate(const std::exception_ptr& exception, void* /*payload*/)
     }
 }
 
-/// Called when Python ends, before it takes anything down.
+/// Waits for renders. Called when Python ends, before it destroys anything.
 void wait_for_renders()
 {
     PyThreadState* state = PyEval_SaveThread();
@@ -38,7 +38,8 @@ void wait_for_renders()
 NB_MODULE(_bdpt, module)
 {
     module.doc() = "Bidirectional path tracing.";
-    nb::set_leak_warnings(false);  // they are for developers, and daemon threads leak what they use
+    nb::set_leak_warnings(
+        false);  // they are for developers, and daemon threads leak the objects they use
     module.attr("__version__") = BDPT_VERSION;
     error_type = new nb::object(nb::steal(PyErr_NewExceptionWithDoc(
         "bdpt.Error",

@@ -24,7 +24,7 @@ namespace {
 
 namespace nb = nanobind;
 
-/// `original` with another scene, whose camera, size and options stay.
+/// Returns `original` with another scene, but its camera, size and options.
 PythonScene with_scene(const PythonScene& original, Scene scene, std::string environment_name)
 {
     const app::PreparedScene& stage = original.stage;
@@ -45,8 +45,8 @@ PythonScene with_scene(const PythonScene& original, Scene scene, std::string env
             .words = original.words};
 }
 
-/// The only material of that name. Throws `Error` (not_found), or invalid_input when there are
-/// several.
+/// Returns the index of the only material of that name. Throws `Error`: not_found, or invalid_input
+/// if there are several.
 std::size_t number_of(const PythonScene& scene, const std::string& name)
 {
     const std::vector<MaterialDesc>& materials = scene.stage.scene.description().materials;

@@ -7,19 +7,20 @@
 
 namespace bdpt::python {
 
-/// All of `file`.
+/// Reads all of `file`.
 [[nodiscard]] nanobind::bytes read_bytes(const std::filesystem::path& file);
 
 /// Creates `file`.
 void write_bytes(const std::filesystem::path& file, const nanobind::bytes& contents);
 
-/// A path as os.fspath() takes it. Raises TypeError for others.
+/// Converts a path like os.fspath(). Raises TypeError for other objects.
 [[nodiscard]] std::filesystem::path to_path(nanobind::handle value);
 
-/// What is in memory: bytes, what has their interface, or what read() gives. None: it is a path.
+/// Returns contents in memory: bytes, objects with their interface, or the result of read(). None:
+/// `value` is a path.
 [[nodiscard]] std::optional<nanobind::bytes> contents_of(nanobind::handle value);
 
-/// Is it a file that is written into by write()?
+/// Tests whether `value` is a file object with write().
 [[nodiscard]] bool is_writable_object(nanobind::handle value);
 
 }  // namespace bdpt::python

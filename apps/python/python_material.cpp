@@ -26,9 +26,9 @@ namespace nb = nanobind;
 
 using TexelArray = nb::ndarray<nb::ro, nb::c_contig, nb::device::cpu>;
 
-// Attributes are the fields of `MaterialDesc` and of its layers, from their lists.
+// Attributes are generated from the lists of fields of `MaterialDesc` and of its layers.
 
-/// How Python names a field: "sheen colour texture" is sheen_color_texture.
+/// Returns the Python name of a field: "sheen colour texture" is sheen_color_texture.
 std::string attribute_name(std::string_view field)
 {
     std::string name(field);
@@ -44,7 +44,7 @@ std::string attribute_name(std::string_view field)
     return name;
 }
 
-/// What the list of fields does not say of an attribute.
+/// Returns additional documentation of an attribute that is not in the list of fields.
 std::string_view note_on(std::string_view attribute)
 {
     static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> notes{{
@@ -239,7 +239,7 @@ void def_attribute(nb::class_<ArrayMaterial>& type, const std::string& name, con
     }
 }
 
-/// "Radiance [nit]; at least 0; default 0."
+/// Returns "Radiance [nit]; at least 0; default 0."
 template <typename Field, typename Member>
 std::string description(const Field& field, const Member& otherwise)
 {

@@ -28,14 +28,14 @@ namespace {
 
 namespace nb = nanobind;
 
-/// A mesh with its material and where it stands.
+/// A mesh with its material and placement.
 struct ArrayMesh {
     MeshDesc desc;
     std::shared_ptr<ArrayMaterial> material;
     std::vector<Mat4> transforms;
 };
 
-/// (n, 4, 4) matrices as NumPy has them, by rows.
+/// Converts (n, 4, 4) matrices of NumPy, row-major.
 std::vector<Mat4> to_matrices(const std::optional<FloatsLike<nb::shape<-1, 4, 4>>>& matrix_rows)
 {
     if (!matrix_rows) {
@@ -65,7 +65,8 @@ std::vector<UVec3> to_triangles(const IndexInput& array)
     return triangles;
 }
 
-/// Of integers of any size. NumPy would wrap those that are out of range, and cut off fractions.
+/// Converts integers of any size. NumPy would wrap those that are out of range, and truncate
+/// fractions.
 std::vector<UVec3> to_triangles(const IndexInput& array)
 {
     const nb::dlpack::dtype type = array.dtype();

@@ -46,7 +46,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Between passes: Ctrl-C, and whoever wants to know how far it is.
+/// Checks for Ctrl-C and reports the progress, between passes.
 void tell(const Progress& progress, const nb::object& listener)
 {
     const Locked lock;
@@ -59,7 +59,7 @@ void tell(const Progress& progress, const nb::object& listener)
     }
 }
 
-/// What render() sees, before any turn: what load() saw, or what its own options say.
+/// Returns the view of render() before any turn: that of load(), or that of its own options.
 app::Viewpoint first_viewpoint(const PythonScene& scene, app::RenderArguments arguments,
                                bool is_other_view)
 {
@@ -77,7 +77,7 @@ app::Viewpoint first_viewpoint(const PythonScene& scene, app::RenderArguments ar
     return viewpoint(scene.stage, arguments);
 }
 
-/// The view of a turntable that render() renders. Throws `Error` where there are several.
+/// Returns the view of a turntable that render() renders. Throws `Error` if there are several.
 app::SequenceView only_view(const app::RenderArguments& arguments)
 {
     const std::vector<app::SequenceView> views = views_of(arguments, {});
@@ -120,11 +120,11 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
     arguments.options.sampling.samples = arguments.samples;
     if (app::meters_light(arguments, scene.stage)) {
         arguments.light_exposure =
-            app::metered_exposure(scene.stage, first);  // all views of a turn have one
+            app::metered_exposure(scene.stage, first);  // shared by all views of a turn
     }
     const app::Size own_size = std::exchange(scene.stage.size, size);
     CameraDesc own_camera = std::exchange(scene.stage.camera, task.camera);
-    if (arguments.rates) {  // by a pilot or from a file, as the command finds them
+    if (arguments.rates) {  // by a pilot or from a file, as in the command
         const Unlocked unlocked;
         app::Console silent(arguments.printed.format, app::Verbosity::quiet);
         arguments = with_choice(std::move(arguments), scene.stage, silent);
@@ -173,7 +173,7 @@ std::vector<Layer> all_layers(const RenderPart& part)
     return app::layers_of(part.film, part.aovs, part.ids);
 }
 
-/// Of each kind of ids, by name.
+/// Returns the ids of each kind, by name.
 std::map<std::string, std::map<std::string, std::uint32_t>> ids_of(const Render& render)
 {
     std::map<std::string, std::map<std::string, std::uint32_t>> result;
@@ -195,7 +195,7 @@ std::map<std::string, FloatArray> layers_of(const Render& render)
     return arrays;
 }
 
-/// Calls `write` with how images of `render` are written to `files`.
+/// Calls `write` with the options for writing images of `render` to `files`.
 template <typename Write>
 void with_file_options(const Render& render, SaveArguments asked, std::span<const fs::path> files,
                        const Write& write)
@@ -228,10 +228,10 @@ void with_file_options(const Render& render, SaveArguments asked, std::span<cons
         .denoised_as = asked.denoise ? asked.denoise->as : app::DenoisedAs::image});
 }
 
-/// What save() writes into a PNG file, as an array.
+/// Returns the pixels of the PNG file of save(), as an array.
 nb::object to_srgb(const Render& render, const nb::kwargs& options)
 {
-    const std::vector<fs::path> file{"image.png"};  // which is not written
+    const std::vector<fs::path> file{"image.png"};  // never written
     nb::object array;
     with_file_options(
         render, understand_save(words_of(options, Call::save)), file,
@@ -271,7 +271,7 @@ void save_file(const Render& render, const fs::path& file, const SaveArguments& 
     });
 }
 
-/// What save_file() writes into a file of this format.
+/// Returns the bytes of the file that save_file() writes in this format.
 nb::bytes to_bytes(const Render& render, const std::string& format, const SaveArguments& asked)
 {
     const app::TemporaryFolder folder;
@@ -280,7 +280,7 @@ nb::bytes to_bytes(const Render& render, const std::string& format, const SaveAr
     return read_bytes(file);
 }
 
-/// The format that save() is told, and its other options.
+/// Splits the options of save() into the format and the rest.
 std::pair<std::optional<std::string>, nb::kwargs> split_format(const nb::kwargs& options)
 {
     static constexpr std::array known{"exr", "hdr", "png", "jpg", "webp", "part"};
@@ -394,7 +394,7 @@ void bind_render(nb::module_& module)
         .def(
             "__array__",
             [](const Render& render, const nb::object& dtype, const nb::object& copy) {
-                static_cast<void>(copy);  // it is always one
+                static_cast<void>(copy);  // it is always a copy
                 const nb::object image = nb::cast(to_array(render.part.film.develop()));
                 return dtype.is_none() ? image : image.attr("astype")(dtype);
             },

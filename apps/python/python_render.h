@@ -15,21 +15,21 @@
 
 namespace bdpt::python {
 
-/// What a render brought so far.
+/// The result of a render so far.
 struct Render {
     RenderPart part;
     io::PartNotes notes;
     std::optional<app::Backdrop> backdrop{};
     double seconds = 0.0;
-    std::vector<std::filesystem::path> inputs{};  ///< files that nothing is saved to
+    std::vector<std::filesystem::path> inputs{};  ///< files that must not be overwritten
 };
 
-/// What one call renders.
+/// Input of one call of render().
 struct Task {
     app::RenderArguments arguments;
     CameraDesc camera;
     io::ImageMetadata metadata;
-    std::optional<Scene> turned{};  ///< in place of the scene: a turntable whose light stands still
+    std::optional<Scene> turned{};  ///< replaces the scene: a turntable whose light stands still
 
     [[nodiscard]] const Scene& scene(const PythonScene& given) const
     {
@@ -37,30 +37,31 @@ struct Task {
     }
 };
 
-/// The task of render() with these options. The scene stays as it was: another size is that of one
-/// call. Throws `Error`.
+/// Prepares the task of render() with these options. The scene is unchanged: another size applies
+/// to this call only. Throws `Error`.
 [[nodiscard]] Task prepare(PythonScene& scene, const nanobind::kwargs& options);
 
-/// A render of `task` that has no samples yet.
+/// Returns a render of `task` without samples.
 [[nodiscard]] Render empty_render(const PythonScene& scene, const Task& task);
 
-/// A control that looks for Ctrl-C between passes and calls `progress`, unless that is None.
+/// Returns a control that checks for Ctrl-C between passes and calls `progress`, unless that is
+/// None.
 [[nodiscard]] RenderControl control_of(const nanobind::object& progress);
 
-/// How save() is declared: its head for `declaration`.
+/// Head of the declaration of save(), for `declaration`.
 inline constexpr const char* saving_head =
     "def save(self, file: str | os.PathLike[str] | typing.BinaryIO, *, "
     "format: typing.Literal[\"exr\", \"hdr\", \"png\", \"jpg\", \"webp\", \"part\"] | None = "
     "None";
 
-/// Writes an image or a part, to a path or to an object with write(), whose format `options` name
-/// then. Throws `Error`.
+/// Writes an image or a part, to a path or to an object with write(), for which `options` name the
+/// format. Throws `Error`.
 void save(const Render& render, const nanobind::object& file, const nanobind::kwargs& options);
 
-/// As a PNG file, for notebooks.
+/// Returns the image as a PNG file, for notebooks.
 [[nodiscard]] nanobind::bytes to_png(const Render& render);
 
-/// `Renderer`.
+/// Binds `Renderer`.
 void bind_renderer(nanobind::module_& module);
 
 }  // namespace bdpt::python

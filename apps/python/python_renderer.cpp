@@ -13,7 +13,7 @@
 namespace bdpt::python {
 namespace {
 
-/// A `bdpt::Renderer`, and what a `Render` of its samples needs.
+/// A `bdpt::Renderer`, and the data that a `Render` of its samples needs.
 class PythonRenderer {
 public:
     PythonRenderer(PythonScene& scene, Task asked)
@@ -50,7 +50,7 @@ public:
 
     [[nodiscard]] const bdpt::Renderer& renderer() const { return *renderer_; }
 
-    /// Gives all samples away.
+    /// Moves all samples out.
     [[nodiscard]] Render take()
     {
         result_.seconds = renderer_->seconds();
@@ -61,7 +61,7 @@ public:
                 .inputs = result_.inputs};
     }
 
-    /// What `look` makes of all samples, which come back.
+    /// Returns the result of `look` on all samples, which are moved back.
     template <typename Look>
     auto look_at_result(const Look& look)
     {

@@ -38,7 +38,7 @@ PythonScene load_file(const fs::path& file, const Words& words)
             .origin = fs::absolute(file, unknown)};
 }
 
-/// `text`, which calls the file that the bytes were in for a while by this name.
+/// Replaces the path of a temporary file in `text` by this name.
 std::string renamed(std::string text, const std::string& file, const std::string& name)
 {
     for (std::size_t at = text.find(file); at != std::string::npos; at = text.find(file)) {

@@ -14,30 +14,30 @@ namespace bdpt::python {
 /// A scene that is ready to render, and the options that it was loaded with.
 struct PythonScene {
     app::PreparedScene stage;
-    std::string file;  ///< empty: it was made of arrays
+    std::string file;  ///< empty: made from arrays
     Words words;
-    std::optional<std::filesystem::path> origin{};  ///< the file of which load() makes it again
+    std::optional<std::filesystem::path> origin{};  ///< file from which load() can load it again
 };
 
-/// load() and `Scene`.
+/// Binds load() and `Scene`.
 void bind_scene(nanobind::module_& module);
 
-/// Materials of arrays.
+/// Binds materials made from arrays.
 void bind_material(nanobind::module_& module);
 
-/// Lights of arrays.
+/// Binds lights made from arrays.
 void bind_lights(nanobind::module_& module);
 
-/// These, meshes, cameras, and the `Scene` of them.
+/// Binds these, meshes, cameras, and the `Scene` made from them.
 void bind_parts_of_scenes(nanobind::module_& module);
 
-/// What makes other scenes of a `Scene`: its materials and lights.
+/// Binds functions that derive other scenes from a `Scene`: by its materials and lights.
 void bind_edits(nanobind::module_& module);
 
-/// render(), `Render` and what belongs to it.
+/// Binds render(), `Render` and related types.
 void bind_render(nanobind::module_& module);
 
-/// compare().
+/// Binds compare().
 void bind_compare(nanobind::module_& module);
 
 }  // namespace bdpt::python

@@ -18,7 +18,7 @@ namespace {
 
 namespace nb = nanobind;
 
-/// The options of save(), and where they go.
+/// The options of save(), and the arguments that they are stored in.
 struct SaveRequest {
     SaveRequest()
     {
@@ -60,7 +60,7 @@ void for_each_option_of(Call call, const Visitor& visit)
     }
 }
 
-/// "look_at" of --look-at. "from" alone means something else to Python.
+/// Returns "look_at" for --look-at. "from" is a keyword of Python.
 std::string keyword_of(const app::Option& option)
 {
     std::string keyword = option.name().substr(2);
@@ -68,7 +68,7 @@ std::string keyword_of(const app::Option& option)
     return keyword == "from" ? "from_" : keyword;
 }
 
-/// By keyword.
+/// Returns the options by keyword.
 std::map<std::string, app::Option> options_of(Call call)
 {
     std::map<std::string, app::Option> options;
@@ -87,7 +87,7 @@ std::vector<std::string> keywords_of(Call call)
     return keywords;
 }
 
-/// An array of NumPy, a list, a tuple, a range, but no text.
+/// Tests for an array of NumPy, a list, a tuple or a range, but no text.
 bool has_items(nb::handle value)
 {
     if (nb::isinstance<nb::str>(value) || nb::isinstance<nb::bytes>(value)) {
@@ -136,7 +136,7 @@ std::string literals(const std::vector<std::string>& words)
     return fmt::format("typing.Literal[{}]", list);
 }
 
-/// The values of `option`, as a type of Python.
+/// Returns the Python type of the values of `option`.
 std::string type_of(const app::Option& option)
 {
     const app::ValueInfo& info = option.info;
@@ -183,7 +183,7 @@ const char* function_of(Call call)
                             meant ? fmt::format(" (did you mean {}?)", *meant) : ""));
 }
 
-/// `text` in lines of at most 100 columns, each behind `indent` spaces.
+/// Wraps `text` to lines of at most 100 columns, each behind `indent` spaces.
 std::string wrapped(const std::string& text, std::size_t indent)
 {
     constexpr std::size_t columns = 100;
@@ -199,7 +199,7 @@ std::string wrapped(const std::string& text, std::size_t indent)
     return result + "\n";
 }
 
-/// Options of the view of which one excludes the other.
+/// Pairs of options of the view that exclude each other.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 13> exclusive{{
     {"--view", "--camera"},
     {"--view", "--from"},
@@ -216,7 +216,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 13> exclusiv
     {"--lens-radius", "--f-stop"},
 }};
 
-/// "--fov" of "--fov=30".
+/// Returns "--fov" for "--fov=30".
 std::string_view name_of(std::string_view word)
 {
     return word.substr(0, word.find('='));
@@ -284,7 +284,8 @@ Words words_of(const nb::kwargs& options, Call call)
 app::RenderArguments understand_render(const Words& words)
 {
     Words all = words;
-    // Where files go is said later, to save(); layers are kept for it. Views have numbers.
+    // The output is a placeholder, as save() names files later; layers are kept for it. Views have
+    // numbers.
     all.insert(all.end(), {"--output=image.####.exr", "scene"});
     return app::render_arguments(all);
 }

@@ -13,28 +13,29 @@
 
 namespace bdpt::python {
 
-/// Keyword arguments are the options of the command: size=(640, 480) is "--size=640x480",
-/// look_at=(0, 1, 0) is "--look-at=0,1,0", from_=... is "--from=...", True is a flag.
+/// Words of the command line for keyword arguments, which are the command's options: size=(640,
+/// 480) is "--size=640x480", look_at=(0, 1, 0) is "--look-at=0,1,0", from_=... is "--from=...",
+/// True is a flag.
 using Words = std::vector<std::string>;
 
-/// Which call an option belongs to.
+/// The Python call that an option belongs to.
 enum class Call { load, render, save };
 
-/// The words for `options`. Throws `Error` (usage) for options that do not belong to `call`, saying
-/// where they belong.
+/// Returns the words for `options`. Throws `Error` (usage) for options that do not belong to
+/// `call`, saying where they belong.
 [[nodiscard]] Words words_of(const nanobind::kwargs& options, Call call);
 
-/// Does one of `words` choose a camera, or change its place or its lens?
+/// Tests whether one of `words` chooses a camera, or changes its position or its lens.
 [[nodiscard]] bool change_view(const Words& words);
 
-/// The words of load() and those of render(), which take the place of those that they cannot be
+/// Combines the words of load() with those of render(), which replace the ones that they cannot be
 /// combined with: another view of the same scene.
 [[nodiscard]] Words combined(const Words& of_load, const Words& of_render);
 
-/// What `words` of load() and render() mean, by the parser of the command.
+/// Parses the `words` of load() and render() by the command's parser.
 [[nodiscard]] app::RenderArguments understand_render(const Words& words);
 
-/// How a file is written.
+/// Options of save().
 struct SaveArguments {
     app::DisplayArguments display{};
     std::optional<app::DenoiseArguments> denoise{};
@@ -43,11 +44,11 @@ struct SaveArguments {
 
 [[nodiscard]] SaveArguments understand_save(const Words& words);
 
-/// `head`, the options of `call` as keywords with their types, and `result`, as Python declares
-/// functions: "def load(file: str, *", "Scene".
+/// Returns a Python function declaration: `head`, the options of `call` as keywords with their
+/// types, and `result`, such as "def load(file: str, *", "Scene".
 [[nodiscard]] std::string declaration(std::string_view head, Call call, std::string_view result);
 
-/// `text`, and the options of `call`, each with its values and what it does, as a docstring.
+/// Returns a docstring: `text`, and the options of `call`, each with its values and its effect.
 [[nodiscard]] std::string documentation(std::string_view text, Call call);
 
 }  // namespace bdpt::python

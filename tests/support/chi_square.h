@@ -11,16 +11,16 @@
 
 namespace bdpt::test {
 
-/// Outcome of Pearson's test of counts against probabilities.
+/// Result of Pearson's test of counts against probabilities.
 struct ChiSquare {
     double statistic = 0.0;
     int degrees = 0;
     double p_value = 0.0;
     double samples = 0.0;
 
-    /// The smallest relative error of the probabilities (up by it in half of the bins' mass, down
+    /// Returns the smallest relative error of the probabilities (up in half of the bins' mass, down
     /// in the other half) that a test of this `significance` finds with probability 0.998. A test
-    /// that cannot see what matters has to fail.
+    /// without the power to see relevant errors must fail.
     [[nodiscard]] double min_detectable(double significance) const
     {
         double low = 0.0;
@@ -29,8 +29,8 @@ struct ChiSquare {
             const double middle = 0.5 * (low + high);
             (upper_gamma(0.5 * degrees, 0.5 * middle) > significance ? low : high) = middle;
         }
-        // The error e adds n e^2 to the statistic's mean; its variance is 2 k + 4 n e^2. Three of
-        // its deviations above the critical value: a quadratic equation in sqrt(n e^2).
+        // An error e adds n e^2 to the statistic's mean; its variance is 2 k + 4 n e^2. Requires
+        // three standard deviations above the critical value: a quadratic equation in sqrt(n e^2).
         const double excess = high - degrees;
         double added = excess;
         for (int i = 0; i < 100; ++i) {
@@ -40,9 +40,9 @@ struct ChiSquare {
     }
 };
 
-/// Compares counts with the probabilities that they should have, which sum to one. Bins in which
-/// fewer than five are expected are pooled, the rarest first; a count where nothing can be makes
-/// the p-value zero.
+/// Compares counts with their expected probabilities, which sum to one. Bins with fewer than five
+/// expected counts are pooled, the rarest first; a count in a bin of probability 0 makes the
+/// p-value zero.
 [[nodiscard]] inline ChiSquare chi_square(std::span<const double> counts,
                                           std::span<const double> probabilities)
 {

@@ -11,7 +11,7 @@ namespace {
 constexpr double ninety_percent = 1.2816;  // quantile of the normal distribution
 constexpr int first_batches = 32;
 
-/// Two-sided quantile of the normal distribution at tail probability `p`, by bisection.
+/// Returns the two-sided quantile of the normal distribution at tail probability `p`, by bisection.
 double critical_value(double p)
 {
     double low = 0.0;
@@ -23,9 +23,9 @@ double critical_value(double p)
     return low;
 }
 
-/// The same of Student's t distribution, from that of the normal one [Abramowitz and Stegun 1964,
-/// 26.7.5]. With 32 batches a normal quantile would raise six false alarms for one that is
-/// promised.
+/// Returns the quantile of Student's t distribution, given that of the normal one [Abramowitz and
+/// Stegun 1964, 26.7.5]. With 32 batches a normal quantile would raise six times the promised false
+/// alarms.
 double critical_t(double z, double degrees_of_freedom)
 {
     const double n = degrees_of_freedom;
@@ -34,15 +34,15 @@ double critical_t(double z, double degrees_of_freedom)
                 (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / (384.0 * n * n * n));
 }
 
-/// What is compared in one cell.
+/// Comparison in one cell.
 struct Cell {
     double difference;
-    double error;               // standard error of the difference
-    double size;                // what a relative bias refers to
+    double error;               // standard error of `difference`
+    double size;                // reference value of a relative bias
     double degrees_of_freedom;  // of `error`
 };
 
-/// The degrees of freedom of the standard error of a difference [Welch 1947].
+/// Returns the degrees of freedom of the standard error of a difference [Welch 1947].
 double degrees_of_freedom(const Moments& x, const Moments& y)
 {
     const double a = std::pow(x.standard_error(), 2);
@@ -91,7 +91,7 @@ MeanComparison compare_cells(const std::function<Cell(std::size_t)>& cell,
     return result;
 }
 
-/// The means of both together, or 0 where those are not above 0.
+/// Returns the joint means of both, or 0 where they are not above 0.
 std::array<double, TileMeans::cells> common_means(const TileMeans& a, const TileMeans& b)
 {
     std::array<double, TileMeans::cells> means{};
@@ -101,9 +101,9 @@ std::array<double, TileMeans::cells> common_means(const TileMeans& a, const Tile
     return means;
 }
 
-/// Renders what `wanted` lacks: no more than four times what there is, as errors are estimates, nor
-/// more than `most`. Each cell gets a quarter of what the noisiest gets: rare light that was seen
-/// there may be in the others too. False if there is all of that already.
+/// Renders the batches missing from `wanted`: at most four times the existing ones, as errors are
+/// estimates, and at most `most`. Each cell gets at least a quarter of the noisiest cell's, as rare
+/// light that was seen there may be in the others too. Returns false if all batches are there.
 bool refine(TileMeans& means, const std::array<int, TileMeans::cells>& wanted, int most)
 {
     std::array<int, TileMeans::cells> next{};
@@ -124,7 +124,7 @@ bool refine(TileMeans& means, const std::array<int, TileMeans::cells>& wanted, i
     return more;
 }
 
-/// The standard error that is aimed at, relative to the mean: a little less than is needed.
+/// Returns the standard error to aim at, relative to the mean: a little less than needed.
 double wanted_error(const MeanComparison& result, const Sharpness& sharpness)
 {
     return sharpness.detectable_bias / (result.critical_z + ninety_percent) / std::sqrt(1.1);

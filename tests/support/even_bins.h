@@ -11,8 +11,8 @@
 
 namespace bdpt::test {
 
-/// Bin of numbers in [0, 1) in a grid of `steps` for each; numbers that rounding moved out count
-/// with their neighbours.
+/// Returns the bin of numbers in [0, 1) in a grid of `steps` for each; numbers that rounding moved
+/// out of range count with their neighbours.
 template <std::size_t N>
 [[nodiscard]] std::size_t bin_of(const std::array<double, N>& numbers, int steps)
 {
@@ -24,14 +24,14 @@ template <std::size_t N>
     return bin;
 }
 
-/// Angle of (x, y) as a part of the full circle.
+/// Returns the angle of (x, y) as a fraction of the full circle.
 [[nodiscard]] inline double turn(double x, double y)
 {
     return 0.5 + std::atan2(y, x) / 6.283185307179586;
 }
 
-/// Fails unless the counts have these probabilities, as far as a test can tell that would see an
-/// error of 3 % of the density.
+/// Fails unless the counts agree with these probabilities, by a test that would see an error of 3 %
+/// of the density.
 inline void check_counts(const std::vector<double>& counts,
                          const std::vector<double>& probabilities)
 {

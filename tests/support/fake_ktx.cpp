@@ -1,8 +1,8 @@
-// A library with the interface of libktx 4 that makes up pixels: "transcoded" they are (x, y, first
-// byte of the level, 77), else what the level has. As in libktx, small levels come first. It
-// insists on being asked to load the image, and to transcode to RGBA where it says that this is
-// needed. With BDPT_FAKE_KTX in the environment it does something else: fail, crash, be greedy
-// (asks for 64 GiB), short (decodes less than the header promises), throw (no C++ library should).
+// A library with the interface of libktx 4 that invents pixels: "transcoded" ones are (x, y, first
+// byte of the level, 77), others have the level's contents. As in libktx, small levels come first.
+// It fails unless it is told to load the image, and to transcode to RGBA where it says that this is
+// needed. BDPT_FAKE_KTX in the environment selects a misbehaviour: fail, crash, greedy (allocates
+// 64 GiB), short (decodes less than the header promises), throw (no C++ library should).
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,7 @@ struct Texture {
     bool basis;
 };
 
-constexpr std::size_t before = 5;  // [bytes] of levels that nobody asks for
+constexpr std::size_t before = 5;  // [bytes] of unused levels
 constexpr int success = 0;
 constexpr int file_data_error = 1;
 constexpr int invalid_operation = 10;

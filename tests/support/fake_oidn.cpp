@@ -1,7 +1,7 @@
-// A library with the interface of Open Image Denoise 2 that counts rather than denoises: layers are
-// "denoised" by adding 1 to albedo and 2 to normals, images by 2 * color + albedo + normal. It
-// insists on being told that images are of high dynamic range and, beside layers, that these are
-// clean. With BDPT_FAKE_OIDN=fail in the environment each filter fails.
+// A library with the interface of Open Image Denoise 2 that computes a simple function instead of
+// denoising: layers are "denoised" by adding 1 to albedo and 2 to normals, images by 2 * color +
+// albedo + normal. It fails unless it is told that images are of high dynamic range and, with
+// layers, that these are clean. With BDPT_FAKE_OIDN=fail in the environment each filter fails.
 
 #include <cstddef>
 #include <cstdlib>

@@ -9,9 +9,9 @@
 
 namespace bdpt::test {
 
-/// The inside of a sphere of radius 1 around the origin that shines and reflects alike everywhere.
-/// As of any closed surface, paths of k edges bring emitted * albedo^(k - 1); and in a sphere all
-/// joins are nearly as bright, so that each strategy has little noise.
+/// Returns the inside of a sphere of radius 1 around the origin with uniform emission and albedo.
+/// As in any closed surface, paths of k edges contribute emitted * albedo^(k - 1); and in a sphere
+/// all connections are nearly as bright, so each strategy has little noise.
 inline Scene furnace_sphere(Rgb emitted, Rgb albedo)
 {
     SceneBuilder builder;

@@ -12,8 +12,8 @@
 
 namespace bdpt::test {
 
-/// Looks straight down at the square from -2 to 2 m in x (to the right) and z (downwards), in
-/// parallel, from y = 9 m.
+/// Returns a parallel camera that looks straight down at the square from -2 to 2 m in x (to the
+/// right) and z (downwards), from y = 9 m.
 inline CameraDesc camera_above()
 {
     CameraDesc camera;
@@ -22,7 +22,7 @@ inline CameraDesc camera_above()
     return in_parallel(camera, 4.0f);
 }
 
-/// `side` x `side` pixels of a scene and its shadow on the ground at y = 0.
+/// Returns options for `side` x `side` pixels of a scene and its shadow on the ground at y = 0.
 inline RenderOptions ground_options(int side, std::int64_t samples)
 {
     RenderOptions result;
@@ -72,7 +72,7 @@ inline EnvironmentLightDesc even_sky(Rgb radiance = Rgb(1.0f))
     return {.radiance = {.width = 1, .height = 1, .pixels = {radiance}}};
 }
 
-/// A sky that is bright above and dark below, with a sun of one texel aside.
+/// Returns a sky that is bright above and dark below, with a sun of one texel off centre.
 inline EnvironmentLightDesc sunny_sky()
 {
     Image image{32, 16, {}};
@@ -85,7 +85,7 @@ inline EnvironmentLightDesc sunny_sky()
     return {.radiance = std::move(image)};
 }
 
-/// A disk of `corners` corners that looks down, with its centre at height y.
+/// Returns a disk of `corners` corners that faces down, with its centre at height y.
 inline MeshDesc disk_above(float y, float radius, int corners)
 {
     MeshDesc mesh;

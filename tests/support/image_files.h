@@ -67,7 +67,7 @@ struct ExrFile {
     return result;
 }
 
-/// One channel of an EXR file, as floats.
+/// Reads one channel of an EXR file, as floats.
 [[nodiscard]] inline std::vector<float> read_exr_channel(const std::filesystem::path& file,
                                                          const char* name)
 {
@@ -92,10 +92,10 @@ struct PngFile {
     int height = 0;
     bool has_srgb_chunk = false;
     int channels = 0;
-    int bits = 0;  ///< of a channel
+    int bits = 0;  ///< per channel
     std::map<std::string, std::string> text;
-    std::vector<std::uint16_t> values;  ///< of all channels
-    std::vector<std::uint8_t> rgb;      ///< of a file of 8 bits
+    std::vector<std::uint16_t> values;  ///< values of all channels
+    std::vector<std::uint8_t> rgb;      ///< colours of a file of 8 bits
 };
 
 [[nodiscard]] inline PngFile read_png(const std::filesystem::path& file)
@@ -104,7 +104,7 @@ struct PngFile {
     if (stream == nullptr) {
         throw std::runtime_error("cannot open " + file.string());
     }
-    // Without a handler of ours libpng ends the process on an error, which fails the test.
+    // Without an error handler libpng ends the process on an error, which fails the test.
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png_create_info_struct(png);
     png_init_io(png, stream);

@@ -8,11 +8,11 @@
 
 namespace bdpt::test {
 
-/// A KTX2 file in the making, 2D and sound unless its fields say otherwise [KTX 2.0].
+/// A KTX2 file to be written, 2D and valid unless its fields say otherwise [KTX 2.0].
 struct Ktx2File {
     struct Level {
         std::string bytes;
-        std::uint64_t unpacked = 0;  ///< what the file says [bytes]
+        std::uint64_t unpacked = 0;  ///< as stated in the file [bytes]
     };
 
     std::uint32_t format = 0;  ///< VkFormat
@@ -31,14 +31,14 @@ struct Ktx2File {
     std::string global_data{};
     std::vector<Level> levels{{std::string(32, 'u'), 32}};
 
-    /// Two blocks of UASTC, RGB or RGBA.
+    /// Returns two blocks of UASTC, RGB or RGBA.
     [[nodiscard]] static Ktx2File uastc(bool alpha = false)
     {
         Ktx2File file;
         file.channels = {static_cast<std::uint8_t>(alpha ? 3 : 0)};
         return file;
     }
-    /// ETC1S with BasisLZ, RGB or RGBA.
+    /// Returns ETC1S with BasisLZ, RGB or RGBA.
     [[nodiscard]] static Ktx2File etc1s(bool alpha = false)
     {
         Ktx2File file;
@@ -49,7 +49,7 @@ struct Ktx2File {
         file.levels = {{"etc", 0}};
         return file;
     }
-    /// VK_FORMAT_R8G8B8_UNORM of 2 x 1 pixels.
+    /// Returns VK_FORMAT_R8G8B8_UNORM of 2 x 1 pixels.
     [[nodiscard]] static Ktx2File plain()
     {
         Ktx2File file;
@@ -99,7 +99,7 @@ struct Ktx2File {
         return result;
     }
 
-    /// `value` in `count` bytes, little-endian.
+    /// Returns `value` in `count` bytes, little-endian.
     [[nodiscard]] static std::string number(std::uint64_t value, std::size_t count)
     {
         std::string result;
@@ -108,7 +108,7 @@ struct Ktx2File {
         }
         return result;
     }
-    /// `bytes` with `value` in place of the `count` bytes at `offset`.
+    /// Returns `bytes` with the `count` bytes at `offset` replaced by `value`.
     [[nodiscard]] static std::string patched(std::string bytes, std::size_t offset,
                                              std::uint64_t value, std::size_t count = 4)
     {

@@ -7,7 +7,7 @@
 
 namespace bdpt::test {
 
-/// Lights of all kinds that have a place, `count` of them at random in the cube [-1, 1]^3, of very
+/// Returns `count` lights of all kinds with a position, at random in the cube [-1, 1]^3, of very
 /// different power: one- and two-sided triangles, points, spots, and both as spheres.
 inline SceneBuilder random_lights(std::uint64_t seed, int count)
 {

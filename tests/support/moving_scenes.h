@@ -12,7 +12,7 @@
 
 namespace bdpt::test {
 
-/// `steps` later values of `pose`, a function of the time in [0, 1].
+/// Returns `steps` later values of `pose`, a function of the time in [0, 1].
 template <typename T>
 std::vector<T> motion_of(int steps, const std::function<T(float)>& pose)
 {
@@ -28,7 +28,7 @@ inline Mat4 translation(Vec3 v)
     return glm::translate(Mat4(1.0f), v);
 }
 
-/// Lets the last instance of `builder` move.
+/// Makes the last instance of `builder` move.
 inline void move_last(SceneBuilder& builder, int steps, const std::function<Mat4(float)>& pose)
 {
     InstanceDesc& instance = builder.desc.instances.back();
@@ -36,8 +36,8 @@ inline void move_last(SceneBuilder& builder, int steps, const std::function<Mat4
     instance.motion = motion_of<Mat4>(steps, pose);
 }
 
-/// Lets a mesh deform: `move` takes a point of its first pose to where it is at a time. Normals
-/// are left as they are.
+/// Makes a mesh deform: `move` maps a point of its first pose to its position at a time. Normals
+/// are unchanged.
 inline void deform(MeshDesc& mesh, int steps, const std::function<Vec3(Vec3, float)>& move)
 {
     const std::vector<Vec3> rest = mesh.positions;
@@ -54,8 +54,8 @@ inline void deform(MeshDesc& mesh, int steps, const std::function<Vec3(Vec3, flo
     });
 }
 
-/// One of each: an emitter that travels, turns and grows, a mirrored sphere that is shared with one
-/// that stands still, a mesh that deforms, and one that deforms, shines and travels.
+/// Returns a scene with one of each: an emitter that moves, turns and grows, a mirrored sphere that
+/// shares its mesh with one at rest, a mesh that deforms, and one that deforms, emits and moves.
 inline SceneBuilder moving_stage()
 {
     const Rgb white(0.7f);
@@ -63,7 +63,7 @@ inline SceneBuilder moving_stage()
     builder.walls(lambertian(white), lambertian({0.7f, 0.5f, 0.3f}));
     MeshDesc plate;
     plate.positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
-    plate.triangles = {{0, 1, 2}, {0, 2, 3}};  // the front looks down
+    plate.triangles = {{0, 1, 2}, {0, 2, 3}};  // the front faces down
     builder.place(builder.add_mesh(plate), emitter(Rgb(4.0f, 3.5f, 3.0f)), Mat4(1.0f));
     move_last(builder, 6, [](float t) {
         return glm::scale(glm::rotate(translation({0.5f - t, 0.85f - 0.3f * t, -0.2f + 0.4f * t}),
@@ -100,7 +100,7 @@ inline SceneBuilder moving_stage()
     return builder;
 }
 
-/// Lets a camera that looks at the room travel and turn.
+/// Makes a camera that looks at the room move and turn.
 inline CameraDesc moving(CameraDesc camera)
 {
     const Mat4 rest = camera.world_from_camera;

@@ -10,13 +10,13 @@ namespace {
 
 constexpr int max_batches = 1 << 24;
 
-/// Rounds up.
+/// Rounds up to a number of batches.
 int batches_of(double wanted)
 {
     return static_cast<int>(std::min(std::ceil(wanted), static_cast<double>(max_batches)));
 }
 
-/// What `other` needs in a cell when the error that is left has the variance `rest`.
+/// Returns the batches that `other` needs in a cell if the remaining error has the variance `rest`.
 int needed(const BatchEvidence& other, std::size_t cell, double rest)
 {
     const double least = other.variance[cell] == 0.0 ? 0.0
@@ -25,14 +25,14 @@ int needed(const BatchEvidence& other, std::size_t cell, double rest)
     return std::max(other.batches[cell], batches_of(least));
 }
 
-/// Numbers of batches of the cells `which`, and what they cost.
+/// Numbers of batches of the cells `which`, and their cost.
 struct Choice {
-    int first = max_batches;  ///< of the first renderer, in each of those cells
+    int first = max_batches;  ///< batches of the first renderer, in each of those cells
     std::array<int, compared_cells> second{};
     double work = std::numeric_limits<double>::infinity();
 };
 
-/// If the first renderer has `first` batches.
+/// Returns the choice if the first renderer has `first` batches.
 Choice with_first(const BatchEvidence& a, const BatchEvidence& b, double variance,
                   std::span<const std::size_t> which, int first)
 {
@@ -52,7 +52,7 @@ Choice with_first(const BatchEvidence& a, const BatchEvidence& b, double varianc
     return choice;
 }
 
-/// By trying: the work has one minimum.
+/// Searches the cheapest choice: the work has one minimum.
 Choice cheapest(const BatchEvidence& a, const BatchEvidence& b, double variance,
                 std::span<const std::size_t> which)
 {

@@ -5,30 +5,31 @@
 
 namespace bdpt::test {
 
-/// Cells of a film whose means are compared.
+/// Number of cells of a film whose means are compared.
 inline constexpr std::size_t compared_cells = 4;
 
-/// Whether the cells of a renderer can be refined one by one. Where light paths are seen through
-/// the lens, each batch is of all cells.
+/// Tells whether the cells of a renderer can be refined one by one. With light paths seen through
+/// the lens, each batch covers all cells.
 enum class CellBatches { separate, common };
 
-/// What the batches of a renderer have shown so far; by default, of a mean that is known.
+/// Statistics of a renderer's batches so far; by default, those of a known mean.
 struct BatchEvidence {
-    std::array<double, compared_cells> variance{};  ///< of a batch, relative to the mean squared
-    std::array<int, compared_cells> batches{};      ///< that there are
-    double work = 0.0;                              ///< of a batch of all cells, in any unit
+    std::array<double, compared_cells>
+        variance{};  ///< variance of one batch, relative to the squared mean
+    std::array<int, compared_cells> batches{};  ///< number of batches so far
+    double work = 0.0;                          ///< work of a batch of all cells, in any unit
     CellBatches cells = CellBatches::separate;
 };
 
-/// Batches of each cell that two renderers are to have.
+/// Planned batches of each cell of two renderers.
 struct BatchPlan {
     std::array<int, compared_cells> a;
     std::array<int, compared_cells> b;
 };
 
-/// The least work by which the difference of the means of `a` and `b` has no greater standard error
-/// than `error`, relative to the mean, in any of the cells that count. Where one renderer is
-/// noisier or cheaper it gets more batches than the other. None has fewer than it has already.
+/// Returns the plan with the least work by which the difference of the means of `a` and `b` has a
+/// standard error of at most `error`, relative to the mean, in all cells that count. A noisier or
+/// cheaper renderer gets more batches than the other. None gets fewer than it has already.
 [[nodiscard]] BatchPlan min_work(const BatchEvidence& a, const BatchEvidence& b, double error);
 
 }  // namespace bdpt::test

@@ -4,7 +4,7 @@
 
 namespace bdpt::test {
 
-/// A sample when the shutter opens, of green light, that nobody clocks.
+/// Returns a sample at the opening of the shutter, of green light, without a clock.
 [[nodiscard]] inline SampleContext sample_of(const World& world, const Camera& camera,
                                              const Sampler& sampler, RayCounts& rays)
 {

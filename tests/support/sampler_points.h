@@ -30,7 +30,8 @@ using SetNumbers = std::array<float, 4>;
     return {a.x, a.y, b.x, b.y};
 }
 
-/// Points `first` to `first + count` of one half of the film: 0 for even and 1 for odd samples.
+/// Returns points `first` to `first + count` of one half of the film: 0 for even and 1 for odd
+/// samples.
 [[nodiscard]] inline std::vector<SetNumbers> half_points(const SetKey& key, std::int64_t half,
                                                          std::int64_t first, std::int64_t count)
 {

@@ -10,7 +10,7 @@
 
 namespace bdpt::test {
 
-/// A Lambertian surface: KHR_materials_specular with factor 0.
+/// Returns a Lambertian surface: KHR_materials_specular with factor 0.
 inline MaterialDesc lambertian(Rgb color)
 {
     MaterialDesc material;
@@ -43,7 +43,7 @@ inline MaterialDesc metal(Rgb color, float roughness)
     return material;
 }
 
-/// Solid glass; `roughness` 0 is perfectly clear.
+/// Returns solid glass; `roughness` 0 is perfectly clear.
 inline MaterialDesc glass(float roughness)
 {
     MaterialDesc material;
@@ -61,16 +61,16 @@ inline MaterialDesc thin_glass(float roughness)
     return material;
 }
 
-/// Puts a `SceneDesc` together, one surface at a time.
+/// Builds a `SceneDesc`, one surface at a time.
 class SceneBuilder {
 public:
-    /// Corners counter-clockwise from the front.
+    /// Adds a quad with corners counter-clockwise from the front.
     SceneBuilder& quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, const MaterialDesc& material)
     {
         return place(add_mesh(quad_mesh(a, b, c, d)), material, Mat4(1.0f));
     }
 
-    /// Unit sphere with smooth normals.
+    /// Adds the mesh of a unit sphere with smooth normals.
     [[nodiscard]] MeshId sphere_mesh(unsigned segments)
     {
         MeshDesc mesh;
@@ -114,14 +114,14 @@ public:
                      glm::scale(glm::translate(Mat4(1.0f), center), Vec3(radius)));
     }
 
-    /// The closed surface of a cube, seen from outside, with flat faces.
+    /// Adds the closed surface of a cube, with its front outside and flat faces.
     SceneBuilder& cube(Vec3 center, float half_width, const MaterialDesc& material)
     {
         return place(add_mesh(box_mesh(center - half_width, center + half_width)), material,
                      Mat4(1.0f));
     }
 
-    /// The inside of the cube [-1, 1]^3 without its front (+z) and its ceiling.
+    /// Adds the inside of the cube [-1, 1]^3 without its front (+z) and its ceiling.
     SceneBuilder& walls(const MaterialDesc& floor, const MaterialDesc& others)
     {
         quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}, floor);
@@ -140,7 +140,7 @@ public:
         return quad({1, -1, 1}, {-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, material);
     }
 
-    /// A square that shines down from height y.
+    /// Adds a square area light at height y that faces down.
     SceneBuilder& lamp(float y, float half_width, Rgb radiance)
     {
         const float h = half_width;
@@ -156,7 +156,7 @@ public:
     SceneDesc desc;
 };
 
-/// At `from`, looking at `to`.
+/// Returns a camera at `from`, looking at `to`.
 inline CameraDesc camera_at(Vec3 from, Vec3 to, float vertical_fov)
 {
     CameraDesc camera;
@@ -165,7 +165,7 @@ inline CameraDesc camera_at(Vec3 from, Vec3 to, float vertical_fov)
     return camera;
 }
 
-/// The same view through a thin lens.
+/// Returns the same view through a thin lens.
 inline CameraDesc with_lens(CameraDesc camera, float radius, float focus_distance)
 {
     camera.lens_radius = radius;
@@ -173,7 +173,7 @@ inline CameraDesc with_lens(CameraDesc camera, float radius, float focus_distanc
     return camera;
 }
 
-/// The same view in parallel.
+/// Returns the same view by a parallel projection.
 inline CameraDesc in_parallel(CameraDesc camera, float vertical_extent)
 {
     camera.projection = Projection::orthographic;
@@ -181,7 +181,7 @@ inline CameraDesc in_parallel(CameraDesc camera, float vertical_extent)
     return camera;
 }
 
-/// Sees the whole of `walls` through the open front.
+/// Returns a camera that sees the whole of `walls` through the open front.
 inline CameraDesc room_camera()
 {
     return camera_at({0.0f, 0.0f, 3.4f}, {0.0f, 0.0f, 0.0f}, 0.75f);

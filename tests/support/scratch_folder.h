@@ -12,7 +12,7 @@
 
 namespace bdpt::test {
 
-/// A new empty folder for files of a test; removed with all that is in it.
+/// A new empty folder for files of a test; removed with its contents.
 class ScratchFolder {
 public:
     ScratchFolder()
@@ -36,7 +36,7 @@ public:
     {
         return path_ / name;
     }
-    /// Names of what is in the folder.
+    /// Returns the names of the folder's contents.
     [[nodiscard]] std::set<std::string> names() const
     {
         std::set<std::string> result;

@@ -9,8 +9,8 @@
 
 namespace bdpt::test {
 
-/// `bytes` of a part file with a seal that holds, in the place of the one that they have, if any:
-/// so whoever may write a file can make one.
+/// Returns `bytes` of a part file with a valid seal, replacing an existing one: anybody who can
+/// write a file can forge one.
 [[nodiscard]] inline std::string sealed_part(std::string_view bytes)
 {
     constexpr std::string_view name = "bdpt part, v. 1.";

@@ -9,12 +9,12 @@
 
 namespace bdpt::test {
 
-/// Reproducible random numbers of the same 24-bit grain as the renderer's.
+/// Reproducible random numbers with the renderer's 24-bit resolution.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-    /// Uniform in [0, 1).
+    /// Returns a number uniform in [0, 1).
     [[nodiscard]] float next() { return static_cast<float>(engine_() >> 40U) * 0x1p-24f; }
 
     [[nodiscard]] Vec2 next_2d()
@@ -23,7 +23,7 @@ public:
         return {x, next()};
     }
 
-    /// Unit vector, uniform over the sphere.
+    /// Returns a unit vector, uniform over the sphere.
     [[nodiscard]] Vec3 direction()
     {
         const double z = 2.0 * static_cast<double>(next()) - 1.0;
@@ -38,15 +38,15 @@ private:
 
 using eval::Moments;
 
-/// The significance of one of `tests` independent tests that together have `significance` [Sidak
-/// 1967].
+/// Returns the significance of one of `tests` independent tests that together have `significance`
+/// [Sidak 1967].
 [[nodiscard]] inline double sidak(double significance, int tests)
 {
     return -std::expm1(std::log1p(-significance) / tests);
 }
 
-/// Q(a, x), the regularised upper incomplete gamma function: power series below a + 1, continued
-/// fraction by Lentz's method above [Abramowitz and Stegun 1964, 6.5.29 and 6.5.31].
+/// Returns Q(a, x), the regularised upper incomplete gamma function: power series below a + 1,
+/// continued fraction by Lentz's method above [Abramowitz and Stegun 1964, 6.5.29 and 6.5.31].
 [[nodiscard]] inline double upper_gamma(double a, double x)
 {
     if (x <= 0.0) {
@@ -83,7 +83,7 @@ using eval::Moments;
     return fraction * front;
 }
 
-/// Probability that a standard normal number is at least as far from 0 as `z`.
+/// Returns the probability that a standard normal number is at least as far from 0 as `z`.
 [[nodiscard]] inline double two_sided_p(double z)
 {
     return std::erfc(std::abs(z) / std::sqrt(2.0));

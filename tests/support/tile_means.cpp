@@ -21,7 +21,7 @@ PixelRect pixels_of(std::size_t cell)
     return {.x0 = x, .y0 = y, .x1 = x + size, .y1 = y + size};
 }
 
-/// Of the pixels `rect` in an image whose first pixel is that at (`x0`, `y0`).
+/// Returns the mean of the pixels `rect` in an image whose first pixel is at (`x0`, `y0`).
 double mean_of(const Image& image, const PixelRect& rect, int x0, int y0)
 {
     double sum = 0.0;

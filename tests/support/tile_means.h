@@ -12,9 +12,9 @@
 namespace bdpt::test {
 
 /// Tile means of a renderer, from independent batches: averages of the three channels over a grid
-/// of tiles that covers a film of `side` x `side` pixels. A batch is one independent sample a
-/// pixel; or, with the Sobol sampler, whose samples of one pixel depend on each other, eight with a
-/// seed of their own.
+/// of tiles that covers a film of `side` x `side` pixels. A batch is one independent sample per
+/// pixel; or, with the Sobol sampler, whose samples of one pixel are correlated, eight samples with
+/// a seed of their own.
 class TileMeans {
 public:
     static constexpr int grid = 2;
@@ -22,23 +22,23 @@ public:
     static constexpr std::size_t cells = grid * grid;
     static_assert(cells == compared_cells);
 
-    /// `sampler` takes the place of that in `options`. Seeds are less than 2^32.
+    /// Renders nothing yet. `sampler` replaces that of `options`. Seeds are less than 2^32.
     TileMeans(const Scene& scene, const CameraDesc& camera, RenderOptions options,
               SamplerKind sampler = SamplerKind::independent);
 
-    /// Renders until each cell has so many batches.
+    /// Renders until each cell has this number of batches.
     void refine_to(const std::array<int, cells>& batches);
     void refine_to(int batches);
     [[nodiscard]] const std::array<Moments, cells>& cell_moments() const { return moments_; }
-    /// Of the cell that has the fewest.
+    /// Returns the number of batches of the cell that has the fewest.
     [[nodiscard]] int batches() const;
-    /// Needs two batches. Their variances are relative to the squares of `means`, and 0 where that
-    /// is not above 0.
+    /// Returns the evidence of at least two batches. Variances are relative to the squares of
+    /// `means`, and 0 where those are not above 0.
     [[nodiscard]] BatchEvidence evidence(const std::array<double, cells>& means) const;
 
 private:
     [[nodiscard]] RenderOptions options_of_batch(int batch) const;
-    /// One more batch of the cell or, where cells have their batches in common, of all.
+    /// Adds one batch to the cell or, if batches cover all cells, to all.
     void add_batch(std::size_t cell);
 
     const Scene& scene_;

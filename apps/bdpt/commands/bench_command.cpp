@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files at the top of the folder.
+/// Files at the top of the folder.
 struct Outputs {
     fs::path json;
     fs::path csv;
@@ -85,7 +85,7 @@ std::string time_now()
                        utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec);
 }
 
-/// Turns work in CPU time into what is left on the clock at the wall.
+/// Converts planned CPU time to remaining wall-clock time.
 class BenchClock {
 public:
     BenchClock(Console& console, double seconds_a_scene, std::size_t scenes)
@@ -161,7 +161,7 @@ private:
     std::stop_token stop_;
 };
 
-/// Prints a table on stdout, or an event.
+/// Prints a scene's table on stdout, or an event.
 void report_scene(const eval::SceneResult& scene, const BenchArguments& arguments, Console& console)
 {
     console.event(
@@ -198,7 +198,7 @@ int run_bench(const BenchArguments& arguments, const std::vector<std::string>& c
     }
     BenchSession session(arguments, console, interrupt.stop_token());
     interrupt.allow_stop();
-    std::exception_ptr failure;  // which must not take finished scenes along
+    std::exception_ptr failure;  // deferred, so that finished scenes are still written
     for (const BenchSubject& subject : arguments.subjects) {
         if (interrupt.stop_token().stop_requested()) {
             break;
@@ -219,7 +219,7 @@ int run_bench(const BenchArguments& arguments, const std::vector<std::string>& c
         try {
             write_all(record, arguments.folder);
         } catch (const Error&) {
-            // The first failure is the one to tell; the runs are files of their own.
+            // The first failure is reported; the runs are in separate files.
         }
         std::rethrow_exception(failure);
     }

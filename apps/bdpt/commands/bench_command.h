@@ -7,8 +7,8 @@
 
 namespace bdpt::app {
 
-/// Runs a benchmark and writes its report. `command` is what was typed, for the record. Returns the
-/// exit code. Throws `Error`; results of finished runs are written before.
+/// Runs a benchmark and writes its report. `command` is the command line as typed, for the record.
+/// Returns the exit code. Throws `Error`; results of finished runs are written before.
 [[nodiscard]] int run_bench(const BenchArguments& arguments,
                             const std::vector<std::string>& command);
 

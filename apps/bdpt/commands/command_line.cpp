@@ -43,7 +43,7 @@ constexpr const char* program_footer = R"(Examples:
 
 "bdpt help COMMAND", or "bdpt COMMAND --help", has the options of a command.)";
 
-/// `bdpt help` and `bdpt help COMMAND`: as `--help`.
+/// Runs `bdpt help` and `bdpt help COMMAND`, like `--help`.
 int run_help(Program& program, const std::string& topic)
 {
     if (!topic.empty() && program.find(topic) == nullptr) {
@@ -53,7 +53,7 @@ int run_help(Program& program, const std::string& topic)
     return 0;
 }
 
-/// `bdpt render --save-job`: the options have to go together, as they would for a render.
+/// Runs `bdpt render --save-job`: checks that the options are compatible, as a render would.
 int save_job(const RenderRequest& request, const OptionList& options)
 {
     const RenderArguments arguments = checked(request, options);
@@ -67,7 +67,7 @@ int save_job(const RenderRequest& request, const OptionList& options)
     return 0;
 }
 
-/// `bdpt render SCENE...` and `bdpt render JOB`.
+/// Runs `bdpt render SCENE...` and `bdpt render JOB`.
 int run_render_words(const RenderRequest& request, OptionList& options,
                      const std::vector<std::string>& given)
 {
@@ -77,7 +77,8 @@ int run_render_words(const RenderRequest& request, OptionList& options,
     if (scenes.size() == 1 && is_job(scenes.front())) {
         load_job(scenes.front(), options);
         scenes = {request.arguments.file};
-        // What is told to render the rest then need not name the job.
+        // With the job's options as words, commands that render missing samples need not name the
+        // job.
         words.resize(2);
         const std::vector<std::string> more = words_of(options);
         words.insert(words.end(), more.begin(), more.end());
@@ -96,7 +97,7 @@ CommandLine::CommandLine()
     program.name = "bdpt";
     program.summary = "bdpt renders glTF 2.0 scenes by bidirectional path tracing.";
     program.footer = program_footer;
-    program.version = version_text;  // which asks Embree, and so starts threads
+    program.version = version_text;  // a callback, as it asks Embree, which starts threads
     const auto add = [this](const char* name, const char* summary, const char* footer,
                             const auto& add_options, auto&... places) {
         Command& command = program.commands.emplace_back();
@@ -110,8 +111,8 @@ CommandLine::CommandLine()
     program.commands.back().short_footer = render_short_footer;
     add("view", "Show a scene in the browser, to find view, light and look", view_footer,
         add_view_command_options, view);
-    program.commands.back().essentials = {"file",  "--spp",      "--size",     "--camera",
-                                          "--view", "--env",     "--exposure", "--integrator",
+    program.commands.back().essentials = {"file",         "--spp",    "--size",     "--camera",
+                                          "--view",       "--env",    "--exposure", "--integrator",
                                           "--background", "--listen", "--open"};
     program.commands.back().short_footer = view_short_footer;
     add("plan", "Share a render among many processes or machines", plan_footer, add_plan_options,

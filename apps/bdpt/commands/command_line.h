@@ -16,13 +16,14 @@
 
 namespace bdpt::app {
 
-/// The commands and their options, and what a command line fills in.
+/// The commands with their options, and the structs that a command line fills in.
 struct CommandLine {
     CommandLine();
     CommandLine(const CommandLine&) = delete;
     CommandLine& operator=(const CommandLine&) = delete;
 
-    /// Runs the command that `line` names; `words` are the whole command line. The exit code.
+    /// Runs the command that `line` names; `words` are the whole command line. Returns the exit
+    /// code.
     [[nodiscard]] int run(const ParsedLine& line, const std::vector<std::string>& words);
 
     RenderRequest render;
@@ -35,8 +36,8 @@ struct CommandLine {
     VerifyRequest verify;
     InspectRequest inspect;
     ViewRequest view;
-    std::string topic;  ///< what to help with
-    Program program;    ///< whose options have the places above
+    std::string topic;  ///< topic of `bdpt help`
+    Program program;    ///< its options store into the members above
 };
 
 }  // namespace bdpt::app

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Refuses what could not be written in the end, before anything is read.
+/// Checks, before anything is read, that outputs can be written.
 void check_error_image(const CompareArguments& arguments, std::span<const fs::path> files)
 {
     if (!arguments.error_image) {
@@ -80,7 +80,8 @@ int run_compare(const CompareArguments& arguments)
     for (const std::string& warning : comparison.warnings) {
         console.warning(warning);
     }
-    std::exception_ptr failure;  // of the image, which must not take the report along
+    std::exception_ptr
+        failure;  // failure of the image; deferred, so that the report is still printed
     if (arguments.error_image) {
         try {
             write_error_image(arguments, report);

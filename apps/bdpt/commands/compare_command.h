@@ -4,11 +4,11 @@
 
 namespace bdpt::app {
 
-/// The exit code when a threshold is exceeded.
+/// Exit code if a threshold is exceeded.
 constexpr int compare_failed = 10;
 
-/// `bdpt compare`: prints how far images are from a reference on stdout. The result is the exit
-/// code: 0 or `compare_failed`. Throws `Error`; when only one output cannot be written, the others
+/// Runs `bdpt compare`: prints the errors of images against a reference on stdout. Returns the exit
+/// code: 0 or `compare_failed`. Throws `Error`; if only one output cannot be written, the others
 /// have been.
 [[nodiscard]] int run_compare(const CompareArguments& arguments);
 

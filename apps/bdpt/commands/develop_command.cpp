@@ -37,7 +37,8 @@ std::vector<fs::path> outputs_of(const DevelopArguments& arguments)
     return {default_output(arguments.file)};
 }
 
-/// How `image` is shown: with the backdrop of its render, or that of `display` in its place.
+/// Returns the display options of `image`: with the backdrop of its render, replaced by that of
+/// `display` if given.
 DisplayArguments display_of(DisplayArguments display, const LayeredImage& image,
                             const fs::path& file)
 {

@@ -4,8 +4,8 @@
 
 namespace bdpt::app {
 
-/// `bdpt develop`: writes pictures of an EXR file, from its layers. Returns the exit code; throws
-/// `Error`.
+/// Runs `bdpt develop`: writes images for screens from an EXR file and its layers. Returns the exit
+/// code; throws `Error`.
 [[nodiscard]] int run_develop(const DevelopArguments& arguments);
 
 }  // namespace bdpt::app

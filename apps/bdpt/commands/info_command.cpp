@@ -20,7 +20,7 @@
 namespace bdpt::app {
 namespace {
 
-/// Adds what only a built scene knows, or why there is none.
+/// Adds the facts that need a built scene, or why there is none.
 void complete(SceneReport& report, SceneDesc desc)
 {
     const bool empty = !has_surface(desc);
@@ -48,7 +48,7 @@ void complete(SceneReport& report, SceneDesc desc)
     }
 }
 
-/// Is it the file that is at fault, not what the user wants of it?
+/// Tests whether the file is at fault, not the user's selection.
 bool is_about_file(const Error& error, const io::GltfOptions& scene)
 {
     const bool chosen = scene.scene || scene.variant || scene.animation;
@@ -56,7 +56,7 @@ bool is_about_file(const Error& error, const io::GltfOptions& scene)
            (error.code() == ErrorCode::not_found && !chosen);
 }
 
-/// What a file that cannot be loaded says about itself. Throws `failure` if that is nothing.
+/// Returns the facts of a file that cannot be loaded. Throws `failure` if there are none.
 SceneReport report_facts(const std::string& file, const io::ReadLimits& limits,
                          const Error& failure)
 {

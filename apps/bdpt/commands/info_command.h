@@ -10,12 +10,12 @@
 
 namespace bdpt::app {
 
-/// What `bdpt info` is to do.
+/// Arguments of `bdpt info`.
 struct InfoArguments {
     std::string file{};                         ///< empty: only the limits
-    io::GltfOptions scene{};                    ///< what of the file is described
+    io::GltfOptions scene{};                    ///< selects the part of the file to describe
     std::optional<std::uint64_t> max_memory{};  ///< [bytes]
-    bool limits = false;                        ///< print those that files are read with
+    bool limits = false;                        ///< print the limits for reading files
     bool json = false;
 };
 
@@ -24,7 +24,8 @@ extern const char* const info_footer;
 /// Adds the options of `bdpt info`.
 void add_info_options(OptionList& options, InfoArguments& arguments);
 
-/// `bdpt info`: prints what a file holds on stdout. The result is the exit code. Throws `Error`.
+/// Runs `bdpt info`: prints the contents of a file on stdout. Returns the exit code. Throws
+/// `Error`.
 [[nodiscard]] int run_info(const InfoArguments& arguments, const OptionList& options);
 
 }  // namespace bdpt::app

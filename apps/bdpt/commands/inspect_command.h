@@ -4,8 +4,8 @@
 
 namespace bdpt::app {
 
-/// Prints what the sample does, and writes its image of directions. Returns the exit code. Throws
-/// `Error`.
+/// Prints the paths of the sample, and writes its image of directions. Returns the exit code.
+/// Throws `Error`.
 int run_inspect(const InspectArguments& arguments);
 
 }  // namespace bdpt::app

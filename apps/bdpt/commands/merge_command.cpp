@@ -50,13 +50,13 @@ std::string message_of_missing(const PartCollection& collection)
                        commands_text(part.notes.command, missing, part.file.parent_path()));
 }
 
-/// What has become of one image.
+/// Outcome of one image.
 struct MergedImage {
-    std::size_t image = 0;  ///< of the plan
+    std::size_t image = 0;  ///< index in the plan
     SampleSet missing;
     bool has_parts = false;
     bool written = false;
-    std::string message{};  ///< why not
+    std::string message{};  ///< why it was not written
 };
 
 std::string message_of_missing(const MergeArguments& asked, const Plan& plan,
@@ -78,7 +78,7 @@ std::string message_of_missing(const MergeArguments& asked, const Plan& plan,
         has_parts ? "; --partial writes the image so far" : "");
 }
 
-/// The noise of the whole, and which samples it lacks for what was asked for, if anything was.
+/// Returns the noise of the sum, with the samples that it lacks for the requested noise, if any.
 ordered_json judge_noise(const MergeArguments& arguments, const RenderPart& sum,
                          const PartInfo& part, Console& console)
 {
@@ -102,7 +102,7 @@ ordered_json judge_noise(const MergeArguments& arguments, const RenderPart& sum,
     return fields;
 }
 
-/// What tells the files of images apart.
+/// Returns the placeholders that distinguish the files of images.
 const char* places_of(const PlanImage& image)
 {
     if (image.frame && image.camera) {
@@ -111,8 +111,8 @@ const char* places_of(const PlanImage& image)
     return image.frame ? "####" : "{camera}";
 }
 
-/// `asked`, for each image that there is to be. Throws `Error` (usage) for names of files that have
-/// no place for what tells images apart.
+/// Returns `asked` for each image to merge. Throws `Error` (usage) for file names without the
+/// placeholders that distinguish the images.
 std::vector<MergeArguments> images_of(const MergeArguments& asked, const std::optional<Plan>& plan)
 {
     if (!plan) {
@@ -147,14 +147,14 @@ std::vector<MergeArguments> images_of(const MergeArguments& asked, const std::op
     return result;
 }
 
-/// What the images of a command have in common.
+/// State shared by the images of a command.
 struct MergeSession {
     const std::optional<Plan>& plan;
-    const io::Denoiser* denoiser;  ///< null: images stay as they are
+    const io::Denoiser* denoiser;  ///< null: images are not denoised
     Console& console;
 };
 
-/// Adds the parts up, and writes the image.
+/// Merges the parts, and writes the image.
 void merge(const MergeArguments& arguments, const PartCollection& collection,
            const MergeSession& session)
 {
@@ -193,12 +193,12 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
     console.event("done", fields);
 }
 
-/// What is left of the time that all images may be waited for together.
+/// Remaining time to wait for all images together.
 class Patience {
 public:
     explicit Patience(std::optional<double> seconds) : seconds_(seconds) {}
 
-    /// [s]
+    /// Returns the remaining time [s].
     [[nodiscard]] std::optional<double> left() const
     {
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
@@ -238,7 +238,7 @@ MergedImage merge_image(const MergeArguments& arguments, const MergeSession& ses
     return result;
 }
 
-/// The exit code, and what has to be said of images that were not written.
+/// Reports images that were not written, and returns the exit code.
 int conclude(const MergeArguments& asked, const std::optional<Plan>& plan,
              std::vector<MergedImage> images, Console& console)
 {
@@ -271,7 +271,7 @@ int run_merge(const MergeArguments& asked)
         }
     }
     Console console(asked.printed.format, asked.printed.verbosity);
-    // Nothing is worth finishing; but nothing half-written is left, either.
+    // Stops need no clean finish, but must leave no partial files.
     Interrupt interrupt({}, [] {});
     constexpr int all_processors = 0;
     const std::optional<io::Denoiser> denoiser =

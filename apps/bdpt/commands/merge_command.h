@@ -4,10 +4,10 @@
 
 namespace bdpt::app {
 
-/// The exit code when samples are missing.
+/// Exit code if samples are missing.
 constexpr int merge_incomplete = 12;
 
-/// `bdpt merge`: adds parts of a render. The result is the exit code: 0 or `merge_incomplete`.
+/// Runs `bdpt merge`: merges parts of a render. Returns the exit code: 0 or `merge_incomplete`.
 /// Throws `Error`.
 [[nodiscard]] int run_merge(const MergeArguments& arguments);
 

@@ -41,7 +41,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// As it is in a plan: relative paths are relative to `folder`, which is absolute.
+/// Returns a path as in a plan: relative paths are relative to `folder`, which is absolute.
 fs::path planned_path(const fs::path& path, const fs::path& folder)
 {
     if (path.is_absolute()) {
@@ -50,7 +50,7 @@ fs::path planned_path(const fs::path& path, const fs::path& folder)
     return fs::weakly_canonical(fs::absolute(path)).lexically_relative(folder);
 }
 
-/// Words that choose by hand what was chosen for `options`.
+/// Returns words that set the options that were chosen automatically for `options`.
 std::vector<std::string> chosen_words(const RenderOptions& options, Isa isa)
 {
     std::vector<std::string> words{fmt::format("--isa={}", isa_name(isa)),
@@ -67,7 +67,7 @@ std::vector<std::string> chosen_words(const RenderOptions& options, Isa isa)
     return words;
 }
 
-/// The words of `asked` with what is chosen for its first image, and the identity of that.
+/// The words of `asked` with the options chosen for its first image, and that image's identity.
 struct FirstImage {
     RenderArguments arguments;
     Identity identity;
@@ -80,11 +80,11 @@ FirstImage first_image(const RenderArguments& asked, const SequenceView& view,
     return {chosen, identity(stage.scene, stage.camera, chosen.options)};
 }
 
-/// The identity that tasks will find for the first image, by what their words say.
+/// Returns the identity that tasks will find for the first image by their words.
 Identity identity_of_tasks(Plan plan, const fs::path& file, const PreparedScene& stage,
                            const RenderOptions& chosen, Console& console)
 {
-    plan.rates.reset();  // their file is not there yet
+    plan.rates.reset();  // their file does not exist yet
     std::vector<std::string> shared = shared_words(plan, file);
     shared.push_back("--part=" + plan.tasks.front().part.string());
     const RenderArguments asked = render_arguments(shared);
@@ -95,13 +95,13 @@ Identity identity_of_tasks(Plan plan, const fs::path& file, const PreparedScene&
     return identity(stage.scene, stage.camera, arguments.options);
 }
 
-/// That ranges of samples are multiples of.
+/// Returns the number whose multiples ranges of samples are.
 std::int64_t min_samples_of_task(const RenderOptions& options)
 {
     return options.sampling.rates ? SampleRates::group : 1;
 }
 
-/// Number of tasks that take about as long as they may.
+/// Returns the number of tasks that take about as long as allowed.
 std::int64_t measured_tasks(const PlanArguments& arguments, RenderOptions options,
                             std::size_t images, const PreparedScene& stage, Console& console)
 {
@@ -124,7 +124,7 @@ std::int64_t measured_tasks(const PlanArguments& arguments, RenderOptions option
                          min_samples_of_task(options));
 }
 
-/// Number of tasks. Throws `OptionError` for more than there is to be rendered.
+/// Returns the number of tasks. Throws `OptionError` for more than there are samples to render.
 std::int64_t number_of_tasks(const PlanArguments& arguments, const RenderOptions& options,
                              std::size_t images, const PreparedScene& stage, Console& console)
 {
@@ -164,7 +164,7 @@ void check_files(const PlanArguments& arguments, const FileSet& inputs)
     check_plan_folder(arguments.folder);
 }
 
-/// All of the plan but its images, tasks and engine.
+/// Returns the plan without its images, tasks and engine.
 Plan plan_of(const PlanArguments& arguments, const fs::path& folder, const RenderOptions& chosen,
              Isa isa)
 {
@@ -192,7 +192,7 @@ Plan plan_of(const PlanArguments& arguments, const fs::path& folder, const Rende
     std::erase_if(plan.render_options, [](const std::string& word) {
         return word.starts_with("--isa=") || word == "--integrator=auto";
     });
-    // Images of a sequence choose for themselves, as they do without a plan.
+    // Images of a sequence choose options individually, as without a plan.
     const bool pinned =
         asked.options.integrator == IntegratorKind::automatic && !asked.sequence.has_value();
     for (const std::string& word : chosen_words(chosen, isa)) {
@@ -203,7 +203,7 @@ Plan plan_of(const PlanArguments& arguments, const fs::path& folder, const Rende
     return plan;
 }
 
-/// What is written into the folder.
+/// Returns the files to write into the folder.
 std::vector<fs::path> files_of_plan(const fs::path& folder, const Plan& plan)
 {
     std::vector<fs::path> files{folder / "plan.json"};
@@ -216,7 +216,7 @@ std::vector<fs::path> files_of_plan(const fs::path& folder, const Plan& plan)
     return files;
 }
 
-/// The scene of the first image, seen as it is there.
+/// Loads the scene with the view of the first image.
 PreparedScene load_first_image(const RenderArguments& asked, Console& console)
 {
     RenderArguments one = asked;
@@ -234,7 +234,7 @@ PreparedScene load_first_image(const RenderArguments& asked, Console& console)
     return stage;
 }
 
-/// " of 4 images" of those that a task renders, if there are several in all.
+/// Returns " of 4 images" for the images of a task, if the plan has several images.
 std::string images_of_tasks(const Plan& plan)
 {
     if (plan.images.size() == 1) {
@@ -264,8 +264,8 @@ void report_plan(Console& console, const PlanArguments& arguments, const Plan& p
     console.event("done", {{"plan", file.string()}, {"tasks", plan.tasks.size()}});
 }
 
-/// Fills in what the plan knows of the identity of its images: of one it is the whole. Throws
-/// `Error` (internal) when the plan's words would make another image.
+/// Fills in the identity of the plan's images: complete for a single image. Throws `Error`
+/// (internal) if the plan's words would make another image.
 void identify(Plan& plan, const fs::path& file, const FirstImage& first,
               const RenderArguments& asked, const PreparedScene& stage, Console& console)
 {

@@ -35,7 +35,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Of a task that has been done before.
+/// Reports a task that had been completed before.
 void report_complete(Console& console, const RenderArguments& arguments)
 {
     const std::int64_t samples = arguments.samples.end - arguments.samples.begin;
@@ -47,7 +47,7 @@ void report_complete(Console& console, const RenderArguments& arguments)
                            {"stopped_by", nullptr}});
 }
 
-/// Images are decoded once, if the file is loaded for several frames.
+/// Adds a cache of images, if the file is loaded for several frames.
 RenderArguments with_cache(RenderArguments arguments)
 {
     if (arguments.sequence && arguments.sequence->frames && arguments.sequence->orbit == 0) {
@@ -63,20 +63,20 @@ PreparedScene load(const RenderArguments& arguments, Console& console)
     return stage;
 }
 
-/// The plan that a task is one of, if any.
+/// Returns the plan of a task, if any.
 std::optional<Plan> plan_of(const RenderArguments& asked)
 {
     return asked.part && asked.part->plan ? std::optional(read_plan(*asked.part->plan))
                                           : std::nullopt;
 }
 
-/// The images that the process makes.
+/// Images that this process renders.
 struct Assignment {
     std::vector<SequenceView> views;
-    std::size_t first_image = 0;  ///< of the plan, if there is one
+    std::size_t first_image = 0;  ///< index in the plan, if there is one
 };
 
-/// Those of one task of a plan of several images.
+/// Returns the images of one task of a plan of several images.
 Assignment planned_assignment(const RenderArguments& asked, const Plan& plan)
 {
     const PlanTask& task = task_of(plan, *asked.part->plan, asked.part->task);
@@ -96,7 +96,7 @@ Assignment planned_assignment(const RenderArguments& asked, const Plan& plan)
     return result;
 }
 
-/// Throws `Error` (invalid_input) when files are not what they were when the plan was made.
+/// Throws `Error` (invalid_input) if files have changed since the plan was made.
 void check_files_of_plan(const RenderArguments& asked, const Plan& plan)
 {
     if (const auto what = difference(identity_of_files(asked), plan.files)) {
@@ -152,7 +152,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
     std::optional<double> time = asked.scene.time;
     std::optional<Viewpoint> first;
     std::optional<Scene> still;     // before its environment was turned
-    std::optional<float> exposure;  // by the light of the first frame, for all
+    std::optional<float> exposure;  // by the light of the first frame, for all frames
     for (const SequenceView& view : views) {
         if (interrupt.signal()) {
             break;
@@ -176,14 +176,14 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
             check_files_of_plan(asked, *plan);
         }
         if (!stage || time != image.scene.time) {
-            stage.reset();  // first, or there would be two in memory
+            stage.reset();  // first, to avoid two scenes in memory
             first.reset();
             still.reset();
             stage = load(image, console);
             time = image.scene.time;
         }
         if (!std::exchange(knows_scene, true)) {
-            check_all();  // now it is known which files the scene names
+            check_all();  // now the files that the scene names are known
         }
         if (!first) {
             first = Viewpoint{

@@ -7,9 +7,9 @@
 
 namespace bdpt::app {
 
-/// `bdpt render`. `words` are those that were typed. The result is the exit code: 0, or 128 + a
-/// signal's number when that ended the render early. Throws `Error` before anything is written, or
-/// when that fails.
+/// Runs `bdpt render`. `words` are the command line as typed. Returns the exit code: 0, or 128 + a
+/// signal's number if that ended the render early. Throws `Error` before anything is written, or if
+/// writing fails.
 [[nodiscard]] int run_render(const RenderArguments& arguments,
                              const std::vector<std::string>& words);
 

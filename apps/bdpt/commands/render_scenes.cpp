@@ -43,7 +43,7 @@ void check_scenes(const std::vector<fs::path>& scenes, const OptionList& options
     }
 }
 
-/// `asked` for `scene`, whose name goes into the names of its files.
+/// Returns `asked` for `scene`, whose name replaces the placeholders in file names.
 RenderArguments for_scene(const RenderArguments& asked, const fs::path& scene)
 {
     RenderArguments one = asked;
@@ -61,8 +61,8 @@ RenderArguments for_scene(const RenderArguments& asked, const fs::path& scene)
     return one;
 }
 
-/// Throws `OptionError` when two scenes would write the same file, and `Error` (usage) when one
-/// would write what is read for another.
+/// Throws `OptionError` if two scenes would write the same file, and `Error` (usage) if one would
+/// write a file that is read for another.
 void check_separate(const std::vector<RenderArguments>& all)
 {
     FileSet inputs;

@@ -49,7 +49,7 @@ void announce(Console& console, const RenderArguments& arguments, const Prepared
                             {"lights", stage.lights},
                             {"settings", settings}});
     if (is_one_of_many(arguments) && arguments.sequence_view->index > 0) {
-        return;  // it is much the same for all
+        return;  // about the same for all images
     }
     console.note(fmt::format("{}: {}, {}; {}x{}, {}, camera {}", arguments.file.string(),
                              counted(counts.instanced_triangles, "triangle"),
@@ -58,7 +58,7 @@ void announce(Console& console, const RenderArguments& arguments, const Prepared
                              stage.camera.name));
 }
 
-/// What the image is called in a viewer: its file, else that of its part.
+/// Returns the image's name in a viewer: its file, else that of its part.
 std::string name_in_viewer(const RenderArguments& arguments)
 {
     const std::filesystem::path& file =
@@ -66,11 +66,12 @@ std::string name_in_viewer(const RenderArguments& arguments)
     return one_line(file.filename().string());
 }
 
-/// `goal` counted from what there was `before` [samples per pixel], as far as it can be told.
+/// Returns the part of `goal` that remains after the `before` samples per pixel, as far as it can
+/// be told.
 Goal goal_from_now(Goal goal, const Progress& progress, std::int64_t before)
 {
     if (goal.samples) {
-        goal.samples = progress.samples_total;  // fewer when the render goes on
+        goal.samples = progress.samples_total;  // fewer when a part is continued
     }
     if (goal.noise && progress.noise) {
         const std::int64_t needed =
@@ -81,7 +82,7 @@ Goal goal_from_now(Goal goal, const Progress& progress, std::int64_t before)
     return goal;
 }
 
-/// `render_part`; what is wrong with `part` is told with the name of its file.
+/// Calls `render_part`; errors about `part` are reported with the name of its file.
 PartResult render_or_blame(const PreparedScene& stage, const RenderOptions& options,
                            RenderPart part, const RenderControl& control,
                            const RenderArguments& arguments)
@@ -117,7 +118,7 @@ PartResult render_stage(const RenderArguments& arguments, const PreparedScene& s
         session.display->begin_image(name_in_viewer(arguments));
     }
     control.on_part = [&](const RenderPart& now) {
-        if (keeper && !interrupt.signal()) {  // else it is written in a moment
+        if (keeper && !interrupt.signal()) {  // otherwise it is written in a moment
             const bool asked = interrupt.take_checkpoint_request();
             keeper->after_pass(now, asked ? Checkpoint::now : Checkpoint::when_due);
         }
@@ -139,7 +140,7 @@ PartResult render_stage(const RenderArguments& arguments, const PreparedScene& s
 io::PartNotes part_notes(const RenderArguments& arguments, io::ImageMetadata metadata,
                          const std::vector<std::string>& words)
 {
-    // Who stops at a level of noise misses nothing then.
+    // With a noise goal no samples are missing when the render stops.
     const bool known = arguments.goal.samples && !arguments.goal.noise;
     std::vector<std::string> command = render_words(words);
     if (arguments.strategies) {
@@ -187,7 +188,7 @@ ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json&
     return stats;
 }
 
-/// What to do about the noise that is left, where people see it.
+/// Prints advice about visible remaining noise.
 void note_noise(Console& console, const RenderArguments& arguments, double noise)
 {
     constexpr double preview = 0.05;
@@ -199,7 +200,7 @@ void note_noise(Console& console, const RenderArguments& arguments, double noise
     }
 }
 
-/// ", exposure 1.25 EV" for a file that has one.
+/// Returns ", exposure 1.25 EV" for a file that has one.
 std::string exposure_text(const std::filesystem::path& file, const std::optional<float>& exposure)
 {
     const std::optional<ImageType> type = type_of(file);
@@ -208,7 +209,7 @@ std::string exposure_text(const std::filesystem::path& file, const std::optional
                : "";
 }
 
-/// What was written: a line for each file or, if there are several images, one for all.
+/// Prints the written files: a line per file or, for a sequence, one line.
 void note_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
                const WrittenImages& images)
 {
@@ -297,7 +298,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     announce(console, arguments, stage, settings);
     tell_findings(console, stage);
     const bool is_first = !is_one_of_many(arguments) || arguments.sequence_view->index == 0;
-    if (light_beyond > 0.0 && is_first) {  // it is much the same for all
+    if (light_beyond > 0.0 && is_first) {  // about the same for all images
         console.note(fmt::format(
             "about {:.2g} % of the light is left out: it comes by paths of more than {} edges "
             "(--max-depth)",

@@ -15,21 +15,22 @@
 
 namespace bdpt::app {
 
-/// What the views of a command have in common.
+/// State shared by the views of a command.
 struct RenderSession {
     Console& console;
     Interrupt& interrupt;
-    Display* display;                ///< null: nobody watches
-    const io::Denoiser* denoiser;    ///< null: images stay as they are
-    std::vector<std::string> words;  ///< of a command that renders this image
+    Display* display;                ///< null: no viewer
+    const io::Denoiser* denoiser;    ///< null: images are not denoised
+    std::vector<std::string> words;  ///< command line that renders this image
 };
 
-/// How messages call the image that `arguments` make.
+/// Returns the label of the image of `arguments`, for messages.
 [[nodiscard]] ImageLabel label_of(const RenderArguments& arguments);
 
-/// Renders what the camera of `stage` sees, goes on with the part of `keeper` if there is one, and
-/// writes all files that `asked` names. From then on the session may be stopped, and what is there
-/// is written. Throws `Error`; what went wrong with the part comes after the images are written.
+/// Renders the view of `stage`'s camera, continuing the part of `keeper` if there is one, and
+/// writes all files that `asked` names. Once it has begun, the session may be stopped, and the
+/// samples so far are written. Throws `Error`; errors of the part are thrown after the images are
+/// written.
 void render_view(const RenderArguments& asked, const PreparedScene& stage,
                  std::optional<PartKeeper>& keeper, const RenderSession& session);
 

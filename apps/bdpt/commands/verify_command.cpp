@@ -31,7 +31,7 @@ int exit_code(eval::Verdict verdict)
 
 namespace {
 
-/// What is verified, with the light paths that auto chooses if that is asked for.
+/// Returns the verification options, with the light paths that auto chooses on request.
 eval::VerifyOptions options_for(const VerifyArguments& arguments, const PreparedScene& stage,
                                 Console& console)
 {
@@ -43,7 +43,7 @@ eval::VerifyOptions options_for(const VerifyArguments& arguments, const Prepared
     asked.film.width = options.width;
     asked.film.height = options.height;
     RenderOptions chosen = chosen_options(stage.scene, stage.camera, asked);
-    chosen.bidirectional.disabled.clear();  // all strategies are judged
+    chosen.bidirectional.disabled.clear();  // all strategies are tested
     console.note(fmt::format("auto chooses {}", integrator_words(chosen)));
     if (chosen.integrator == IntegratorKind::bdpt) {
         options.light_paths = chosen.bidirectional.light_paths;

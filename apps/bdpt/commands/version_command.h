@@ -4,8 +4,8 @@
 
 namespace bdpt::app {
 
-/// "bdpt 0.2.0", and in further lines what it was made with and what rays are traced with on this
-/// machine.
+/// Returns "bdpt 0.2.0", and in further lines its libraries and the ray tracing kernels that it
+/// uses on this machine.
 [[nodiscard]] std::string version_text();
 
 }  // namespace bdpt::app

@@ -16,7 +16,7 @@
 namespace bdpt::app {
 namespace {
 
-/// Shows `url` in the browser of the desktop; false: nothing can.
+/// Opens `url` in the desktop's browser; returns false on failure.
 bool open_in_browser(const std::string& url)
 {
     std::string program = "xdg-open";
@@ -26,7 +26,7 @@ bool open_in_browser(const std::string& url)
     return ::posix_spawnp(&child, program.c_str(), nullptr, nullptr, words.data(), environ) == 0;
 }
 
-/// Ends the server before the session whose tasks it holds goes.
+/// Stops the server before the session is destroyed, whose tasks it holds.
 class Serving {
 public:
     Serving(Server& server, Doors doors) : server_(server) { server_.start(std::move(doors)); }
@@ -50,8 +50,10 @@ int run_view(const ViewArguments& arguments, const OptionList& options)
         {.join = [&](ClientId client) { session.join(client); },
          .leave = [&](ClientId client) { session.leave(client); },
          .ask = [&](ClientId client, const std::string& text) { session.ask(client, text); },
-         .save = [&](const std::string& name, int slot,
-                     std::function<void(Download)> done) { session.save(name, slot, std::move(done)); },
+         .save =
+             [&](const std::string& name, int slot, std::function<void(Download)> done) {
+                 session.save(name, slot, std::move(done));
+             },
          .stop = [&] { session.stop(); }});
     print_text(server.url() + "\n");
     std::fflush(stdout);

@@ -8,7 +8,7 @@
 namespace bdpt::app {
 namespace {
 
-/// All of `text` as one number.
+/// Parses all of `text` as one number.
 template <typename Number>
 std::optional<Number> parse_number(std::string_view text)
 {
@@ -50,7 +50,7 @@ std::optional<double> parse_duration(std::string_view text)
     const std::string words = lower_case(text);
     std::string_view rest = words;
     double seconds = 0.0;
-    // Of several parts each has its unit, and the longer units come first.
+    // With several parts each has a unit, longer units first.
     bool is_first = true;
     for (const auto& [name, unit] :
          {std::pair{'h', 3600.0}, std::pair{'m', 60.0}, std::pair{'s', 1.0}}) {
@@ -98,7 +98,7 @@ std::optional<double> parse_share(std::string_view text)
     if (!number) {
         return std::nullopt;
     }
-    // Nobody asks for a noise of 100 % and more.
+    // A noise of 100 % and more is not useful.
     const double share = *number / (has_sign || *number >= 1.0 ? 100.0 : 1.0);
     return share > 0.0 && share <= 1.0 ? std::optional(share) : std::nullopt;
 }

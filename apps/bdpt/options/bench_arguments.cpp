@@ -21,7 +21,7 @@ namespace {
 
 using eval::BenchOptions;
 
-/// What `--quick` chooses, and what is chosen without.
+/// Benchmark settings with and without `--quick`.
 struct Effort {
     double seconds;
     int pixels;
@@ -29,11 +29,11 @@ struct Effort {
 constexpr Effort quick_effort{.seconds = 0.5, .pixels = 9216};
 constexpr Effort normal_effort{.seconds = 5.0, .pixels = 36864};
 
-/// Time of each of the two renders of a reference, in times that of a run: its noise is then a
-/// small part of the error of most runs.
+/// Time of each of the two renders of a reference relative to a run: its noise is then a small part
+/// of the error of most runs.
 constexpr double reference_effort = 12.0;
 
-/// Integrators with commas between; each once.
+/// Parses integrators separated by commas; each once.
 std::optional<std::vector<IntegratorKind>> parse_integrators(const std::string& text)
 {
     std::vector<IntegratorKind> result;
@@ -53,7 +53,7 @@ std::optional<std::vector<IntegratorKind>> parse_integrators(const std::string& 
     return result;
 }
 
-/// The stem of the file with what may be in names of files everywhere, and in none of `taken`.
+/// Returns the stem of the file with characters that all file systems allow, distinct from `taken`.
 std::string scene_name(const std::filesystem::path& file, std::set<std::string>& taken)
 {
     std::string stem = file.stem().string();
@@ -147,7 +147,7 @@ BenchArguments checked(const BenchRequest& request, const OptionList& options)
     bench.seconds = request.render.seconds.value_or(effort.seconds);
     bench.reference_seconds = request.reference_seconds.value_or(reference_effort * bench.seconds);
     RenderRequest render = request.render;
-    render.seconds.reset();  // that of a run, which is CPU time
+    render.seconds.reset();  // time of a run, which is CPU time
     std::set<std::string> names;
     for (const std::string& file : request.files) {
         render.arguments.file = file;

@@ -13,26 +13,26 @@ namespace bdpt::app {
 
 /// A scene of a benchmark.
 struct BenchSubject {
-    std::string name;        ///< of files; no other scene has it
-    RenderArguments render;  ///< how it is loaded and seen
+    std::string name;        ///< in file names; unique
+    RenderArguments render;  ///< arguments for loading and rendering
 };
 
-/// What `bdpt bench` is to do.
+/// Arguments of `bdpt bench`.
 struct BenchArguments {
     std::vector<BenchSubject> subjects{};
     std::filesystem::path folder{};
     eval::BenchOptions options{};
     std::optional<Size> size{};
-    int pixels = 0;  ///< of each image without `size`, at about
+    int pixels = 0;  ///< approximate number per image, if there is no `size`
     Printed printed{};
 };
 
-/// The options of `bdpt bench`, as they are given.
+/// Options of `bdpt bench`, as given.
 struct BenchRequest {
     std::vector<std::string> files{};
     BenchArguments arguments{};
     std::optional<double> reference_seconds{};
-    RenderRequest render{};  ///< what scenes, views and renders have in common with `bdpt render`
+    RenderRequest render{};  ///< options of scenes, views and renders shared with `bdpt render`
     bool quick = false;
 };
 
@@ -41,10 +41,10 @@ extern const char* const bench_footer;
 /// Adds the options of `bdpt bench`.
 void add_bench_options(OptionList& options, BenchRequest& request);
 
-/// Throws `OptionError` for options that do not go together.
+/// Checks and converts the options. Throws `OptionError` for incompatible ones.
 [[nodiscard]] BenchArguments checked(const BenchRequest& request, const OptionList& options);
 
-/// The image of about `pixels` pixels with the proportions of `whole`.
+/// Returns the size of an image of about `pixels` pixels with the proportions of `whole`.
 [[nodiscard]] Size bench_size(const Size& whole, int pixels);
 
 }  // namespace bdpt::app

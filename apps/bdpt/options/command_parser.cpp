@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view help_all = "--help-all";
 
-/// Prints options as "--name VALUE   what it does", as wide as the terminal, but for 60 to 100
+/// Formats options as "--name VALUE   description", as wide as the terminal, within 60 to 100
 /// columns.
 class HelpFormatter : public CLI::Formatter {
 public:
@@ -46,8 +46,8 @@ private:
     int columns_;
 };
 
-/// `words` as CLI11 takes them, from the end. "--name=" becomes "--name" and an empty word: CLI11
-/// would take the next word for its value.
+/// Converts `words` for CLI11, which takes them from the end. "--name=" becomes "--name" and an
+/// empty word, as CLI11 would take the next word as its value.
 std::vector<std::string> words_for_cli(const std::vector<std::string>& words)
 {
     std::vector<std::string> result;
@@ -65,10 +65,10 @@ std::vector<std::string> words_for_cli(const std::vector<std::string>& words)
     return result;
 }
 
-/// Options as CLI11 knows them. It tells words apart; values are understood by `Option::store`.
+/// Options registered with CLI11, which separates the words; `Option::store` parses the values.
 class CliOptions {
 public:
-    /// Help shows the options of the names `shown`; empty: all of them.
+    /// Adds options; help shows the names `shown`; empty: all of them.
     void add(CLI::App& app, OptionList& list, std::span<const std::string_view> shown = {})
     {
         for (Option& option : list.all()) {
@@ -85,7 +85,7 @@ public:
         }
     }
 
-    /// Takes what was given over into the options of `list`, and its values.
+    /// Transfers the given texts to the options of `list`, and stores their values.
     void store(OptionList& list) const
     {
         for (const auto& [option, added] : added_) {
@@ -115,7 +115,7 @@ private:
     std::vector<std::pair<Option*, CLI::Option*>> added_;
 };
 
-/// "render, plan or merge".
+/// Returns "render, plan or merge".
 std::string command_names(const Program& program)
 {
     std::vector<std::string> names;
@@ -131,7 +131,7 @@ std::string command_names(const Program& program)
     return text;
 }
 
-/// A command line in CLI11's terms.
+/// The program's command line as a CLI11 parser.
 struct CommandLineParser {
     explicit CommandLineParser(Program& program, HelpDetail detail = HelpDetail::essentials)
         : app(program.summary, program.name)
@@ -159,17 +159,17 @@ struct CommandLineParser {
     }
 
     CLI::App app;
-    std::deque<CliOptions> options;  ///< of the commands
+    std::deque<CliOptions> options;  ///< one per command
     bool all_flag = false;
 };
 
-/// Where all about `command` is told; null: about the program.
+/// Returns the help command for `command`; null: for the program.
 std::string help_of(const CLI::App* command)
 {
     return command != nullptr ? fmt::format("bdpt {} --help", command->get_name()) : "bdpt --help";
 }
 
-/// What `error` says, in our words.
+/// Returns the message of `error` in our words.
 std::string complaint(const CLI::ParseError& error)
 {
     std::string text = error.what();
@@ -188,7 +188,7 @@ std::string complaint(const CLI::ParseError& error)
     return text;
 }
 
-/// One line for what the parser did not like, with a hint. `command`: that was given, or null.
+/// Returns one line for a parse error, with a hint. `command`: the given command, or null.
 std::string explain(const Program& program, const CLI::App& app, const CLI::App* command,
                     const CLI::ParseError& error)
 {
@@ -249,7 +249,7 @@ ParsedLine parse(Program& program, const std::vector<std::string>& words)
         !program.find(words.front())->essentials.empty()) {
         return {.text = help_text(program, words.front(), HelpDetail::all)};
     }
-    // Options that help hides have no names in errors.
+    // Errors name options that the short help hides, too.
     CommandLineParser parser(program, HelpDetail::all);
     const auto given = [&parser]() -> const CLI::App* {
         const std::vector<CLI::App*> commands = parser.app.get_subcommands();

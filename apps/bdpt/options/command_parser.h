@@ -15,18 +15,18 @@ namespace bdpt::app {
 /// A command of the program.
 struct Command {
     std::string name;     ///< "render"
-    std::string summary;  ///< what it does, in a line
-    std::string footer;   ///< below the options in its help: examples, exit codes
+    std::string summary;  ///< one line
+    std::string footer;   ///< printed below the options in its help: examples, exit codes
     OptionList options;
-    /// Names of the options that its help shows; --help-all shows the others, too. Empty: all.
+    /// Names of the options that --help shows; --help-all shows the others, too. Empty: all.
     std::vector<std::string_view> essentials{};
-    std::string short_footer{};  ///< in place of `footer`, below the essentials
+    std::string short_footer{};  ///< replaces `footer` below the essentials
 };
 
-/// How much of a command a help text shows.
+/// Level of detail of a help text.
 enum class HelpDetail : std::uint8_t { essentials, all };
 
-/// A program that is a set of commands.
+/// A program: a set of commands.
 struct Program {
     std::string name;
     std::string summary;
@@ -34,28 +34,28 @@ struct Program {
     std::function<std::string()> version;  ///< text of --version
     std::deque<Command> commands;
 
-    /// Null: there is none of that name.
+    /// Returns the command of that name, or null.
     [[nodiscard]] const Command* find(std::string_view name) const;
 };
 
-/// What a command line asks for.
+/// Result of parsing a command line.
 struct ParsedLine {
-    Command* command = nullptr;         ///< whose options have been stored
-    std::optional<std::string> text{};  ///< of --help or --version, in place of the command
+    Command* command = nullptr;         ///< the command whose options have been stored
+    std::optional<std::string> text{};  ///< text of --help or --version, which replaces the command
 };
 
-/// The command line `words` without the name of the program, stored into the options of the command
-/// that they name. Throws `Error` (usage), whose message says where help is.
+/// Parses the command line `words`, without the name of the program, and stores it into the options
+/// of the command that it names. Throws `Error` (usage), whose message says where help is.
 [[nodiscard]] ParsedLine parse(Program& program, const std::vector<std::string>& words);
 
-/// `words` of one command, stored into `options`. Throws `OptionError`.
+/// Parses `words` of one command and stores them into `options`. Throws `OptionError`.
 void parse(OptionList& options, const std::vector<std::string>& words);
 
-/// The text of --help, of the program or of one command; or that of --help-all.
+/// Returns the text of --help, for the program or for one command; or that of --help-all.
 [[nodiscard]] std::string help_text(Program& program, std::string_view command = "",
                                     HelpDetail detail = HelpDetail::essentials);
 
-/// "unknown command ...: expected ...".
+/// Returns "unknown command ...: expected ...".
 [[nodiscard]] std::string unknown_command(const Program& program, const std::string& word,
                                           const std::string& help);
 

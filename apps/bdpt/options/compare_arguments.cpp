@@ -14,7 +14,7 @@ namespace {
 
 using eval::Metric;
 
-/// Metrics with commas between; each once.
+/// Parses metrics separated by commas; each once.
 std::optional<std::vector<Metric>> parse_metrics(const std::string& text)
 {
     std::vector<Metric> result;
@@ -34,11 +34,11 @@ std::optional<std::vector<Metric>> parse_metrics(const std::string& text)
     return result;
 }
 
-/// "START,STOP,COUNT".
+/// Parses "START,STOP,COUNT".
 std::optional<eval::FlipExposures> parse_exposures(const std::string& text)
 {
     const std::optional<Vec3> numbers = parse_vec3(text);
-    constexpr float most = 100.0f;  // [EV] or of them: far beyond what scenes need
+    constexpr float most = 100.0f;  // [EV], and maximum count; far beyond what scenes need
     if (!numbers || std::abs(numbers->x) > most || std::abs(numbers->y) > most ||
         numbers->x >= numbers->y || numbers->z < 2.0f || numbers->z > most ||
         std::floor(numbers->z) != numbers->z) {
@@ -49,7 +49,7 @@ std::optional<eval::FlipExposures> parse_exposures(const std::string& text)
                                .count = static_cast<int>(numbers->z)};
 }
 
-/// Of which there are maps.
+/// Parses a metric that has maps.
 std::optional<Metric> parse_map_metric(const std::string& text)
 {
     const std::optional<Metric> metric = eval::parse_metric(text);

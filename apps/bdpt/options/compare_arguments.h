@@ -14,19 +14,19 @@
 
 namespace bdpt::app {
 
-/// What `bdpt compare` is to do.
+/// Arguments of `bdpt compare`.
 struct CompareArguments {
-    std::filesystem::path image{};  ///< an image, or a folder of them
+    std::filesystem::path image{};  ///< an image, or a folder of images
     std::filesystem::path reference{};
     std::optional<std::string> layer{};
     eval::ComparisonOptions options{};
     std::vector<eval::Threshold> thresholds{};
     std::optional<std::filesystem::path> error_image{};
-    double scale = 1.0;  ///< of the error image
+    double scale = 1.0;  ///< scale of the error image
     Printed printed{};
 };
 
-/// The options of `bdpt compare`, as they are given.
+/// Options of `bdpt compare`, as given.
 struct CompareRequest {
     CompareArguments arguments{};
     std::optional<std::vector<eval::Metric>> metrics{};  ///< none: all
@@ -37,7 +37,7 @@ extern const char* const compare_footer;
 /// Adds the options of `bdpt compare`.
 void add_compare_options(OptionList& options, CompareRequest& request);
 
-/// With the metrics of thresholds among those that are measured.
+/// Checks and converts the options; adds the metrics of thresholds to those that are measured.
 [[nodiscard]] CompareArguments checked(const CompareRequest& request, const OptionList& options);
 
 }  // namespace bdpt::app

@@ -11,7 +11,7 @@
 
 namespace bdpt::app {
 
-/// What `bdpt develop` is to do.
+/// Arguments of `bdpt develop`.
 struct DevelopArguments {
     std::filesystem::path file{};  ///< .exr
     std::vector<std::filesystem::path> outputs{};
@@ -20,7 +20,7 @@ struct DevelopArguments {
     Printed printed{};
 };
 
-/// The options of `bdpt develop`, as they are given.
+/// Options of `bdpt develop`, as given.
 struct DevelopRequest {
     DevelopArguments arguments{};
     DenoiseArguments denoise{};
@@ -31,7 +31,7 @@ extern const char* const develop_footer;
 /// Adds the options of `bdpt develop`.
 void add_develop_options(OptionList& options, DevelopRequest& request);
 
-/// Throws `OptionError` for options that do not go together.
+/// Checks and converts the options. Throws `OptionError` for incompatible ones.
 [[nodiscard]] DevelopArguments checked(const DevelopRequest& request, const OptionList& options);
 
 }  // namespace bdpt::app

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int widest = 8192;
 
-/// "X,Y".
+/// Parses "X,Y".
 std::optional<std::pair<int, int>> parse_pixel(const std::string& text)
 {
     const std::size_t comma = text.find(',');

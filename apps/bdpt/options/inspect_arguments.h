@@ -10,18 +10,18 @@
 
 namespace bdpt::app {
 
-/// What `bdpt inspect` is to do.
+/// Arguments of `bdpt inspect`.
 struct InspectArguments {
-    RenderArguments stage{};  ///< which scene, seen and rendered how
+    RenderArguments stage{};  ///< scene, view and render options
     PixelSample sample{};
     std::optional<std::filesystem::path> directions{};  ///< .png or .exr
-    int vertex = 1;                                     ///< of whose directions
-    int width = 512;                                    ///< of their images [pixels]
+    int vertex = 1;   ///< index of the vertex whose directions are shown
+    int width = 512;  ///< width of images of directions [pixels]
 };
 
-/// The options of `bdpt inspect`, as they are given.
+/// Options of `bdpt inspect`, as given.
 struct InspectRequest {
-    RenderRequest render{};  ///< what it shares with `bdpt render`; the rest is left alone
+    RenderRequest render{};  ///< options shared with `bdpt render`; the rest is unused
     InspectArguments arguments{};
 };
 
@@ -30,7 +30,7 @@ extern const char* const inspect_footer;
 /// Adds the options of `bdpt inspect`.
 void add_inspect_options(OptionList& options, InspectRequest& request);
 
-/// Throws `OptionError` for options that do not go together.
+/// Checks and converts the options. Throws `OptionError` for incompatible ones.
 [[nodiscard]] InspectArguments checked(const InspectRequest& request, const OptionList& options);
 
 }  // namespace bdpt::app

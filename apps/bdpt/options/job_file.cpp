@@ -22,7 +22,7 @@ using nlohmann::ordered_json;
 constexpr const char* format_key = "bdpt_job";
 constexpr const char* schema_key = "$schema";  // for editors
 
-/// "light_samples" of --light-samples.
+/// Returns "light_samples" for --light-samples.
 std::string key_of(const Option& option)
 {
     std::string key = option.name();
@@ -47,7 +47,7 @@ bool is_number(const Option& option)
     return option.info.json == JsonType::number || option.info.json == JsonType::whole_number;
 }
 
-/// The text that the command would take for `value`.
+/// Returns the command-line text for `value`.
 std::string text_of(const Option& option, const JsonValue& value)
 {
     if (option.info.separator != '\0' && value.is_array()) {
@@ -59,20 +59,20 @@ std::string text_of(const Option& option, const JsonValue& value)
         return text;
     }
     const std::string text = value.scalar_text();
-    // A number in quotes is a mistake; but JSON has no other form of infinity.
+    // A number in quotes is an error, except infinity, which JSON cannot express otherwise.
     if (is_number(option) && value.is_text() && text != "inf") {
         value.fail_expecting(option.expected);
     }
     return text;
 }
 
-/// A path of a job as it is from here.
+/// Returns a path of a job relative to the working directory.
 std::string resolved_path(const std::string& path, const fs::path& folder)
 {
     return fs::path(path).is_absolute() ? path : (folder / path).string();
 }
 
-/// Checks `value` and gives it to `option`.
+/// Checks `value` and stores it into `option`.
 void take(Option& option, const JsonValue& value, const fs::path& folder)
 {
     const auto add = [&](const JsonValue& element) {
@@ -94,7 +94,7 @@ void take(Option& option, const JsonValue& value, const fs::path& folder)
     }
 }
 
-/// The option that `key` is a name of in jobs; null: none is.
+/// Returns the option with the name `key` in jobs, or null.
 Option* option_of(OptionList& options, const std::string& key)
 {
     for (Option& option : options.all()) {
@@ -131,7 +131,7 @@ void check_format(const JsonValue& job)
     }
 }
 
-/// `text`, which the option has taken, as JSON; paths as they are from `folder`.
+/// Returns `text`, accepted by the option, as JSON; paths are relative to `folder`.
 ordered_json json_of(const Option& option, const std::string& text, const fs::path& folder)
 {
     if (is_path(option, text)) {
@@ -144,7 +144,7 @@ ordered_json json_of(const Option& option, const std::string& text, const fs::pa
         return text == "true";
     }
     if (option.info.json == JsonType::whole_number) {
-        std::uint64_t number = 0;  // all whole numbers of options but those below 0
+        std::uint64_t number = 0;  // all whole numbers of options but negative ones
         const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (error == std::errc{} && stop == text.data() + text.size()) {
             return number;
@@ -160,7 +160,7 @@ ordered_json json_of(const Option& option, const std::string& text, const fs::pa
     return text;
 }
 
-/// What values of `option` are, as a schema.
+/// Returns the JSON schema of the values of `option`.
 ordered_json schema_of(const Option& option)
 {
     const ValueInfo& info = option.info;
@@ -181,7 +181,7 @@ ordered_json schema_of(const Option& option)
         schema["enum"] = info.words;
         for (const std::string& word : info.words) {
             if (word.find_first_not_of("0123456789") == std::string::npos) {
-                schema["enum"].push_back(std::stoi(word));  // which may be a number, too
+                schema["enum"].push_back(std::stoi(word));  // the option may also be a number
             }
         }
     } else if (info.may_be_number) {
@@ -227,7 +227,7 @@ void load_job(const fs::path& file, OptionList& options)
         if (option == nullptr) {
             fail_unknown(options, key, value);
         }
-        // Also what the command line overrides has to be right.
+        // Values that the command line overrides are checked, too.
         std::vector<std::string> before = option->texts;
         take(*option, job.at(key), folder);
         if (std::find(given.begin(), given.end(), option) != given.end()) {

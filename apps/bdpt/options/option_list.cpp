@@ -12,7 +12,8 @@
 namespace bdpt::app {
 namespace {
 
-/// Insertions, deletions and replacements that turn `a` into `b` [Levenshtein 1966].
+/// Returns the number of insertions, deletions and replacements that turn `a` into `b` [Levenshtein
+/// 1966].
 std::size_t edit_distance(std::string_view a, std::string_view b)
 {
     std::vector<std::size_t> row(b.size() + 1);
@@ -29,7 +30,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
     return row.back();
 }
 
-/// What shells and configuration files take for yes and no.
+/// Accepts the booleans of shells and configuration files.
 ValueType<bool> yes_or_no()
 {
     const auto parse = [](const std::string& given) -> std::optional<bool> {
@@ -56,7 +57,7 @@ std::vector<std::string> split_at_bars(std::string_view names)
     return result;
 }
 
-/// ": WHY", or nothing.
+/// Returns ": WHY", or nothing.
 std::string reason(std::string_view why)
 {
     return why.empty() ? "" : fmt::format(": {}", why);
@@ -148,8 +149,9 @@ void OptionList::store_given()
         if (option.repeats) {
             option.clear();
         }
-        const std::size_t first =
-            option.repeats || !option.given() ? 0 : option.texts.size() - 1;  // else the last
+        const std::size_t first = option.repeats || !option.given()
+                                      ? 0
+                                      : option.texts.size() - 1;  // else only the last one
         for (std::size_t i = first; i < option.texts.size(); ++i) {
             if (!option.store(option.texts[i])) {
                 reject(option.name(), option.texts[i], option.expected);
@@ -190,7 +192,7 @@ void check(std::span<const Conflict> conflicts, const OptionList& options)
 
 std::optional<std::string> closest(std::string_view text, std::span<const std::string> words)
 {
-    // Half a word of typing errors is another word.
+    // With half of its letters wrong it is another word.
     std::size_t best = text.size() / 2;
     std::optional<std::string> result;
     for (const std::string& word : words) {

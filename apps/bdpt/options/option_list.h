@@ -15,11 +15,10 @@
 
 namespace bdpt::app {
 
-// The options of commands are listed once. The parser, the help texts, man pages, completions,
+// Each option of a command is listed once. The parser, the help texts, man pages, completions,
 // plans and the Python package are loops over such a list (`OptionList`).
 
-/// An option whose value makes no sense. main() adds to the message where the help of the command
-/// is.
+/// Error of an invalid value of an option. main() adds to the message where the command's help is.
 class OptionError : public Error {
 public:
     explicit OptionError(const std::string& message) : Error(ErrorCode::usage, message) {}
@@ -29,71 +28,74 @@ public:
 [[noreturn]] void reject(std::string_view option, std::string_view value,
                          std::string_view expected);
 
-/// What a value is in JSON.
+/// Type of a value in JSON.
 enum class JsonType : std::uint8_t { text, whole_number, number, boolean };
 
-/// What is known of the values of an option beside how they are parsed.
+/// Properties of the values of an option, beside their parser.
 struct ValueInfo {
     JsonType json = JsonType::text;
-    Range range{};                     ///< of numbers
-    std::vector<std::string> words{};  ///< that it may be, if there are no others
-    bool is_path = false;              ///< of a file or folder, where it is none of `words`
-    bool may_be_number = false;        ///< of texts: JSON has a number where the text is one
-    char separator = '\0';  ///< of several numbers, which may be an array in JSON; 0: there is one
+    Range range{};                     ///< range of numbers
+    std::vector<std::string> words{};  ///< allowed words, if only these are allowed
+    bool is_path = false;              ///< a file or folder, unless it is one of `words`
+    bool may_be_number = false;        ///< a text that JSON may give as a number
+    char separator =
+        '\0';  ///< between several numbers, which may be an array in JSON; 0: a single value
 };
 
-/// How a text becomes a value.
+/// Conversion of a text to a value.
 template <typename T>
 struct ValueType {
-    std::function<std::optional<T>(const std::string&)> parse;  ///< none: it is no such value
-    std::string expected;  ///< what it must be, as in "expected a number from 0 to 1"
+    std::function<std::optional<T>(const std::string&)>
+        parse;             ///< returns none for an invalid value
+    std::string expected;  ///< description of valid values, as in "expected a number from 0 to 1"
     ValueInfo info{};
 };
 
-/// Who else than the command line takes an option.
+/// Uses of an option other than on the command line.
 struct OptionUses {
-    bool plan_render = false;    ///< plans keep it for `bdpt render`
-    bool plan_merge = false;     ///< plans keep it for `bdpt merge`
-    bool python_load = false;    ///< a keyword of bdpt.load()
-    bool python_render = false;  ///< a keyword of render() in Python
-    bool python_save = false;    ///< a keyword of save() in Python
-    bool job = true;             ///< a member of jobs (options/job_file.h)
+    bool plan_render = false;    ///< plans pass it to `bdpt render`
+    bool plan_merge = false;     ///< plans pass it to `bdpt merge`
+    bool python_load = false;    ///< keyword of bdpt.load()
+    bool python_render = false;  ///< keyword of render() in Python
+    bool python_save = false;    ///< keyword of save() in Python
+    bool job = true;             ///< member of jobs (options/job_file.h)
 };
 
-/// One option of a command, or an argument that has no name before it.
+/// An option of a command, or a positional argument.
 struct Option {
-    std::string names;    ///< "-o,--output"; of an argument its word, "file"
-    std::string value;    ///< what stands for its value in the help, "FILE"; empty: a flag
-    std::string help;     ///< what it does
-    std::string section;  ///< title in the help; empty: that of the parser
+    std::string names;    ///< "-o,--output"; for an argument its word, "file"
+    std::string value;    ///< placeholder of its value in the help, "FILE"; empty: a flag
+    std::string help;     ///< description of its effect
+    std::string section;  ///< title in the help; empty: the parser's default
     OptionUses uses{};
     bool required = false;
-    bool repeats = false;  ///< all its values count, else the last one
+    bool repeats = false;  ///< true: all given values count; false: the last one
     ValueInfo info{};
-    /// Takes the value of a text. False: it is not what is `expected`.
+    /// Parses a text and stores its value. Returns false if the text is not as `expected`.
     std::function<bool(const std::string&)> store;
     std::string expected{};
-    std::function<void()> clear{};     ///< forgets all values of one that repeats
-    std::vector<std::string> texts{};  ///< what was given; "true" for a flag
+    std::function<void()> clear{};     ///< clears all values of a repeatable option
+    std::vector<std::string> texts{};  ///< the given texts; "true" for a flag
 
     [[nodiscard]] bool is_flag() const { return value.empty(); }
     [[nodiscard]] bool is_argument() const { return !names.starts_with('-'); }
-    /// "--output", or "file" of an argument.
+    /// Returns "--output", or "file" for an argument.
     [[nodiscard]] std::string name() const;
     [[nodiscard]] bool given() const { return !texts.empty(); }
-    /// As one word that says the same: "--spp=64", "--half".
+    /// Returns the option with its value as one equivalent word: "--spp=64", "--half".
     [[nodiscard]] std::string word() const;
-    /// `text`, or the word among `info.words` that it is but for capital letters.
+    /// Returns `text`, or the word of `info.words` that it equals up to capital letters.
     [[nodiscard]] std::string spelled(std::string text) const;
 };
 
-/// The options of a command, in the order of its help, and what was given for them.
+/// The options of a command, in the order of its help, and the texts given for them.
 class OptionList {
 public:
-    /// Options that are added from now on are in the section of that title.
+    /// Starts a section of that title for options added from now on.
     void section(std::string title, OptionUses uses = {});
 
-    /// An option that puts the value of its last text into `target`, which outlives the list.
+    /// Adds an option that stores the value of its last text into `target`, which outlives the
+    /// list.
     template <typename Target, typename T>
     Option& add(std::string names, std::string value, std::string help, Target& target,
                 ValueType<T> type)
@@ -111,7 +113,7 @@ public:
         return option;
     }
 
-    /// An option that may be repeated, whose values are appended to `target`.
+    /// Adds an option that may be repeated, whose values are appended to `target`.
     template <typename Item, typename T>
     Option& add_repeated(std::string names, std::string value, std::string help,
                          std::vector<Item>& target, ValueType<T> type)
@@ -131,10 +133,10 @@ public:
         return option;
     }
 
-    /// A flag, which may also be given as --name=false.
+    /// Adds a flag, which may also be given as --name=false.
     Option& add_flag(std::string names, std::string help, bool& target);
 
-    /// A flag that may have a value, as --name=VALUE; without one its text is "true".
+    /// Adds a flag that may have a value, as --name=VALUE; without one its text is "true".
     template <typename Target, typename T>
     Option& add_flag(std::string names, std::string help, Target& target, ValueType<T> type)
     {
@@ -143,11 +145,11 @@ public:
         return option;
     }
 
-    /// The option of that name, as "--spp". There is one.
+    /// Returns the option of that name, such as "--spp", which must exist.
     [[nodiscard]] const Option& at(std::string_view name) const;
-    /// Null: there is none of that name.
+    /// Returns the option of that name, or null.
     [[nodiscard]] const Option* find(std::string_view name) const;
-    /// Was that option given? False for one that the command has not.
+    /// Tests whether the option was given. False for one that the command does not have.
     [[nodiscard]] bool given(std::string_view name) const;
     /// Throws the `OptionError` of that option, with the value that was given for it.
     [[noreturn]] void reject_value(std::string_view name, std::string_view expected) const;
@@ -155,40 +157,40 @@ public:
     [[nodiscard]] std::deque<Option>& all() { return options_; }
     [[nodiscard]] const std::deque<Option>& all() const { return options_; }
 
-    /// Stores all that was given, in place of what was stored before. Throws `OptionError` for the
-    /// first text that is not what its option expects.
+    /// Stores all given texts, replacing the values stored before. Throws `OptionError` for the
+    /// first text that is not as its option expects.
     void store_given();
 
 private:
     Option& append(std::string names, std::string value, std::string help);
 
-    std::deque<Option> options_;  // which stay where they are
+    std::deque<Option> options_;  // a deque: options keep their addresses
     std::string section_;
     OptionUses uses_;
 };
 
-/// An option that means nothing without another one.
+/// An option that requires another one.
 struct Need {
     std::string_view option;
-    std::string_view other;  ///< or one of several, with "|" between
-    std::string_view why{};  ///< said behind a colon
+    std::string_view other;  ///< option, or alternatives separated by "|"
+    std::string_view why{};  ///< reason, printed after a colon
 };
 
-/// Options of which only one can be given.
+/// Two options that exclude each other.
 struct Conflict {
     std::string_view option;
     std::string_view other;
-    std::string_view why{};  ///< said behind a colon
+    std::string_view why{};  ///< reason, printed after a colon
 };
 
 /// Throws `OptionError` for the first of `needs` that is not met: "--fps needs --frames or
 /// --orbit".
 void check(std::span<const Need> needs, const OptionList& options);
 
-/// Throws `OptionError` where both are given: "--samples cannot be combined with --spp".
+/// Throws `OptionError` if both are given: "--samples cannot be combined with --spp".
 void check(std::span<const Conflict> conflicts, const OptionList& options);
 
-/// The word that `text` was probably meant to be; none when all are far from it.
+/// Returns the word that `text` was probably meant to be; none if all are far from it.
 [[nodiscard]] std::optional<std::string> closest(std::string_view text,
                                                  std::span<const std::string> words);
 

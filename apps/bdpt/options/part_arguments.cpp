@@ -12,7 +12,7 @@
 namespace bdpt::app {
 namespace {
 
-/// [s]; infinite without a text.
+/// Parses a time [s]; infinite without a text.
 std::optional<double> parse_wait(const std::string& text)
 {
     return text == "true" ? std::numeric_limits<double>::infinity() : parse_duration(text);
@@ -64,7 +64,7 @@ void add_part_options(OptionList& options, PartChoice& part)
 std::optional<PartChoice> checked(const PartChoice& part, const OptionList& options)
 {
     static constexpr std::array needs{Need{"--task", "--plan"}, Need{"--restart", "--part"}};
-    if (options.find("--part") != nullptr) {  // bdpt plan has a --restart of its own
+    if (options.find("--part") != nullptr) {  // the --restart of bdpt plan is a different option
         check(needs, options);
     }
     return options.given("--part") ? std::optional(part) : std::nullopt;

@@ -19,24 +19,24 @@
 
 namespace bdpt::app {
 
-/// What a file that is there already means to the render that would write it.
+/// Treatment of an existing part file by the render that would write it.
 enum class ExistingPart : std::uint8_t { go_on, restart };
 
-/// The file that a render goes on with.
+/// The part file that a render continues.
 struct PartChoice {
     std::filesystem::path file{};
     ExistingPart existing = ExistingPart::go_on;
-    std::optional<std::filesystem::path> plan{};  ///< that the render must be one of
-    std::string task{};                           ///< of it: its number, or where that is
+    std::optional<std::filesystem::path> plan{};  ///< plan that the render must belong to
+    std::string task{};  ///< task in the plan: its number, or where to find it
 };
 
 /// Adds --part, --restart, --plan and --task.
 void add_part_options(OptionList& options, PartChoice& part);
 
-/// `part` where --part is given. Throws `OptionError`.
+/// Returns `part` if --part is given. Throws `OptionError`.
 [[nodiscard]] std::optional<PartChoice> checked(const PartChoice& part, const OptionList& options);
 
-/// How .exr files store what they hold.
+/// Storage of .exr files.
 struct ExrFormat {
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;
     io::ExrStorage storage = io::ExrStorage::scanlines;
@@ -47,47 +47,47 @@ void add_half_option(OptionList& options, ExrFormat& exr);
 /// Adds --tiled.
 void add_tiled_option(OptionList& options, ExrFormat& exr);
 
-/// What a command prints.
+/// Output of a command on its streams.
 struct Printed {
     Format format = Format::text;
     Verbosity verbosity = Verbosity::normal;
 };
 
-/// Adds -q,--quiet; `help` says what is printed all the same.
+/// Adds -q,--quiet; `help` says what is still printed.
 void add_quiet_option(OptionList& options, Printed& printed,
                       std::string help = "Print errors only");
 /// Adds --json; `help` says what is printed.
 void add_json_option(OptionList& options, Printed& printed, std::string help);
 
-/// What becomes of a merge of which samples are missing.
+/// Treatment of a merge with missing samples.
 enum class Incomplete : std::uint8_t { refuse, write };
 
-/// What `bdpt merge` is to do.
+/// Arguments of `bdpt merge`.
 struct MergeArguments {
     std::vector<std::filesystem::path> parts{};
     std::vector<std::filesystem::path> outputs{};
-    std::optional<std::filesystem::path> strategies{};  ///< .exr for the images of strategies
-    std::optional<std::filesystem::path> plan{};        ///< whose parts they are
-    std::size_t image = 0;                              ///< of the plan
-    std::optional<SampleSet> goal{};                    ///< that the plan has for each image
-    std::optional<double> wait{};                       ///< [s] for parts to come; may be infinite
-    std::optional<std::int64_t> samples{};              ///< per pixel, that the render was to have
-    std::optional<double> noise{};                      ///< as noise_of(), that it was to have
+    std::optional<std::filesystem::path> strategies{};  ///< .exr file of strategy images
+    std::optional<std::filesystem::path> plan{};        ///< plan of the parts
+    std::size_t image = 0;                              ///< index in the plan
+    std::optional<SampleSet> goal{};                    ///< goal of the plan for each image
+    std::optional<double> wait{};           ///< time to wait for parts [s]; may be infinite
+    std::optional<std::int64_t> samples{};  ///< requested samples per pixel of the render
+    std::optional<double> noise{};          ///< requested noise of the render, as by noise_of()
     Incomplete incomplete = Incomplete::refuse;
     DisplayArguments display{};
-    std::optional<DenoiseArguments> denoise{};  ///< if images are to be denoised
+    std::optional<DenoiseArguments> denoise{};  ///< set if images are to be denoised
     ExrFormat exr{};
     Printed printed{};
 };
 
-/// The options of `bdpt merge`, as they are given.
+/// Options of `bdpt merge`, as given.
 struct MergeRequest {
     MergeArguments arguments{};
     StrategyFiles strategies{};
     DenoiseArguments denoise{};
 };
 
-/// Is `file` named as a part of a render: NAME.part.exr?
+/// Tests whether `file` is named as a part of a render: NAME.part.exr.
 [[nodiscard]] bool is_part_name(const std::filesystem::path& file);
 
 extern const char* const merge_footer;
@@ -95,7 +95,7 @@ extern const char* const merge_footer;
 /// Adds the options of `bdpt merge`.
 void add_merge_options(OptionList& options, MergeRequest& request);
 
-/// Throws `OptionError` for options that do not go together.
+/// Checks and converts the options. Throws `OptionError` for incompatible ones.
 [[nodiscard]] MergeArguments checked(const MergeRequest& request, const OptionList& options);
 
 }  // namespace bdpt::app

@@ -22,7 +22,7 @@ Choices<Engine> engines()
              {"aws-batch", Engine::aws_batch}}};
 }
 
-/// The options that were given and that plans keep for the command that `use` is about, as words.
+/// Returns the given options that plans keep for the command of `use`, as words.
 std::vector<std::string> kept_words(const OptionList& options, bool OptionUses::*use)
 {
     std::vector<std::string> words;
@@ -80,7 +80,7 @@ PlannableOptions plannable_options()
             result.merge.push_back(option.name());
         }
     }
-    // What `checked` adds, and what is chosen for --integrator auto.
+    // Added by `checked`, and chosen for --integrator auto.
     result.render.insert(result.render.end(), {"--env", "--strategy-depth"});
     return result;
 }

@@ -21,7 +21,7 @@ namespace {
 
 constexpr OptionUses of_render{.plan_render = true, .python_render = true};
 constexpr OptionUses of_load{.plan_render = true, .python_load = true};
-/// load() says what render() sees unless that is told something else.
+/// The options of load() are the defaults of render().
 constexpr OptionUses of_view{.plan_render = true, .python_load = true, .python_render = true};
 constexpr OptionUses of_save{.plan_merge = true, .python_save = true};
 
@@ -34,7 +34,7 @@ void add_how(OptionList& options, RenderRequest& request)
     options
         .add("--spp", "N", "Samples per pixel. Default: 64", request.spp,
              whole_number(1, max_samples))
-        .uses.plan_render = false;  // a plan says which samples tasks render
+        .uses.plan_render = false;  // plans define the samples of tasks
     add_size_option(options, request,
                     "Image size. Default: the largest with the camera's aspect ratio within "
                     "1280x720");
@@ -45,7 +45,7 @@ void add_how(OptionList& options, RenderRequest& request)
                   "multiple of 8. A test render of 8 samples per pixel finds out where. "
                   "Unbiased. Not for lt and vcm",
                   request.adaptive)
-        .uses.plan_render = false;  // a plan has the rates in a file
+        .uses.plan_render = false;  // plans store rates in a file
     options
         .add("--rates", "FILE",
              "The same by an .exr that --save-rates has written, without a test render",
@@ -105,7 +105,7 @@ void add_image_output(OptionList& options, RenderRequest& request)
                     "error. With --quiet only done and error");
 }
 
-/// What concerns one process that renders, and not the render as such.
+/// Adds options of a single rendering process, not of the render as such.
 void add_process_options(OptionList& options, RenderRequest& request)
 {
     RenderArguments& arguments = request.arguments;
@@ -147,7 +147,7 @@ void add_process_options(OptionList& options, RenderRequest& request)
         .uses.job = false;
 }
 
-/// How long it renders.
+/// Returns the goal of the render.
 Goal goal_of(const RenderRequest& request)
 {
     Goal goal = request.arguments.goal;
@@ -155,7 +155,7 @@ Goal goal_of(const RenderRequest& request)
     if (request.samples) {
         goal.samples = request.samples->end - request.samples->begin;
     } else if (request.spp || !request.seconds) {
-        constexpr std::int64_t enough = 65536;  // where noise never gets low
+        constexpr std::int64_t enough = 65536;  // limit where noise does not converge
         goal.samples = request.spp.value_or(goal.noise ? enough : SampleRange{}.end);
     }
     return goal;
@@ -265,7 +265,7 @@ void add_view_options(OptionList& options, RenderRequest& request)
              "(the sky that scenes without light get), or studio (soft boxes, for products). "
              "Replaces that of the file",
              arguments.environment, file_path({"none", "default", "studio", "-"}))
-        .uses.plan_render = false;  // a plan has a place of its own for files
+        .uses.plan_render = false;  // plans store files separately
     add_environment_options(options, arguments.environment_change);
     add_fog_options(options, request.fog);
     add_volume_options(options, request.volume);

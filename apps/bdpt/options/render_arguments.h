@@ -32,19 +32,19 @@
 
 namespace bdpt::app {
 
-/// Where rates of samples come from, and where they go.
+/// Source and destination of sample rates.
 struct RatesChoice {
-    std::optional<std::filesystem::path> file{};   ///< none: a pilot finds them
+    std::optional<std::filesystem::path> file{};   ///< none: a pilot measures them
     std::optional<std::filesystem::path> saved{};  ///< .exr or .png
 };
 
-/// How metadata calls the files of a render.
+/// Form of file paths in a render's metadata.
 enum class PathNames : std::uint8_t {
-    files,  ///< without their folders, which are nobody else's business
-    paths,  ///< as they were given
+    files,  ///< names without folders, for privacy
+    paths,  ///< paths as given
 };
 
-/// What `bdpt render` is to do.
+/// Arguments of `bdpt render`.
 struct RenderArguments {
     std::filesystem::path file{};
     std::vector<std::filesystem::path> outputs{};
@@ -55,32 +55,33 @@ struct RenderArguments {
     ViewOverrides view{};
     LensChoice lens{};
     Isa isa = Isa::native;
-    io::GltfOptions scene{};                   ///< what of the file is rendered
+    io::GltfOptions scene{};                   ///< selects the part of the file to render
     io::MemoryLimit memory{};                  ///< for scene and film
     std::optional<std::string> environment{};  ///< a file, or "none", "default" or "studio"
     TextureFilter texture_filter = TextureFilter::bilinear;
-    EnvironmentChange environment_change{};  ///< of whichever environment it is
+    EnvironmentChange environment_change{};  ///< applied to whichever environment it is
     std::optional<MediumDesc> fog{};         ///< around all bodies, if any
     std::optional<VolumeChoice> volume{};    ///< in the scene, if any
     DisplayArguments display{};
-    std::optional<float> light_exposure{};      ///< [EV] of a white card, if the light was metered
-    std::optional<DenoiseArguments> denoise{};  ///< if images are to be denoised
+    std::optional<float>
+        light_exposure{};  ///< exposure of a white card [EV], if the light was metered
+    std::optional<DenoiseArguments> denoise{};  ///< set if images are to be denoised
     ExrFormat exr{};
-    std::optional<std::filesystem::path> stats{};  ///< where numbers about the render go
+    std::optional<std::filesystem::path> stats{};  ///< file for statistics of the render
     Profiling profiling = Profiling::off;
-    std::optional<StrategyFiles> strategies{};    ///< where images of strategies go
-    std::optional<PartChoice> part{};             ///< what the render goes on with
-    SampleRange samples{};                        ///< of each pixel
-    std::optional<RatesChoice> rates{};           ///< if pixels take different numbers of them
-    std::optional<Sequence> sequence{};           ///< if there are several images
-    std::optional<SequenceView> sequence_view{};  ///< which of them this is
-    std::optional<DisplayAddress> viewer{};       ///< of the viewer that shows the render
+    std::optional<StrategyFiles> strategies{};  ///< files of strategy images
+    std::optional<PartChoice> part{};           ///< part that the render continues
+    SampleRange samples{};                      ///< per pixel
+    std::optional<RatesChoice> rates{};         ///< set if pixels take different numbers of samples
+    std::optional<Sequence> sequence{};         ///< set if there are several images
+    std::optional<SequenceView> sequence_view{};  ///< the image of the sequence that this is
+    std::optional<DisplayAddress> viewer{};       ///< viewer that shows the render
     Printed printed{};
     PathNames path_names = PathNames::files;  ///< in the metadata of images
 };
 
-/// The options of `bdpt render`, as they are given: `arguments`, and what is understood only when
-/// all of them are known (`checked`).
+/// Options of `bdpt render`, as given: `arguments`, and the options that are resolved when all of
+/// them are known (`checked`).
 struct RenderRequest {
     RenderArguments arguments{};
     std::optional<std::int64_t> spp{};
@@ -97,24 +98,25 @@ struct RenderRequest {
     StrategyFiles strategies{};
     PartChoice part{};
     Sequence sequence{};
-    std::vector<std::filesystem::path> others{};  ///< scenes behind the first
-    std::filesystem::path saved_job{};            ///< written in place of the render; empty: none
+    std::vector<std::filesystem::path> others{};  ///< further scenes after the first
+    std::filesystem::path saved_job{};  ///< job to write instead of rendering; empty: none
 };
 
 extern const char* const render_footer;
 extern const char* const render_short_footer;
 
-/// The options that people need first.
+/// Returns the names of the options that people need first.
 [[nodiscard]] std::vector<std::string_view> render_essentials();
 
 /// Adds the options of `bdpt render`.
 void add_render_options(OptionList& options, RenderRequest& request);
 
-/// Of these, those that say which image is made and where it goes, however many processes render
-/// it.
+/// Adds the options of `bdpt render` that select the image and its files, independently of the
+/// number of processes that render it.
 void add_plannable_options(OptionList& options, RenderRequest& request);
 
-/// Of those, what is rendered and through which lens: for other commands, too.
+/// Adds the options that select what is rendered and through which lens; used by other commands,
+/// too.
 void add_view_options(OptionList& options, RenderRequest& request);
 
 /// Adds --size.
@@ -123,16 +125,16 @@ void add_size_option(OptionList& options, RenderRequest& request, std::string he
 /// Adds --time.
 void add_time_option(OptionList& options, RenderRequest& request, std::string help);
 
-/// The file of the scene, an argument without a name.
+/// Adds the file of the scene, a positional argument.
 void add_scene_file(OptionList& options, RenderRequest& request);
 
-/// Throws `OptionError` for options that do not go together.
+/// Checks and converts the options. Throws `OptionError` for incompatible ones.
 [[nodiscard]] RenderArguments checked(const RenderRequest& request, const OptionList& options);
 
-/// What `words` say behind `bdpt render`. Throws `OptionError`.
+/// Parses the `words` after `bdpt render`. Throws `OptionError`.
 [[nodiscard]] RenderArguments render_arguments(const std::vector<std::string>& words);
 
-/// Is --env `environment` the path of a file? Else it is a word.
+/// Tests whether --env `environment` is the path of a file; else it is a word.
 [[nodiscard]] bool is_file_of_environment(const std::string& environment);
 
 }  // namespace bdpt::app

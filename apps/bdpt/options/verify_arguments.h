@@ -6,15 +6,15 @@
 
 namespace bdpt::app {
 
-/// What `bdpt verify` is to do.
+/// Arguments of `bdpt verify`.
 struct VerifyArguments {
-    RenderArguments stage{};  ///< which scene, seen how
+    RenderArguments stage{};  ///< scene and view
     eval::VerifyOptions options{};
 };
 
-/// The options of `bdpt verify`, as they are given.
+/// Options of `bdpt verify`, as given.
 struct VerifyRequest {
-    RenderRequest render{};  ///< what it shares with `bdpt render`; the rest is left alone
+    RenderRequest render{};  ///< options shared with `bdpt render`; the rest is unused
     eval::VerifyOptions options{};
 };
 
@@ -23,7 +23,7 @@ extern const char* const verify_footer;
 /// Adds the options of `bdpt verify`.
 void add_verify_options(OptionList& options, VerifyRequest& request);
 
-/// Throws `OptionError` for options that do not go together.
+/// Checks and converts the options. Throws `OptionError` for incompatible ones.
 [[nodiscard]] VerifyArguments checked(const VerifyRequest& request, const OptionList& options);
 
 }  // namespace bdpt::app

@@ -13,19 +13,17 @@
 namespace bdpt::app {
 namespace {
 
-/// Options of `bdpt render` about its files, its processes and its many images.
+/// Options of `bdpt render` about its files, its processes and its sequences.
 constexpr std::array<std::string_view, 27> not_for_view{
-    "others",     "--output",     "--samples",    "--time",         "--stats",
-    "--profile",  "--save-rates", "--strategies", "--strategy-depth", "--part",
-    "--restart",  "--plan",       "--task",       "--display",      "--save-job",
-    "--frames",   "--fps",        "--orbit",      "--turn",         "--cameras",
-    "--same-noise", "--json",     "--aov",        "--half",         "--float",
-    "--tiled",    "--full-paths"};
+    "others",       "--output",     "--samples",        "--time",   "--stats",   "--profile",
+    "--save-rates", "--strategies", "--strategy-depth", "--part",   "--restart", "--plan",
+    "--task",       "--display",    "--save-job",       "--frames", "--fps",     "--orbit",
+    "--turn",       "--cameras",    "--same-noise",     "--json",   "--aov",     "--half",
+    "--float",      "--tiled",      "--full-paths"};
 
 bool is_for_view(const Option& option)
 {
-    return std::find(not_for_view.begin(), not_for_view.end(), option.name()) ==
-           not_for_view.end();
+    return std::find(not_for_view.begin(), not_for_view.end(), option.name()) == not_for_view.end();
 }
 
 }  // namespace
@@ -80,9 +78,8 @@ void add_view_command_options(OptionList& options, ViewRequest& request)
     for (Option& option : all) {
         option.uses = {.job = option.uses.job};
         if (option.name() == "--spp") {
-            option.help =
-                "Samples per pixel after which the picture is done. Default: " +
-                std::to_string(view_samples);
+            option.help = "Samples per pixel after which the picture is done. Default: " +
+                          std::to_string(view_samples);
         } else if (option.name() == "file") {
             option.help = "The scene: .gltf or .glb, or a job: .json";
         } else if (option.name() == "--noise") {

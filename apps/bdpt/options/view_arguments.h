@@ -9,37 +9,37 @@
 
 namespace bdpt::app {
 
-/// Where `bdpt view` listens, and what it shows.
+/// Arguments of `bdpt view`.
 struct ViewArguments {
-    DisplayAddress listen{.host = "127.0.0.1", .port = "0"};  ///< port 0: any that is free
+    DisplayAddress listen{.host = "127.0.0.1", .port = "0"};  ///< port 0: any free port
     bool opens_browser = false;
     RenderArguments stage{};
 };
 
-/// The options of `bdpt view`, as they are given.
+/// Options of `bdpt view`, as given.
 struct ViewRequest {
-    RenderRequest render{};  ///< what it shares with `bdpt render`; the rest is left alone
+    RenderRequest render{};  ///< options shared with `bdpt render`; the rest is unused
     ViewArguments arguments{};
 };
 
 extern const char* const view_footer;
 extern const char* const view_short_footer;
 
-/// Samples per pixel after which a picture is done, unless --spp says otherwise.
+/// Samples per pixel of a finished picture, unless --spp says otherwise.
 inline constexpr std::int64_t view_samples = 4096;
 
-/// "HOST", "HOST:PORT", ":PORT" or "[IPV6]:PORT"; without a port, or with 0, any that is free.
+/// Parses "HOST", "HOST:PORT", ":PORT" or "[IPV6]:PORT"; without a port, or with 0, any free one.
 [[nodiscard]] std::optional<DisplayAddress> parse_listen_address(const std::string& text);
 
-/// Adds the options of `bdpt view`: those of `bdpt render` that say what is seen, and its own.
+/// Adds the options of `bdpt view`: those of `bdpt render` that select what is shown, and its own.
 void add_view_command_options(OptionList& options, ViewRequest& request);
 
-/// Gives `options`, those of `bdpt view`, what the job in `file` says of the picture, but for options
-/// that were given already. The rest, such as names of outputs, is checked and left out. Throws
-/// `Error` like `load_job`.
+/// Stores the picture's options of the job in `file` into `options`, those of `bdpt view`, except
+/// options that were already given. Other options, such as output names, are checked and ignored.
+/// Throws `Error` like `load_job`.
 void load_viewed_job(const std::filesystem::path& file, OptionList& options);
 
-/// Throws `OptionError` for options that do not go together.
+/// Checks and converts the options. Throws `OptionError` for incompatible ones.
 [[nodiscard]] ViewArguments checked(const ViewRequest& request, const OptionList& options);
 
 }  // namespace bdpt::app

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Numbers that follow each other.
+/// A run of consecutive numbers.
 struct Run {
     std::size_t first = 0;
     std::size_t last = 0;
@@ -33,7 +33,7 @@ std::vector<Run> runs_of(const std::vector<std::size_t>& numbers)
     return runs;
 }
 
-/// "frame 3", "camera left", "frame 3 of camera left"
+/// Returns "frame 3", "camera left" or "frame 3 of camera left".
 std::string image_text(const PlanImage& image)
 {
     const std::string camera = image.camera ? "camera " + one_line(*image.camera) : "";
@@ -47,7 +47,7 @@ std::string image_text(const PlanImage& image)
 
 SampleSet samples_of(const Plan& plan)
 {
-    // In order, so that each is added at the end.
+    // Sorted, so that each range is added at the end.
     std::vector<SampleRange> ranges;
     for (const PlanTask& task : plan.tasks) {
         ranges.push_back(task.samples);

@@ -24,14 +24,14 @@ void write_file(const fs::path& file, const std::string& text, FileKind kind)
     output.write(text);
     output.commit();
     if (kind == FileKind::program) {
-        std::error_code failure;  // then it is started as "bash submit.sh"
+        std::error_code failure;  // if it fails, the user can run "bash submit.sh"
         fs::permissions(file,
                         fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                         fs::perm_options::add, failure);
     }
 }
 
-/// The plan that is there, if it can be read.
+/// Reads an existing plan, if that is possible.
 std::optional<Plan> old_plan(const fs::path& file)
 {
     try {
@@ -41,18 +41,18 @@ std::optional<Plan> old_plan(const fs::path& file)
     }
 }
 
-/// Its parts are of no use to the new one, and its tasks would be refused. Only files in its folder
-/// that bdpt has made there are removed: `read_plan` accepts no others.
+/// Removes an old plan: its parts are useless for the new one, and its tasks would be refused. Only
+/// files in its folder that bdpt has created are removed: `read_plan` accepts no others.
 void remove_plan(const fs::path& file)
 {
     const std::optional<Plan> plan = old_plan(file);
     const auto remove = [folder = file.parent_path()](const fs::path& name) {
         std::error_code nothing_there;
-        fs::remove(folder / name.filename(), nothing_there);  // of a link, not of what it leads to
+        fs::remove(folder / name.filename(), nothing_there);  // removes a link, not its target
     };
     std::error_code ignored;
     if (fs::is_regular_file(fs::symlink_status(file, ignored))) {
-        remove(plan_name);  // a link or a device stays, and is written into
+        remove(plan_name);  // a link or a device is kept, and written into
     }
     if (!plan) {
         return;
@@ -75,7 +75,7 @@ void check_plan_folder(const fs::path& folder)
         throw Error(ErrorCode::output,
                     fmt::format("{}: cannot write: this is no folder", folder.string()));
     }
-    // One that is not there yet is made beside what is.
+    // A missing folder is created beside existing ones.
     io::check_writable(fs::exists(folder, ignored)
                            ? folder / plan_name
                            : fs::path((folder / ".").lexically_normal().parent_path()) += ".new");

@@ -33,7 +33,7 @@ std::optional<fs::path> read_optional_path(const JsonValue& json, const char* ke
     return json.at(key).text();
 }
 
-/// Words of a command, of which a stranger may have written any: only `allowed` options.
+/// Reads words of a command, which may come from anybody: only `allowed` options are accepted.
 std::vector<std::string> read_words(const JsonValue& json, const std::vector<std::string>& allowed)
 {
     std::vector<std::string> words;
@@ -115,7 +115,7 @@ void read_images_and_tasks(const JsonValue& json, Plan& plan)
             task.fail(fmt::format("has the part after {}, which is the most", max_planned_parts));
         }
     }
-    if (plan.tasks.empty()) {  // each names images that there are
+    if (plan.tasks.empty()) {  // each task names existing images
         json.at("tasks").fail_expecting("an array of one value or more");
     }
 }
@@ -163,7 +163,7 @@ Plan read_plan(const fs::path& file)
 
 fs::path resolved(const fs::path& path, const fs::path& plan_file)
 {
-    // "job/.." is what the system takes it for, even where job is a symbolic link.
+    // "job/.." is resolved by the system, even if job is a symbolic link.
     std::error_code ignored;
     const fs::path folder = fs::absolute(plan_file, ignored).parent_path();
     const fs::path result = fs::weakly_canonical(path == "." ? folder : folder / path, ignored);

@@ -50,7 +50,7 @@ ordered_json to_json(const PlanTask& task)
 
 ordered_json to_json(const Identity& identity)
 {
-    // Names differ; to look for each of them would take the square of their number.
+    // Names are unique; a search for each would take quadratic time.
     ordered_json::object_t members;
     for (const auto& [name, value] : identity.components) {
         members.emplace_back(name, value);

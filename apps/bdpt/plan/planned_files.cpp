@@ -20,7 +20,7 @@ constexpr std::string_view frame_place = ".####";
 constexpr std::string_view camera_suffix = ".{camera}";
 constexpr std::string_view part_end = ".part.exr";
 
-/// Takes `start` from the front of `text`, if it is there.
+/// Removes `start` from the front of `text`; returns false if it is not there.
 bool take(std::string_view& text, std::string_view start)
 {
     const bool is_there = text.starts_with(start);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* seed_name = "option: seed";
 
-/// Options that images of the sequence need not have in common.
+/// Returns the options that may differ between images of the sequence.
 std::vector<std::string_view> own_options(const RenderArguments& asked)
 {
     std::vector<std::string_view> names{seed_name};

@@ -11,26 +11,27 @@
 
 namespace bdpt::app {
 
-/// What a plan knows of the identity of one of its images: all of it or, as nobody loads every
-/// frame to plan them, some components.
+/// Planned identity of an image: complete or, as frames are planned without loading each, some of
+/// its components.
 struct PlannedIdentity {
     Identity identity;
     bool whole = true;
 };
 
-/// That of image `image`. Of a sequence it has the options, the build and the seed of the image:
-/// the scene of each frame follows from these and from the files.
+/// Returns the identity of image `image`. For a sequence it has the options, the build and the seed
+/// of the image: the scene of each frame follows from these and from the files.
 [[nodiscard]] PlannedIdentity planned_identity(const Plan& plan, std::size_t image);
 
-/// In what `planned` differs from `found`, as `difference()` of identities.
+/// Returns the difference of `planned` from `found`, as `difference()` of identities.
 [[nodiscard]] std::optional<std::string> difference(const Identity& found,
                                                     const PlannedIdentity& planned);
 
-/// What all images of the sequence of `asked` have in common, by the identity of one of them.
+/// Returns the components that all images of the sequence of `asked` share, given the identity of
+/// one of them.
 [[nodiscard]] Identity common_identity(const Identity& of_one, const RenderArguments& asked);
 
-/// A component "file: NAME" for each file that the scene of `asked` is made of: its contents.
-/// Throws `Error` (not_found, invalid_input).
+/// Returns a component "file: NAME" with the contents of each file of the scene of `asked`. Throws
+/// `Error` (not_found, invalid_input).
 [[nodiscard]] Identity identity_of_files(const RenderArguments& asked);
 
 }  // namespace bdpt::app

@@ -36,7 +36,7 @@ std::string name_of(const std::string& word)
     return word.substr(0, word.find('='));
 }
 
-/// What is said last for the option `name`.
+/// Returns the last value of the option `name`.
 std::optional<std::string> value_of(const Words& words, std::string_view name)
 {
     std::optional<std::string> result;
@@ -53,7 +53,7 @@ std::optional<std::string> value_of(const Words& words, std::string_view name)
     return result;
 }
 
-/// Only what is not of the plan may be said beside it.
+/// Throws for words that the plan already defines.
 void check_render_words(const Words& words)
 {
     for (std::size_t i = 2; i < words.size(); ++i) {

@@ -6,7 +6,8 @@
 
 namespace bdpt::app {
 
-/// What came of a scene, as a table for people. `seconds` is the CPU time of runs at equal time.
+/// Returns the results of a scene as a table for people. `seconds` is the CPU time of runs at equal
+/// time.
 [[nodiscard]] std::string bench_text(const eval::SceneResult& scene, double seconds);
 
 }  // namespace bdpt::app

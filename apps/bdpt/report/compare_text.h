@@ -8,7 +8,7 @@
 
 namespace bdpt::app {
 
-/// The report as tables for people.
+/// Returns the report as tables for people.
 [[nodiscard]] std::string compare_text(const eval::ComparisonReport& report,
                                        std::span<const eval::ThresholdResult> thresholds);
 

@@ -13,10 +13,10 @@ namespace {
 
 constexpr int columns = 3;
 constexpr int border = 4;         // [pixels] around each sphere
-constexpr int label_height = 20;  // [pixels] below it
+constexpr int label_height = 20;  // [pixels] below each sphere
 constexpr double decades = 4.0;
 
-/// Where sphere `index` is on the sheet.
+/// Position of a sphere on the sheet.
 struct Cell {
     int x = 0;
     int y = 0;
@@ -54,7 +54,7 @@ void paste(io::DisplayImage& sheet, int index, const io::DisplayImage& map, cons
                             {.x = cell.x, .y = cell.y + map.height + border, .dot = 2});
 }
 
-/// Densities of four decades below `greatest` as colours.
+/// Returns densities of four decades below `greatest` as colours.
 io::DisplayImage heat(const Image& density, double greatest)
 {
     static const std::vector<eval::Color8> colors = eval::heat_colors();
@@ -78,7 +78,7 @@ double max_value(const Image& density)
     return static_cast<double>(greatest);
 }
 
-/// The density that is proportional to the mean of the channels.
+/// Returns the density that is proportional to the mean of the channels.
 Image ideal_density(const Image& product)
 {
     const Rgb whole = sphere_integral(product);
@@ -90,7 +90,8 @@ Image ideal_density(const Image& product)
     return result;
 }
 
-/// One direction by BSDF sampling and `light_samples` by light sampling, chosen at random.
+/// Returns the mean density of one direction by BSDF sampling and `light_samples` by light
+/// sampling.
 Image mean_density(const DirectionMaps& maps, int light_samples)
 {
     const auto n = static_cast<float>(light_samples);
@@ -120,7 +121,7 @@ Rgb sphere_integral(const Image& map)
     for (int y = 0; y < map.height; ++y) {
         const double top = std::cos(square * y);
         const double solid_angle = (top - std::cos(square * (y + 1))) * 2.0 * std::numbers::pi /
-                                   map.width;  // of each pixel of the row
+                                   map.width;  // of one pixel of the row
         for (int x = 0; x < map.width; ++x) {
             const Rgb& value = map.at(x, y);
             sums[0] += static_cast<double>(value.r) * solid_angle;

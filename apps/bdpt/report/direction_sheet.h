@@ -8,16 +8,17 @@
 
 namespace bdpt::app {
 
-/// Six spheres of directions with labels: the light that comes in and the BSDF, tone-mapped; the
-/// density that would have no noise (the product of the two over its integral), those of BSDF
-/// sampling and of light sampling, and their mean with `light_samples` of the latter, as heat
-/// colours of one scale of four decades.
+/// Draws six labelled spheres of directions: incident light and the BSDF, tone-mapped; the
+/// zero-variance density (the product of the two over its integral), the densities of BSDF sampling
+/// and of light sampling, and their mean with `light_samples` of the latter, as heat colours of one
+/// scale of four decades.
 [[nodiscard]] io::DisplayImage direction_sheet(const DirectionMaps& maps, int light_samples);
 
-/// The maps as layers of an EXR file beside the product: incident, scattering, bsdf_pdf, light_pdf.
+/// Returns the maps as layers of an EXR file beside the product: incident, scattering, bsdf_pdf,
+/// light_pdf.
 [[nodiscard]] std::vector<Layer> direction_layers(const DirectionMaps& maps);
 
-/// The integral of each channel over all directions.
+/// Returns the integral of each channel over all directions.
 [[nodiscard]] Rgb sphere_integral(const Image& map);
 
 }  // namespace bdpt::app

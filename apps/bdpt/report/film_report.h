@@ -8,13 +8,13 @@
 
 namespace bdpt::app {
 
-/// Tells of contributions that could not be added as they were, if there were any.
+/// Warns of contributions that could not be added unchanged, if there were any.
 void warn_of_defects(Console& console, const FilmDefects& defects);
 
-/// Tells what clamping took from `image`, which is the developed `film`.
+/// Reports the light that clamping removed from `image`, which is the developed `film`.
 void report_clamp(Console& console, const Film& film, const Image& image);
 
-/// Microseconds of a sample: seconds would be too small for files of 16 bits.
+/// Returns a layer of time per sample [µs]: seconds would be too small for files of 16 bits.
 [[nodiscard]] Layer time_layer(const TimeProfile& profile);
 
 }  // namespace bdpt::app

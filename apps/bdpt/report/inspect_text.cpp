@@ -30,7 +30,7 @@ const char* kind_text(const InspectedVertex& vertex)
     return "";
 }
 
-/// How the walk went on, and who can join here.
+/// Returns how the walk continued, and whether the vertex is connectible.
 const char* scattering_text(const InspectedVertex& vertex)
 {
     if (vertex.kind != InspectedKind::surface) {

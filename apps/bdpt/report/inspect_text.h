@@ -7,10 +7,10 @@
 
 namespace bdpt::app {
 
-/// Tables of the vertices and of what strategies bring, for people.
+/// Returns tables of the vertices and of the contributions of strategies, for people.
 [[nodiscard]] std::string inspect_text(const InspectedSample& sample, const PixelSample& which);
 
-/// The same, all of it.
+/// Returns the complete data of the sample, for programs.
 [[nodiscard]] nlohmann::ordered_json inspect_json(const InspectedSample& sample,
                                                   const PixelSample& which);
 

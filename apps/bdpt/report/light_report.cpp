@@ -17,11 +17,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A kind by its name alone: "point" of "point light".
+/// Short name of a kind: "point" of "point light".
 template <typename Light>
 constexpr std::string_view short_kind = Light::kind.substr(0, Light::kind.rfind(" light"));
 
-/// What stands around the value of a field in a line.
+/// Text around the value of a field.
 struct Phrase {
     std::string before;
     std::string_view after;
@@ -49,7 +49,7 @@ std::string radius_text(float metres)
     return metres > 0.0f ? fmt::format(", radius {:.4g} m", metres) : "";
 }
 
-// A kind without words of its own is told by its fields: all numbers and vectors, but no motion.
+// A kind without its own text is described by its fields: all numbers and vectors, but no motion.
 
 struct LightText {
     template <typename Light>

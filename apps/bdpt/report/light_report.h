@@ -7,12 +7,12 @@
 
 namespace bdpt::app {
 
-/// `light` without the pixels of an environment.
+/// Returns `light` without the pixels of an environment.
 [[nodiscard]] LightDesc without_pixels(const LightDesc& light);
 
-/// A light in a line for people.
+/// Returns a light as a line for people.
 [[nodiscard]] std::string light_text(const LightDesc& light);
-/// The same as an object: "kind" and, by kind, what the light has.
+/// Returns a light as an object: "kind" and its properties by kind.
 [[nodiscard]] nlohmann::ordered_json light_json(const LightDesc& light);
 
 }  // namespace bdpt::app

@@ -16,7 +16,7 @@ struct Limit {
     std::string_view meaning;
 };
 
-/// All of them: a new member of the struct does not compile until it is here.
+/// Returns all limits: a new member of the struct does not compile until it is added here.
 std::vector<Limit> list(const io::ReadLimits& limits)
 {
     const auto& [file_bytes, buffer_bytes, json_bytes, json_depth, json_values, nodes, node_depth,

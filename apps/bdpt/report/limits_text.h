@@ -7,10 +7,10 @@
 
 namespace bdpt::app {
 
-/// What files may ask for, one line each: name, value, what it is about.
+/// Returns the limits of files, one line each: name, value, subject.
 [[nodiscard]] std::string limits_text(const io::ReadLimits& limits);
 
-/// The same as names and numbers.
+/// Returns the limits as names and numbers.
 [[nodiscard]] nlohmann::ordered_json limits_json(const io::ReadLimits& limits);
 
 }  // namespace bdpt::app

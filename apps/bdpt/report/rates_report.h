@@ -7,8 +7,8 @@
 
 namespace bdpt::app {
 
-/// Writes rates as .exr, which --rates reads, or as .png in false colours: how many samples pixels
-/// take. Throws `Error` (output).
+/// Writes rates as .exr, which --rates reads, or as .png in false colours: the number of samples of
+/// each pixel. Throws `Error` (output).
 void save_rates(const std::filesystem::path& file, const SampleRates& rates,
                 const io::ImageMetadata& metadata);
 

@@ -23,7 +23,7 @@ std::vector<std::filesystem::path> all_image_files(const RenderArguments& argume
 
 namespace {
 
-/// A part is read again, so it cannot be a device or a pipe.
+/// Checks that a part file is no device or pipe, as it is read back.
 void check_part_file(const std::filesystem::path& file)
 {
     std::error_code missing;

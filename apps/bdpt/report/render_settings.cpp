@@ -38,7 +38,7 @@ ordered_json view_json(const CameraDesc& camera)
     return view;
 }
 
-/// What metadata call `file`.
+/// Returns the name of `file` in metadata.
 std::string named(const RenderArguments& arguments, const std::filesystem::path& file)
 {
     const bool whole = arguments.path_names == PathNames::paths || !file.has_filename();

@@ -9,11 +9,11 @@
 
 namespace bdpt::app {
 
-/// All that the image depends on.
+/// Returns all settings that the image depends on.
 [[nodiscard]] nlohmann::ordered_json settings_of(const RenderArguments& arguments,
                                                  const PreparedScene& stage);
 
-/// What files tell about the image; samples and times are filled in when it is rendered.
+/// Returns the metadata of image files; samples and times are filled in after rendering.
 [[nodiscard]] io::ImageMetadata metadata_of(const RenderArguments& arguments,
                                             const PreparedScene& stage,
                                             const nlohmann::ordered_json& settings);

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Equal ones as "3 of 1024x1024".
+/// Groups equal sizes as "3 of 1024x1024".
 std::string summary(const std::vector<Size>& sizes)
 {
     std::map<std::string, std::size_t> counts;
@@ -32,7 +32,7 @@ std::string summary(const std::vector<Size>& sizes)
     return result;
 }
 
-/// The report as lines "name   value", long lists cut.
+/// The report as lines "name   value", with long lists truncated.
 class Lines {
 public:
     void add(std::string_view name, std::string_view value)
@@ -106,7 +106,7 @@ std::vector<std::string> scene_lines(const io::GltfFacts& facts)
     return lines;
 }
 
-/// 0 "first", 1 "second" ...
+/// Returns 0 "first", 1 "second" ...
 std::vector<std::string> numbered(const std::vector<std::string>& names)
 {
     std::vector<std::string> lines;
@@ -154,7 +154,7 @@ ordered_json array_of(const Items& items, Convert convert)
     return result;
 }
 
-/// What a render would fill in, as it is told.
+/// Describes the defaults that a render would fill in.
 std::vector<std::string> default_lines(const Defaults& defaults)
 {
     std::vector<std::string> lines;
@@ -183,7 +183,7 @@ ordered_json default_names(const Defaults& defaults)
     return names;
 }
 
-/// What stands in the file, of which a part may be used.
+/// Adds the contents of the file, of which only a part may be used.
 void add_file(Lines& lines, const SceneReport& report)
 {
     const io::GltfFacts& facts = report.facts;
@@ -198,7 +198,7 @@ void add_file(Lines& lines, const SceneReport& report)
     lines.add_list("scenes", scene_lines(facts));
 }
 
-/// What is known of a file that cannot be loaded: what it holds, used or not.
+/// Adds the contents of a file that cannot be loaded, used or not.
 void add_contents(Lines& lines, const io::GltfFacts& facts)
 {
     lines.add("nodes", fmt::format("{}", facts.nodes));
@@ -209,7 +209,7 @@ void add_contents(Lines& lines, const io::GltfFacts& facts)
     lines.add("lights", fmt::format("{}", facts.lights));
 }
 
-/// What the loaded scene holds.
+/// Adds the contents of the loaded scene.
 void add_scene(Lines& lines, const SceneReport& report)
 {
     const io::GltfFacts& facts = report.facts;
@@ -245,7 +245,7 @@ void add_scene(Lines& lines, const SceneReport& report)
     lines.add_list("lights", lights);
 }
 
-/// All that only a loaded scene has; null for each where it could not be loaded.
+/// Returns the facts that need a loaded scene; null for each if it could not be loaded.
 ordered_json scene_json(const SceneReport& report)
 {
     ordered_json result;

@@ -21,28 +21,28 @@ struct EmissiveMaterial {
     Rgb emission{0.0f};  ///< [nit]
 };
 
-/// What a render would fill in.
+/// Defaults that a render would fill in.
 struct Defaults {
-    bool camera = false;  ///< that frames the scene
+    bool camera = false;  ///< a camera that frames the scene
     bool sky = false;
-    bool lamp = false;   ///< in a closed room
-    bool glows = false;  ///< the only light of the file are materials that emit
+    bool lamp = false;   ///< a point light in a closed room
+    bool glows = false;  ///< emissive materials are the only light of the file
 };
 
-/// Why a render would fail.
+/// Reason why a render would fail.
 struct Problem {
     ErrorCode code = ErrorCode::internal;
     std::string message;
 };
 
-/// How much is known of a scene.
+/// Level of knowledge about a scene.
 enum class Knowledge : std::uint8_t {
-    facts,   ///< what the JSON of the file says; it cannot be loaded
-    loaded,  ///< all but what only a built scene knows, its counts and bounds
+    facts,   ///< facts from the file's JSON; it cannot be loaded
+    loaded,  ///< all but the counts and bounds, which need a built scene
     built,
 };
 
-/// What `bdpt info` tells.
+/// Contents of the output of `bdpt info`.
 struct SceneReport {
     std::string file;
     io::GltfFacts facts;
@@ -57,15 +57,15 @@ struct SceneReport {
     std::optional<Problem> problem;
     Knowledge knowledge = Knowledge::facts;
     SceneCounts counts;
-    std::optional<Bounds> bounds;  ///< none: nothing to see
+    std::optional<Bounds> bounds;  ///< none: nothing is visible
 };
 
-/// All but what only a built scene knows.
+/// Collects all but what only a built scene knows.
 [[nodiscard]] SceneReport make_report(const std::string& file, const io::LoadedScene& loaded);
 
-/// For people.
+/// Formats the report for people.
 [[nodiscard]] std::string to_text(const SceneReport& report);
-/// For programs.
+/// Formats the report for programs.
 [[nodiscard]] nlohmann::ordered_json to_json(const SceneReport& report);
 
 }  // namespace bdpt::app

@@ -8,24 +8,24 @@
 
 namespace bdpt::app {
 
-/// Where the time of a run went [s].
+/// Time of a run by phase [s].
 struct TimeSplit {
     double load = 0.0;    ///< reading files
-    double build = 0.0;   ///< the scene ready for rays
+    double build = 0.0;   ///< acceleration structures and other preparation of the scene
     double choose = 0.0;  ///< the pilot of --integrator auto
     double render = 0.0;
-    double write = 0.0;  ///< images
+    double write = 0.0;  ///< writing images
 };
 
-/// Where the time of samples went: `seconds` of threads, and the share of each phase.
+/// Returns the time of samples by phase: `seconds` of threads, and the fraction of each phase.
 [[nodiscard]] nlohmann::ordered_json profile_json(const TimeProfile& profile);
-/// The same in a line for people.
+/// Returns the time by phase in a line for people.
 [[nodiscard]] std::string profile_text(const TimeProfile& profile);
 
-/// noise_of() a film; null when it is unknown.
+/// Returns noise_of() a film; null if it is unknown.
 [[nodiscard]] nlohmann::ordered_json noise_json(double noise);
 
-/// The numbers of a render, for programs.
+/// Returns the statistics of a render, for programs.
 [[nodiscard]] nlohmann::ordered_json stats_json(const RenderResult& result, const TimeSplit& time);
 
 /// Writes `stats` atomically. Throws `Error` (output).

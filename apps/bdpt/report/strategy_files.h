@@ -9,8 +9,8 @@
 
 namespace bdpt::app {
 
-/// Refuses, before anything is rendered, files that could not be written: throws `Error` (usage)
-/// when one is an input or one of `outputs`, (output) for a place where nothing can be written.
+/// Checks, before anything is rendered, that files can be written. Throws `Error`: usage if one is
+/// an input or one of `outputs`, output for a place where nothing can be written.
 void check_strategy_files(const StrategyFiles& files, const FileSet& inputs,
                           const FileSet& outputs);
 

@@ -14,7 +14,7 @@ namespace bdpt::app {
     return static_cast<double>(radians) * 180.0 / std::numbers::pi;
 }
 
-/// "1,2,3": four digits each.
+/// Formats "1,2,3" with four digits each.
 [[nodiscard]] inline std::string to_text(Vec3 v)
 {
     return fmt::format("{:.4g},{:.4g},{:.4g}", v.x, v.y, v.z);

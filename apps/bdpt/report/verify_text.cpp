@@ -25,7 +25,7 @@ std::string percent(double fraction)
     return std::isfinite(fraction) ? fmt::format("{:.3g} %", 100.0 * fraction) : "-";
 }
 
-/// `part` of `all`.
+/// Formats the fraction `part` of `all`.
 std::string percent(double part, double all)
 {
     return all > 0.0 ? percent(part / all) : "-";
@@ -72,7 +72,7 @@ std::string strategies_text(const VerifyReport& report)
     for (const StrategyFinding& finding : report.strategies) {
         const auto [s, t] = finding.strategy;
         if (finding.unweighted == 0.0 && finding.whole.expected == 0.0) {
-            continue;  // makes no paths here
+            continue;  // has no paths of this length
         }
         const double all = report.lengths[static_cast<std::size_t>(s + t - 2)].radiance;
         result += fmt::format("{:<10}{:>10}{:>12}{:>12}{}\n", fmt::format("s={} t={}", s, t),
@@ -112,7 +112,7 @@ std::string merges_text(const VerifyReport& report)
     return result;
 }
 
-/// What all merges together bring to the image of vcm [nit].
+/// Returns the total contribution of merging to the image of vcm [nit].
 double merged_light(const VerifyReport& report)
 {
     double sum = 0.0;
@@ -190,7 +190,7 @@ std::vector<std::string> failures(const VerifyReport& report)
     return lines;
 }
 
-/// The strategies whose noise could hide the most.
+/// Describes the strategies whose noise could hide the greatest error.
 std::string noisiest(const VerifyReport& report)
 {
     const auto worst = std::max_element(

@@ -7,7 +7,7 @@
 
 namespace bdpt::app {
 
-/// The report as tables for people, the verdict last.
+/// Returns the report as tables for people, the verdict last.
 [[nodiscard]] std::string verify_text(const eval::VerifyReport& report,
                                       const eval::VerifyOptions& options);
 

@@ -6,7 +6,7 @@
 
 namespace bdpt::app {
 
-/// `light`, turned and made brighter or darker.
+/// Returns `light` rotated and scaled.
 [[nodiscard]] EnvironmentLightDesc changed(EnvironmentLightDesc light,
                                            const EnvironmentChange& change);
 

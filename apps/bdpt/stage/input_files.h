@@ -8,10 +8,10 @@
 
 namespace bdpt::app {
 
-/// All files that `arguments` name to be read: no output may be one of them.
+/// Returns all files that `arguments` read: no output may be one of them.
 [[nodiscard]] std::vector<std::filesystem::path> input_files(const RenderArguments& arguments);
 
-/// These, and those that the scene names.
+/// Returns all files that `arguments` and the scene read.
 [[nodiscard]] std::vector<std::filesystem::path> input_files(const RenderArguments& arguments,
                                                              const PreparedScene& stage);
 

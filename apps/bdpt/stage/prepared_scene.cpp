@@ -24,12 +24,12 @@
 namespace bdpt::app {
 namespace {
 
-/// Where light from infinity comes from.
+/// Source of light from infinity.
 enum class Sky {
     none,
     chosen,     ///< the file's, or that of --env
-    standard,   ///< the default one, with a lamp where it does not get in
-    if_wanted,  ///< the same, unless emitters are light enough
+    standard,   ///< the default one, with a lamp if it does not reach the view
+    if_wanted,  ///< the default one, unless emitters give enough light
 };
 
 struct LitScene {
@@ -38,7 +38,7 @@ struct LitScene {
     std::string environment_name = "none";
     std::vector<std::string> warnings{};
     std::vector<std::string> notes{};
-    std::size_t added = 0;  ///< lights that nobody asked for
+    std::size_t added = 0;  ///< default lights that were added
 };
 
 bool is_environment(const LightDesc& light)
@@ -46,7 +46,7 @@ bool is_environment(const LightDesc& light)
     return std::holds_alternative<EnvironmentLightDesc>(light);
 }
 
-/// Does to the environment of the scene what was asked for.
+/// Applies the requested changes to the scene's environment.
 void change_environment(LitScene& lit, const RenderArguments& arguments)
 {
     const EnvironmentChange& change = arguments.environment_change;
@@ -65,8 +65,8 @@ void change_environment(LitScene& lit, const RenderArguments& arguments)
     }
 }
 
-/// Adds the environment that was asked for, in the place of the file's own. Whether the default one
-/// is wanted is seen when the scene is built.
+/// Adds the requested environment, replacing the file's own. Whether the default one is needed is
+/// decided when the scene is built.
 LitScene choose_environment(SceneDesc desc, const RenderArguments& arguments)
 {
     LitScene lit{.desc = std::move(desc)};
@@ -107,7 +107,7 @@ LitScene choose_environment(SceneDesc desc, const RenderArguments& arguments)
     return lit;
 }
 
-/// May `build` add lights, for which it builds the scene first?
+/// Tests whether `build` may add lights, for which it builds the scene first.
 bool is_undecided(const LitScene& lit)
 {
     return lit.sky == Sky::standard || lit.sky == Sky::if_wanted;
@@ -144,7 +144,7 @@ void add_lights(LitScene& lit, DefaultLights missing, const FramedView& framed,
     }
 }
 
-/// Builds the scene, with the default lights that it turns out to want.
+/// Builds the scene, with default lights if needed.
 Scene build(LitScene& lit, const RenderArguments& arguments, float aspect)
 {
     if (!is_undecided(lit)) {
@@ -159,8 +159,8 @@ Scene build(LitScene& lit, const RenderArguments& arguments, float aspect)
     return is_lit ? scene.with_lights(std::move(lit.desc.lights)) : std::move(scene);
 }
 
-/// The camera that shows all of the scene, in the way that was asked for. A complete view (--from,
-/// --look-at and --fov) needs no framing, which takes longer than a coarse picture.
+/// Returns the camera that frames the scene as requested. A complete view (--from, --look-at and
+/// --fov) needs no framing, which takes longer than a coarse picture.
 CameraDesc framed(const Scene& scene, float aspect, const RenderArguments& arguments)
 {
     const ViewOverrides& view = arguments.view;
@@ -184,7 +184,7 @@ Vec3 center(const Bounds& bounds)
     return 0.5f * (bounds.min + bounds.max);
 }
 
-/// The camera of the file to look through; none: the scene is framed.
+/// Returns the selected camera of the file; none: the scene is framed.
 std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
                                          const RenderArguments& arguments)
 {
@@ -198,7 +198,7 @@ std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
     return camera;
 }
 
-/// What was left out of the meshes, in parentheses; empty if nothing was.
+/// Returns what was left out of the meshes, in parentheses; empty if nothing was.
 std::string why_no_triangles(const std::vector<std::string>& warnings)
 {
     std::string reasons;

@@ -24,7 +24,7 @@
 namespace bdpt::app {
 namespace {
 
-/// `arguments`, whose loading shows on the console how far it is.
+/// Returns `arguments` whose loading shows its progress on the console.
 RenderArguments with_progress(RenderArguments arguments, Console& console)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -92,7 +92,7 @@ std::shared_ptr<const SampleRates> rates_of(const RenderArguments& arguments,
     return rates;
 }
 
-/// Does the camera stand outside of what it shows, so that most of that has the same light?
+/// Tests whether the camera is outside of the visible scene, most of which then has the same light.
 bool is_seen_from_outside(const PreparedScene& stage)
 {
     const Bounds& bounds = stage.scene.bounds();
@@ -133,7 +133,7 @@ PreparedScene prepare_within_memory(const RenderArguments& asked, Console& conso
 {
     RenderArguments arguments = asked;
     arguments.scene.memory = std::make_shared<io::MemoryBudget>(asked.memory);
-    // Without --size, as large as it can be.
+    // Without --size, the maximum size.
     spend_film(*arguments.scene.memory, asked.options,
                asked.size.value_or(default_size(std::nullopt)));
     if (asked.scene.images) {

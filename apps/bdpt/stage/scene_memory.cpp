@@ -6,7 +6,7 @@
 namespace bdpt::app {
 namespace {
 
-// Measured by benchmarks/scale_table.py; tests/apps/files/memory_test.py holds them to it.
+// Measured by benchmarks/scale_table.py; checked by tests/apps/files/memory_test.py.
 constexpr std::uint64_t light_bytes = 2000;
 constexpr std::uint64_t emissive_triangle_bytes = 430;
 

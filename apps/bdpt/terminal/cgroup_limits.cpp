@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The group of the process in one hierarchy.
+/// Group of the process in one hierarchy.
 struct Group {
     std::string controllers;  ///< "cpu,cpuacct"; empty: version 2
     fs::path path;
@@ -41,8 +41,8 @@ bool has_controller(const Group& group, const std::string& name)
     return ("," + group.controllers + ",").find("," + name + ",") != std::string::npos;
 }
 
-/// Folders of the group and of all around it. In a container the outermost that can be seen is
-/// mounted, whatever the path of the group says.
+/// Returns the folders of the group and of all enclosing ones. In a container the outermost visible
+/// one is mounted, whatever the path of the group says.
 std::vector<fs::path> folders_of(const Group& group, const fs::path& mount)
 {
     std::vector<fs::path> result{mount};
@@ -57,7 +57,7 @@ std::vector<fs::path> folders_of(const Group& group, const fs::path& mount)
     return result;
 }
 
-/// Numbers in a file of one line; "max", and what is negative, is no limit.
+/// Returns the numbers in a file of one line; "max", and negative numbers, mean no limit.
 std::vector<double> numbers_in(const fs::path& file)
 {
     std::vector<double> result;
@@ -79,7 +79,7 @@ double number_in(const fs::path& file)
     return numbers.size() == 1 ? numbers[0] : unlimited;
 }
 
-/// Processors of the group in `folder` alone.
+/// Returns the processors of the group in `folder` alone.
 double quota_in(const fs::path& folder)
 {
     const std::vector<double> now = numbers_in(folder / "cpu.max");  // version 2
@@ -100,7 +100,8 @@ double memory_in(const fs::path& folder)
 
 CgroupLimits cgroup_limits(const fs::path& root)
 {
-    constexpr double no_machine = 0x1p60;  // [bytes]: version 1 has a huge number for no limit
+    constexpr double no_machine =
+        0x1p60;  // [bytes]; version 1 states a huge number if there is no limit
     constexpr double max_processors = 4096.0;
     const fs::path mounts = root / "sys/fs/cgroup";
     double processors = unlimited;

@@ -6,16 +6,16 @@
 
 namespace bdpt::app {
 
-/// What Linux allows the process by control groups, as containers and Slurm set them: the least of
-/// its group and of those around it, as far as they can be seen.
+/// Limits of the process by Linux control groups, as set by containers and Slurm: the minimum over
+/// its group and the enclosing ones, as far as visible.
 struct CgroupLimits {
     std::optional<int> processors{};        ///< quota of CPU time, rounded up; at least 1
     std::optional<std::uint64_t> memory{};  ///< [bytes]
 };
 
-/// Those of this process, from /proc/self/cgroup and the files of versions 1 and 2 below
-/// /sys/fs/cgroup, in the file system `root` [kernel.org: Control Group v2, CFS Bandwidth Control].
-/// What cannot be read is no limit.
+/// Returns the limits of this process, from /proc/self/cgroup and the files of versions 1 and 2
+/// below /sys/fs/cgroup, in the file system `root` [kernel.org: Control Group v2, CFS Bandwidth
+/// Control]. Unreadable files impose no limit.
 [[nodiscard]] CgroupLimits cgroup_limits(const std::filesystem::path& root = "/");
 
 }  // namespace bdpt::app

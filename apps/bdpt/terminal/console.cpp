@@ -57,7 +57,7 @@ double samples_a_second(const Progress& progress)
                                   : 0.0;
 }
 
-/// "3.2 spp/s", and the noise if it is known.
+/// Returns "3.2 spp/s", and the noise if it is known.
 std::string speed_text(const Progress& progress)
 {
     std::string text = fmt::format("{:.3g} spp/s", samples_a_second(progress));

@@ -20,31 +20,31 @@ namespace bdpt::app {
 enum class Verbosity : std::uint8_t { normal, quiet };
 enum class Format : std::uint8_t {
     text,  ///< lines for people on stderr
-    json,  ///< one JSON object a line on stdout, for programs
+    json,  ///< one JSON object per line on stdout, for programs
 };
 
-/// When a render ends; what comes first counts.
+/// Conditions that end a render; the first one met counts.
 struct Goal {
     std::optional<std::int64_t> samples;  ///< per pixel
     double seconds = std::numeric_limits<double>::infinity();
-    std::optional<double> noise{};  ///< as noise_of()
+    std::optional<double> noise{};  ///< as by noise_of()
 };
 
-/// How far a task of many parts is.
+/// Progress of a task of many parts.
 struct TaskProgress {
     double fraction = 0.0;  ///< [0, 1]
-    double seconds = 0.0;   ///< that have passed
+    double seconds = 0.0;   ///< elapsed
     std::optional<double> seconds_left{};
-    std::string activity;  ///< what is being done
+    std::string activity;  ///< current activity
 };
 
-/// How often a message is shown.
+/// Repetition of messages.
 enum class Repeat : std::uint8_t {
     never,   ///< the same message is shown once
-    always,  ///< each time is news
+    always,  ///< the message is shown each time
 };
 
-/// Which of several images is rendered.
+/// Label of one of several images.
 struct ImageLabel {
     std::optional<int> frame{};
     std::optional<std::string> camera{};
@@ -52,16 +52,17 @@ struct ImageLabel {
     std::size_t count = 1;
 };
 
-/// "frame 12 (3 of 24)", "frame 12, camera front (7 of 48)"; empty when there is one image only.
+/// Returns "frame 12 (3 of 24)", "frame 12, camera front (7 of 48)"; empty if there is only one
+/// image.
 [[nodiscard]] std::string label_text(const ImageLabel& label);
 
-/// "2.3 %", or "unknown" of an infinite one.
+/// Returns "2.3 %", or "unknown" for an infinite noise.
 [[nodiscard]] std::string noise_text(double noise);
 
-/// Seconds that are left until `goal`, judged by `progress`; none when nothing is done yet.
+/// Estimates the seconds left until `goal` by `progress`; none if nothing is done yet.
 [[nodiscard]] std::optional<double> time_left(const Progress& progress, const Goal& goal);
 
-/// Tells the user what happens. Results of `info` do not come through here. Safe from any thread.
+/// Prints messages and progress for the user. Results of `info` do not use it. Thread-safe.
 class Console {
 public:
     Console(Format format, Verbosity verbosity);
@@ -69,22 +70,22 @@ public:
     Console(const Console&) = delete;
     Console& operator=(const Console&) = delete;
 
-    /// `fields` is a JSON object; "event" is added. Does nothing when the format is text, and when
-    /// the user wants quiet, but for the event "done".
+    /// Emits an event. `fields` is a JSON object, to which "event" is added. Does nothing if the
+    /// format is text; if quiet, only the event "done" is emitted.
     void event(std::string_view name, const nlohmann::ordered_json& fields);
-    /// A line for people; nothing when the format is JSON.
+    /// Prints a line for people; nothing if the format is JSON.
     void note(std::string_view message, Repeat repeat = Repeat::always);
-    /// A line for people, if there is one image only.
+    /// Prints a line for people, if there is only one image.
     void detail(std::string_view message);
     void warning(std::string_view message, Repeat repeat = Repeat::never);
-    /// From now on events have "frame" and "camera", as far as there are any, and progress lines
-    /// begin with the label.
+    /// Sets the image: further events get its "frame" and "camera", if any, and progress lines its
+    /// label.
     void begin_image(const ImageLabel& label);
-    /// Shows how far a render is; as often as suits the reader, however often it is called.
+    /// Shows the progress of a render; rate-limited, however often it is called.
     void progress(const Progress& progress, const Goal& goal);
-    /// The same for a task of many parts.
+    /// Shows the progress of a task of many parts.
     void task(const TaskProgress& progress);
-    /// Ends a progress line, so that whatever prints next starts on its own.
+    /// Ends a progress line, so that further output starts on a new line.
     void end_progress();
 
 private:
@@ -96,19 +97,19 @@ private:
 
     Format format_;
     Verbosity verbosity_;
-    bool terminal_;  // stderr is one, and can redraw a line
+    bool terminal_;  // stderr is a terminal, which can redraw a line
     bool color_;
     std::mutex mutex_;
-    std::size_t drawn_ = 0;  // characters of the progress line on the screen
+    std::size_t drawn_ = 0;  // characters of the visible progress line
     ImageLabel label_;
     std::set<std::string, std::less<>> told_;
-    double last_shown_ = -std::numeric_limits<double>::infinity();  // [s] of the render
+    double last_shown_ = -std::numeric_limits<double>::infinity();  // time of the render [s]
 };
 
-/// Prints a result on stdout, text or JSON, without what a terminal would obey.
+/// Prints a result on stdout, text or JSON, without control characters that a terminal would obey.
 void print_text(std::string_view text);
 
-/// The one line on stderr for a failure and, in JSON, an event. Throws nothing.
+/// Prints the line for a failure on stderr and, in JSON, an event. Throws nothing.
 void report_error(Format format, int exit_code, std::string_view message) noexcept;
 
 }  // namespace bdpt::app

@@ -8,7 +8,8 @@
 namespace bdpt::app {
 namespace {
 
-/// All that are handled, unless who started us had them ignored (as nohup and background jobs do).
+/// Returns the handled signals, except those that the parent process had ignored (as nohup and
+/// background jobs do).
 sigset_t signals_to_watch()
 {
     sigset_t result;
@@ -55,7 +56,7 @@ std::optional<int> Interrupt::signal() const
 
 void Interrupt::watch(const std::stop_token& finished)
 {
-    // Long enough to cost nothing, short enough that nobody waits for the thread to end.
+    // Long enough to cost nothing, short enough that joining the thread is quick.
     constexpr timespec interval{0, 20'000'000};
     while (!finished.stop_requested()) {
         const int signal_number = sigtimedwait(&signals_, nullptr, &interval);

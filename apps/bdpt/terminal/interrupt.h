@@ -13,11 +13,11 @@
 
 namespace bdpt::app {
 
-/// Turns SIGINT, SIGTERM and SIGHUP into a polite request while it lives: the first one asks for a
-/// stop once `allow_stop()` was called; any other removes `temporaries` and ends the process with
-/// 128 + the signal's number. Only SIGTERM and SIGHUP wait for the stop that one of them asked for:
-/// who takes machines back, or closes a terminal, sends them twice. SIGUSR1 asks for a checkpoint;
-/// where there are none it does nothing. Make it before any other thread, which then inherits the
+/// Turns SIGINT, SIGTERM and SIGHUP into a stop request during its lifetime: the first one requests
+/// a stop if `allow_stop()` was called; any other removes `temporaries` and ends the process with
+/// 128 + the signal's number. Only SIGTERM and SIGHUP wait for a stop that one of them requested,
+/// as schedulers and closing terminals send them twice. SIGUSR1 requests a checkpoint, and does
+/// nothing if there are none. Create it before any other thread, so that threads inherit the
 /// blocked signals.
 class Interrupt {
 public:
@@ -27,14 +27,14 @@ public:
     Interrupt(const Interrupt&) = delete;
     Interrupt& operator=(const Interrupt&) = delete;
 
-    /// From now on these are removed when the process ends in the middle, in place of those before.
+    /// Replaces the files that are removed if the process ends early.
     void set_temporaries(std::vector<std::filesystem::path> temporaries);
-    /// From now on there is something worth finishing.
+    /// Allows stops: from now on there is a result worth finishing.
     void allow_stop() { stop_allowed_ = true; }
     [[nodiscard]] std::stop_token stop_token() const { return stop_.get_token(); }
-    /// The signal that requested the stop.
+    /// Returns the signal that requested the stop.
     [[nodiscard]] std::optional<int> signal() const;
-    /// Whether a checkpoint was asked for since the last call.
+    /// Returns whether a checkpoint was requested since the last call.
     [[nodiscard]] bool take_checkpoint_request() { return checkpoint_.exchange(false); }
 
 private:
@@ -50,10 +50,10 @@ private:
     std::atomic<bool> stop_allowed_{false};
     std::atomic<int> signal_{0};
     std::atomic<bool> checkpoint_{false};
-    std::jthread watcher_;  // last: it uses all of the above
+    std::jthread watcher_;  // last: uses all of the above
 };
 
-/// "SIGINT", "SIGTERM" or "SIGHUP".
+/// Returns "SIGINT", "SIGTERM" or "SIGHUP".
 [[nodiscard]] const char* signal_name(int signal_number);
 
 }  // namespace bdpt::app

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Line `name` of a file of lines like "MemAvailable:   23456 kB" [bytes].
+/// Returns line `name` of a file with lines such as "MemAvailable:   23456 kB" [bytes].
 std::optional<std::uint64_t> line_of(const fs::path& file, const std::string& name)
 {
     std::ifstream stream(file);
@@ -28,7 +28,7 @@ std::optional<std::uint64_t> line_of(const fs::path& file, const std::string& na
     return std::nullopt;
 }
 
-/// What the process may still add to its address space.
+/// Returns the memory that the process may still add to its address space.
 std::optional<std::uint64_t> address_space(const fs::path& root)
 {
     rlimit limit{};

@@ -8,12 +8,12 @@
 
 namespace bdpt::app {
 
-/// The least of what the machine has free, what the control groups of the process may have and what
-/// its address space has left (ulimit -v). `root` is where the files of the system are.
+/// Returns the minimum of the machine's free memory, the limit of the process's control groups and
+/// the rest of its address space (ulimit -v). `root` is the root of the system's files.
 [[nodiscard]] io::MemoryLimit machine_memory(const std::filesystem::path& root = "/");
 
-/// The less of `asked`, which is --max-memory [bytes], and of what the machine had when this was
-/// first called: what this process gives back may stay with it.
+/// Returns the minimum of `asked`, which is --max-memory [bytes], and of the machine's memory when
+/// this was first called, as freed memory may stay with this process.
 [[nodiscard]] io::MemoryLimit memory_limit(std::optional<std::uint64_t> asked);
 
 }  // namespace bdpt::app

@@ -13,7 +13,7 @@
 namespace bdpt::app {
 namespace {
 
-/// errno of the first failure on a stream; 0: there was none.
+/// errno of the first failure on a stream; 0: none.
 struct StreamFailure {
     std::atomic<int> error_number{0};
 
@@ -31,10 +31,10 @@ StreamFailure& failure_of(std::FILE* stream)
     return stream == stdout ? of_output : of_errors;
 }
 
-/// Whether all that was printed has arrived.
+/// Closes a stream; returns whether all output was written.
 bool close(std::FILE* stream)
 {
-    StreamFailure& failure = failure_of(stream);  // `stream` is gone after fclose()
+    StreamFailure& failure = failure_of(stream);  // `stream` is invalid after fclose()
     errno = 0;
     const bool had_failed = std::ferror(stream) != 0;
     if (std::fclose(stream) != 0 || had_failed) {
@@ -49,7 +49,7 @@ void guard_standard_streams()
 {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) {
-            // The free descriptor of the lowest number is this one.
+            // open() returns the lowest free descriptor, which is this one.
             static_cast<void>(
                 ::open("/dev/null", descriptor == STDOUT_FILENO ? O_RDONLY : O_WRONLY));
         }

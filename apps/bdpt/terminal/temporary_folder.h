@@ -5,17 +5,16 @@
 
 namespace bdpt::app {
 
-/// A new folder for files that only this process reads. It is removed at the end, with all that is
-/// in it.
+/// A new folder for files that only this process reads. It is removed with its contents at the end.
 class TemporaryFolder {
 public:
-    /// Throws `Error` (output) if there can be none.
+    /// Throws `Error` (output) if it cannot be created.
     TemporaryFolder();
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-    /// The path of a file in it.
+    /// Returns the path of a file in the folder.
     [[nodiscard]] std::filesystem::path file(std::string_view name) const { return path_ / name; }
 
 private:

@@ -18,8 +18,9 @@ struct CodeRange {
     char32_t last;
 };
 
-/// What is not shown, but obeyed: control characters, and those of Unicode that break lines, change
-/// the direction of text or hide in it. The joiners U+200C and U+200D are letters' business.
+/// Characters that are obeyed instead of shown: control characters, and those of Unicode that break
+/// lines, change the direction of text or are invisible. The joiners U+200C and U+200D belong to
+/// letters.
 constexpr std::array<CodeRange, 11> unprintable{{{0x00, 0x1f},
                                                  {0x7f, 0x9f},
                                                  {0x61c, 0x61c},
@@ -41,19 +42,19 @@ bool is_printable(char32_t code)
 
 std::string valid_utf8(std::string_view text)
 {
-    // The JSON library knows UTF-8; its text is safe to take apart when it is read back.
+    // The JSON library validates UTF-8; its output can be decoded safely.
     using nlohmann::json;
     return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
         .get<std::string>();
 }
 
-/// Bytes of the character that begins with `lead`, in UTF-8.
+/// Returns the number of bytes of the UTF-8 character that begins with `lead`.
 std::size_t length_of(unsigned char lead)
 {
     return lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
 }
 
-/// The character in `bytes`, which are all of it.
+/// Decodes the single character in `bytes`.
 char32_t code_of(std::string_view bytes)
 {
     constexpr std::array<unsigned char, 5> lead_bits{0, 0x7f, 0x1f, 0x0f, 0x07};
@@ -64,7 +65,7 @@ char32_t code_of(std::string_view bytes)
     return code;
 }
 
-/// `text`, UTF-8, with what `replacement` gives for each character that is not printable.
+/// Replaces each unprintable character of `text`, UTF-8, by `replacement`.
 template <typename Replacement>
 std::string with_replaced(std::string_view text, const Replacement& replacement)
 {
@@ -89,7 +90,8 @@ std::string one_line(std::string_view text)
 std::string escaped(std::string_view text)
 {
     return with_replaced(valid_utf8(text), [](char32_t code) {
-        constexpr char32_t pairs = 0x10000;  // what JSON writes as two surrogates starts here
+        constexpr char32_t pairs =
+            0x10000;  // JSON writes characters from here on as two surrogates
         if (code == U'\n' || code == U'\t') {
             return std::string(1, static_cast<char>(code));
         }
@@ -130,7 +132,7 @@ std::string rect_text(const PixelRect& rect)
 
 std::string clock_time(double seconds)
 {
-    // A week and more is shown as that; also keeps infinity out of the conversion.
+    // Longer times are shown as a week; also excludes infinity from the conversion.
     constexpr double longest = 7.0 * 24.0 * 3600.0;
     const auto total = static_cast<std::int64_t>(std::clamp(seconds, 0.0, longest) + 0.5);
     const std::int64_t hours = total / 3600;
@@ -165,7 +167,7 @@ std::string wrapped_paragraphs(std::string_view text, std::size_t columns)
         paragraph.clear();
     };
     for (std::string line; std::getline(lines, line);) {
-        // A title above an example stands alone.
+        // A title above an example is kept on its own line.
         const bool is_fixed = line.empty() || line.front() == ' ';
         if (is_fixed) {
             end_paragraph();

@@ -8,29 +8,29 @@
 
 namespace bdpt::app {
 
-/// `text` without line breaks and whatever else a terminal would obey in place of showing it, and
-/// with what is not UTF-8 replaced.
+/// Returns `text` without line breaks and control characters that a terminal would obey, and with
+/// invalid UTF-8 replaced.
 [[nodiscard]] std::string one_line(std::string_view text);
 
-/// `text` of several lines, or JSON, with the same written as JSON does, like "\u009b".
+/// Escapes such characters in `text` of several lines, or in JSON, as JSON does: "\u009b".
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// "1 light", "2 lights": `noun` has a plural in s.
+/// Returns "1 light", "2 lights": `noun` has a plural in s.
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
 
-/// `word` as a shell reads it back.
+/// Quotes `word` for a shell.
 [[nodiscard]] std::string shell_word(const std::string& word);
 
-/// "x0,y0,x1,y1"
+/// Returns "x0,y0,x1,y1".
 [[nodiscard]] std::string rect_text(const PixelRect& rect);
 
-/// The words of `text` in lines of up to `columns`.
+/// Wraps the words of `text` to lines of up to `columns`.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t columns);
 
-/// Paragraphs of `text` that are wider, wrapped; lines that begin with a space stay as they are.
+/// Wraps the paragraphs of `text` that are wider; lines that begin with a space are kept.
 [[nodiscard]] std::string wrapped_paragraphs(std::string_view text, std::size_t columns);
 
-/// Seconds as "1:07" or "2:03:09".
+/// Formats seconds as "1:07" or "2:03:09".
 [[nodiscard]] std::string clock_time(double seconds);
 
 }  // namespace bdpt::app

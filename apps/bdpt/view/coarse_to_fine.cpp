@@ -43,7 +43,7 @@ std::optional<int> CoarseToFine::divisor() const
 void CoarseToFine::done(double seconds_taken)
 {
     const double measured = seconds_taken / pixels(coarse_size(size_, *divisor_));
-    // The greater half of what is new: one picture may have been held up.
+    // Moving average with weight 1/2, as one picture may have been delayed.
     seconds_a_pixel_ += 0.5 * (measured - seconds_a_pixel_);
     is_first_ = false;
     const int next = *divisor_ / 2;

@@ -6,27 +6,28 @@
 
 namespace bdpt::app {
 
-/// Which coarse pictures come before the render, so that a hand that turns the scene sees it move.
+/// Sequence of coarse pictures before the render, so that the scene moves smoothly under the user's
+/// hand.
 class CoarseToFine {
 public:
-    /// Something has changed: begins with a picture that will probably take `first_seconds`.
+    /// Starts again after a change, with a picture that should take about `first_seconds`.
     void restart(const Size& size);
-    /// How many pixels of the image the next picture has in one, in width and in height; none: all
-    /// were shown, and the render is next.
+    /// Returns the size of the next picture's pixels in pixels of the image, in width and in
+    /// height; none: all pictures were shown, and the render is next.
     [[nodiscard]] std::optional<int> divisor() const;
-    /// The next picture is the first since the last restart: it is worth waiting for, as otherwise
-    /// a hand that moves on would never see any.
+    /// Tests whether the next picture is the first since the last restart. It should not be
+    /// abandoned, as otherwise nothing is shown during a continuous motion.
     [[nodiscard]] bool is_first() const { return is_first_; }
-    /// The picture of `divisor()` took that long [s].
+    /// Reports that the picture of `divisor()` took this time [s].
     void done(double seconds);
-    /// Leaves the rest out.
+    /// Skips the remaining pictures.
     void skip() { divisor_.reset(); }
 
     static constexpr double first_seconds = 0.04;
-    static constexpr double max_seconds = 0.25;  ///< of any of them
+    static constexpr double max_seconds = 0.25;  ///< maximum of any picture
 
 private:
-    /// What one with that divisor will probably take [s].
+    /// Returns the expected time of a picture with that divisor [s].
     [[nodiscard]] double seconds(int divisor) const;
 
     Size size_{};
@@ -35,7 +36,7 @@ private:
     bool is_first_ = false;
 };
 
-/// The size of the picture with that divisor: at least one pixel.
+/// Returns the size of the picture with that divisor: at least one pixel.
 [[nodiscard]] Size coarse_size(const Size& size, int divisor);
 
 }  // namespace bdpt::app

@@ -8,8 +8,8 @@
 
 namespace bdpt::app {
 
-/// What `bdpt inspect --json` prints of the sample, as one line, and where its vertices are in the
-/// image: "raster", [x, y] or null. Throws as inspect_sample() does.
+/// Returns the output of `bdpt inspect --json` for the sample, as one line, with the positions of
+/// its vertices in the image: "raster", [x, y] or null. Throws as inspect_sample() does.
 [[nodiscard]] std::string inspected_text(const PreparedScene& stage, RenderOptions options,
                                          const PixelSample& pixel);
 

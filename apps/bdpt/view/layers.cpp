@@ -53,7 +53,7 @@ Image noise_image(const Film& film)
                     ++block.pixels;
                 }
             }
-            // Of a pixel, root mean square.
+            // Root mean square over pixels.
             const double error = std::sqrt(block.variance / block.pixels);
             const double noise = error / std::max(block.sum / block.pixels, darkest);
             const double place = noise > 0.0 ? std::log10(noise / min_noise) / decades : 0.0;

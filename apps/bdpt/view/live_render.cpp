@@ -51,7 +51,7 @@ bool LiveRender::advance(const PassStops& stops)
     if (rendered > 0) {
         seconds_a_sample_ = (renderer_.seconds() - seconds) / static_cast<double>(rendered);
     }
-    // It takes as long as a sample, so it is looked at as renders do.
+    // Measuring noise takes as long as a sample, so it is done as rarely as in renders.
     const std::int64_t there = renderer_.samples();
     if (there < next_noise_look(0) || is_noise_look(there) || there >= arguments_.samples.end) {
         noise_ = renderer_.noise();

@@ -13,29 +13,30 @@
 
 namespace bdpt::app {
 
-/// When a pass ends early.
+/// Stop requests of a pass.
 struct PassStops {
-    std::stop_token soon;  ///< as soon as what it has can be kept
-    std::stop_token now;   ///< nobody wants to see it any more
+    std::stop_token soon;  ///< stop as soon as the samples can be kept
+    std::stop_token now;   ///< stop at once: the result is obsolete
 };
 
-/// The render of what is seen by one integrator: the samples of `bdpt render`, to the bit.
+/// Render of the current view by one integrator: bit-identical to the samples of `bdpt render`.
 class LiveRender {
 public:
-    /// `arguments` have all their options (with_choice). `stage` must outlive this. Throws `Error`.
+    /// `arguments` have all their options (with_choice). `stage` must outlive this object. Throws
+    /// `Error`.
     LiveRender(RenderArguments arguments, const PreparedScene& stage);
 
-    /// Renders a few more samples, for about half a second. False: it was told to stop now, and has
-    /// none any more.
+    /// Renders more samples, for about half a second. Returns false if stopped at once, which
+    /// discards all samples.
     [[nodiscard]] bool advance(const PassStops& stops);
     [[nodiscard]] bool is_done() const;
-    /// From now on files look like that.
+    /// Sets the display options of saved files.
     void set_display(const DisplayArguments& display) { arguments_.display = display; }
 
-    /// What is rendered, with all options.
+    /// Returns the arguments of the render, with all options.
     [[nodiscard]] const RenderArguments& arguments() const { return arguments_; }
     [[nodiscard]] const Renderer& renderer() const { return renderer_; }
-    /// When it was looked at last; infinite: not yet.
+    /// Returns the noise when it was last measured; infinite: not yet.
     [[nodiscard]] double noise() const { return noise_; }
 
 private:
@@ -45,7 +46,8 @@ private:
     double seconds_a_sample_ = 0.0;
 };
 
-/// What covers the background that `arguments` ask for, by the films of `part`; empty without one.
+/// Returns the opacity towards the background that `arguments` request, by the films of `part`;
+/// empty without one.
 [[nodiscard]] Matte shown_matte(const RenderArguments& arguments, const RenderPart& part);
 
 struct CoarsePicture {
@@ -53,8 +55,8 @@ struct CoarsePicture {
     Matte matte{};  ///< without the shadow on the ground
 };
 
-/// What is seen, in `size` and with one sample a pixel, by an integrator that is quick to begin;
-/// none: it was told to stop.
+/// Renders the view in `size` with one sample per pixel, by an integrator that starts quickly;
+/// returns none if stopped.
 [[nodiscard]] std::optional<CoarsePicture> coarse_picture(const RenderArguments& arguments,
                                                           const PreparedScene& stage,
                                                           const Size& size,

@@ -16,7 +16,7 @@ namespace bdpt::app {
 void LiveScene::load(const ViewWords& words)
 {
     const RenderArguments asked = words.arguments();
-    // Two that are that large would not fit.
+    // Two scenes of this size would not fit.
     if (stage_ && stage_->memory.spent() > stage_->memory.limit().bytes / 2) {
         let_go_();
         still_.reset();

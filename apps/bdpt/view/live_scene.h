@@ -15,31 +15,30 @@
 
 namespace bdpt::app {
 
-/// The scene as words say that it is seen: what they change in it needs no loading, if possible.
+/// The scene of the current words: changes avoid loading if possible.
 class LiveScene {
 public:
-    /// `let_go` is called before a scene goes: nothing may render it from then on.
+    /// `let_go` is called before a scene is destroyed: nothing may render it from then on.
     LiveScene(Console& console, std::function<void()> let_go)
         : console_(console), let_go_(std::move(let_go))
-    {
-    }
+    {}
 
-    /// Loads the files anew. Throws `Error`; then all stays as it was, unless there was not memory
-    /// enough to keep it beside the new one.
+    /// Reloads the files. Throws `Error`; then the old scene is kept, unless memory did not suffice
+    /// for both.
     void load(const ViewWords& words);
-    /// Shows what `words` say. Throws `Error`; then all stays as it was.
+    /// Applies `words`. Throws `Error`; then nothing changes.
     void show(const ViewWords& words);
 
     [[nodiscard]] bool is_there() const { return stage_.has_value(); }
-    /// The rest is for a scene that is there.
+    /// The functions below require a scene.
     [[nodiscard]] const PreparedScene& stage() const { return *stage_; }
     [[nodiscard]] const RenderArguments& arguments() const { return arguments_; }
     [[nodiscard]] std::vector<std::filesystem::path> files() const;
 
-    /// The first surface, or scattering, at a pixel; none: there is only sky.
+    /// Returns the first surface or scattering event at a pixel; none: only the environment.
     [[nodiscard]] std::optional<Vec3> picked(int x, int y) const;
-    /// What the camera turns about is the first surface in the middle of the image or, where there
-    /// is none, as far away as the middle of the scene.
+    /// Returns the pose of the camera. Its target is the first surface in the middle of the image
+    /// or, if there is none, a point as far away as the middle of the scene.
     [[nodiscard]] Pose pose() const;
 
 private:
@@ -49,9 +48,9 @@ private:
     std::function<void()> let_go_;
     RenderArguments arguments_{};
     std::optional<PreparedScene> stage_;
-    std::optional<Scene> still_;  ///< without `environment_change_`, where that is any
+    std::optional<Scene> still_;  ///< without `environment_change_`, if that changes anything
     EnvironmentChange environment_change_{};
-    std::string environment_;  ///< with which it was loaded, as --env has it
+    std::string environment_;  ///< as loaded, in the form of --env
 };
 
 }  // namespace bdpt::app

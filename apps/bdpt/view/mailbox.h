@@ -12,30 +12,30 @@
 
 namespace bdpt::app {
 
-/// What happens to the pass in flight when a task comes.
+/// Effect of a new task on the pass in flight.
 enum class Urgency : std::uint8_t {
-    when_idle,  ///< it goes on to its end
-    soon,       ///< it ends as soon as what it has can be kept
-    now,        ///< nobody wants to see it any more
+    when_idle,  ///< none: the pass completes
+    soon,       ///< the pass ends as soon as its samples can be kept
+    now,        ///< the pass ends at once: its result is obsolete
 };
 
-/// Tasks of other threads for the one that renders.
+/// Queue of tasks from other threads for the render thread.
 class Mailbox {
 public:
     using Task = std::function<void()>;
 
-    /// From any thread.
+    /// Adds a task. Thread-safe.
     void post(Task task, Urgency urgency);
-    /// Does all tasks that are there. Without any it waits for one first, if that is asked for.
-    /// False: it is closed.
+    /// Runs all queued tasks. If there are none and `waits` is set, it waits for one. Returns false
+    /// if closed.
     [[nodiscard]] bool work_off(bool waits);
-    /// Waits for a task, for at most `time`. False: none came.
+    /// Waits for a task, for at most `time`. Returns false if none came.
     [[nodiscard]] bool wait_for(std::chrono::milliseconds time);
-    /// Stops the pass in flight, and whoever waits. From any thread.
+    /// Stops the pass in flight and all waiting. Thread-safe.
     void close();
 
-    /// For the next pass, which is left alone until it ends unless `may_be_abandoned`. If there are
-    /// tasks by now that would stop it, they do.
+    /// Returns the stop tokens of the next pass, which completes unless `may_be_abandoned`. Queued
+    /// tasks that would stop it do so.
     [[nodiscard]] PassStops begin_pass(bool may_be_abandoned);
 
 private:
@@ -44,7 +44,7 @@ private:
     std::mutex mutex_;
     std::condition_variable wake_;
     std::deque<Task> tasks_;
-    Urgency urgency_ = Urgency::when_idle;  ///< the greatest of the tasks
+    Urgency urgency_ = Urgency::when_idle;  ///< maximum of the tasks
     bool closed_ = false;
     bool may_be_abandoned_ = false;
     std::stop_source soon_;

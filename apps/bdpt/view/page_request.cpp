@@ -106,7 +106,7 @@ ViewLayer layer_of(const Json& value)
     fail("layer", "picture, noise, rates or strategy");
 }
 
-/// EV as --exposure takes them.
+/// Parses EV as in --exposure.
 std::string exposure_of(const Json& value)
 {
     if (value.is_number()) {

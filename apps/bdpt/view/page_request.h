@@ -13,16 +13,16 @@
 
 namespace bdpt::app {
 
-/// What a picture shows.
+/// Contents of a picture.
 enum class ViewLayer : std::uint8_t { picture, noise, rates, strategy };
 
 [[nodiscard]] std::string_view layer_name(ViewLayer layer);
 
-/// Settings that a page asks for; those that are there.
+/// Settings that a page requests; only those that are set.
 struct ViewSettings {
     std::optional<std::string> integrator_a{};
     std::optional<std::string> integrator_b{};  ///< "": no second one
-    std::optional<std::string> environment{};   ///< as --env, or "scene": its own
+    std::optional<std::string> environment{};   ///< as in --env, or "scene": its own
     std::optional<double> rotation{};           ///< [deg]
     std::optional<double> intensity{};
     std::optional<std::string> exposure{};  ///< EV, or "auto"
@@ -32,23 +32,24 @@ struct ViewSettings {
     std::optional<Strategy> strategy{};
 };
 
-/// What a page asks of the session.
+/// A page's request to the session.
 struct PageRequest {
-    std::uint32_t sequence = 0;  ///< by which its answer names it
+    std::uint32_t sequence = 0;  ///< number that its answer refers to
     std::optional<Move> move{};
     std::optional<std::array<int, 2>> focus{};  ///< pixel
-    bool reset = false;                         ///< the camera
+    bool reset = false;                         ///< resets the camera
     std::optional<ViewSettings> settings{};
     std::optional<PixelSample> inspect{};
 
-    /// Does it change what is seen, so that there is no use in going on with the old picture?
+    /// Tests whether the request changes the view, which makes the current picture obsolete.
     [[nodiscard]] bool changes_picture() const;
 };
 
-/// What the message `text` asks for. Throws `Error` (usage), one line, for what is no request.
+/// Parses the message `text`. Throws `Error` (usage), one line, for an invalid request.
 [[nodiscard]] PageRequest parse_request(std::string_view text);
 
-/// By which the answer to `text` names it, whatever else is wrong with it; none: it has no number.
+/// Returns the number that the answer to `text` refers to, whatever else is wrong with it; none: it
+/// has no number.
 [[nodiscard]] std::optional<std::uint32_t> sequence_of(std::string_view text);
 
 }  // namespace bdpt::app

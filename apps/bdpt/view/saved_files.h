@@ -8,20 +8,20 @@
 
 namespace bdpt::app {
 
-/// A file that a browser keeps.
+/// A file that a browser saves.
 struct Download {
-    int status = 200;     ///< of HTTP
+    int status = 200;     ///< HTTP status
     std::string type;     ///< "image/png"
-    std::string name;     ///< for people; empty: there is none
-    std::string content;  ///< or why there is none, one line
+    std::string name;     ///< for people; empty: none
+    std::string content;  ///< contents, or the reason for a failure, one line
 };
 
-/// "scene.exr" or "scene.png": what `bdpt render` would write of the same samples, in a file of
-/// that extension. Throws `Error`.
+/// Returns "scene.exr" or "scene.png": the file that `bdpt render` would write for the same
+/// samples, with that extension. Throws `Error`.
 [[nodiscard]] Download saved_image(const LiveRender& render, const PreparedScene& stage,
                                    std::string_view extension);
 
-/// Exposure [EV] of what files for screens show. Throws `Error`.
+/// Returns the exposure [EV] of files for screens. Throws `Error`.
 [[nodiscard]] float exposure_of(const LiveRender& render, const PreparedScene& stage,
                                 const Image& image);
 

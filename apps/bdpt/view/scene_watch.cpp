@@ -25,7 +25,7 @@ void FileChanges::watch(const std::vector<fs::path>& files)
 {
     Stamps known;
     for (const fs::path& file : files) {
-        // Not as it is now where it may have changed while it was read.
+        // Keeps the old stamp, as the file may have changed while it was read.
         const auto before = known_.find(file);
         known.emplace(file, before != known_.end() ? before->second : stamp_of(file));
     }
@@ -51,8 +51,7 @@ bool FileChanges::look()
 SceneWatch::SceneWatch(std::function<void()> changed)
     : changed_(std::move(changed)),
       thread_([this](const std::stop_token& finished) { run(finished); })
-{
-}
+{}
 
 SceneWatch::~SceneWatch()
 {

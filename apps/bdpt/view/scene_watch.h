@@ -12,7 +12,7 @@
 
 namespace bdpt::app {
 
-/// What is compared of a file.
+/// File properties that are compared.
 struct FileStamp {
     std::filesystem::file_time_type time{};
     std::uintmax_t bytes = 0;
@@ -22,14 +22,14 @@ struct FileStamp {
 
 [[nodiscard]] FileStamp stamp_of(const std::filesystem::path& file);
 
-/// Tells when files have changed, and stay as they are for a moment: programs write them in
-/// several steps.
+/// Detects files that have changed and then stayed unchanged for a moment, as programs write them
+/// in several steps.
 class FileChanges {
 public:
-    /// What is watched from now on. A file that is new here is known as it is now.
+    /// Sets the watched files. The current state of newly watched files counts as known.
     void watch(const std::vector<std::filesystem::path>& files);
-    /// Looks at all files. True: some differ from what they were when `watch` or this said so, and
-    /// are as they were at the look before.
+    /// Checks all files. Returns true if some differ from the last known state and are unchanged
+    /// since the previous check.
     [[nodiscard]] bool look();
 
 private:
@@ -38,7 +38,7 @@ private:
     Stamps last_;
 };
 
-/// Looks at files five times a second, on a thread of its own.
+/// Checks files five times a second, on its own thread.
 class SceneWatch {
 public:
     /// `changed` is called on that thread.
@@ -56,7 +56,7 @@ private:
     std::mutex mutex_;
     std::condition_variable_any wake_;
     FileChanges changes_;  // guarded by the mutex
-    std::jthread thread_;  // last: it uses all of the above
+    std::jthread thread_;  // last: uses all of the above
 };
 
 }  // namespace bdpt::app

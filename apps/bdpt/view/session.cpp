@@ -30,7 +30,7 @@ double seconds_since(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// `work()`, whose failure becomes a line.
+/// Calls `work()`; returns its failure as a line.
 template <typename Work>
 std::optional<std::string> failure_of(const Work& work)
 {
@@ -82,7 +82,7 @@ void Session::load_first()
     try {
         scene_.load(words_);
     } catch (const Error& error) {
-        static_cast<void>(mailbox_.work_off(false));  // pages that were opened meanwhile
+        static_cast<void>(mailbox_.work_off(false));  // handles pages that were opened meanwhile
         if (clients_.empty()) {
             throw;
         }
@@ -115,7 +115,7 @@ void Session::ask(ClientId client, const std::string& message)
 {
     PageRequest request;
     std::optional<std::string> wrong = failure_of([&] { request = parse_request(message); });
-    // A place to look at may be refused: then the picture is still wanted.
+    // A focus point may be refused, so the current picture is kept.
     const bool gives_up = request.changes_picture() && !request.focus;
     const Urgency urgency = gives_up ? Urgency::now : Urgency::soon;
     mailbox_.post(
@@ -201,7 +201,7 @@ void Session::change_camera(const PageRequest& request)
         return;
     }
     if (is_stale_ && (request.focus || !pose_)) {
-        restart();  // places are those of the picture
+        restart();  // pixels refer to the current picture
     }
     const RenderArguments& arguments = scene_.arguments();
     if (arguments.view.projection == Projection::orthographic) {
@@ -226,14 +226,14 @@ void Session::change_camera(const PageRequest& request)
             moved(pose, *request.move, view_height(camera, glm::length(pose.look_at - pose.from)));
     }
     if (arguments.view.frames()) {
-        // Words that frame all do not go with a place.
+        // Options that frame the scene exclude a camera position.
         words_.remove("--view");
         words_.remove("--margin");
         words_.set("--camera", "auto");
     }
     const bool is_framed = arguments.view.frames() || scene_.stage().is_framed;
     if (is_framed && !words_.has("--fov") && !words_.has("--focal-length")) {
-        // With a field of view the view is complete, and the scene need not be framed.
+        // With a field of view the view is complete, so the scene need not be framed.
         words_.set("--fov", fmt::format("{}", degrees(camera.vertical_fov)));
     }
     words_.set("--from", point_text(pose.from));
@@ -314,7 +314,7 @@ void Session::set_environment(const std::string& name)
         words_.remove("--env");
     } else if (name == "none" || name == "default" || name == "studio" ||
                name == first_words_.text("--env")) {
-        words_.set("--env", name);  // no other file: pages do not choose what is read
+        words_.set("--env", name);  // no other file: pages must not choose files to read
     } else {
         throw Error(ErrorCode::usage, fmt::format("\"environment\": there is none \"{}\"", name));
     }
@@ -375,7 +375,7 @@ void Session::restart()
 {
     is_stale_ = false;
     const ViewWords before = std::exchange(shown_words_, words_);
-    const bool look_only = [&] {  // which changes no pixel
+    const bool look_only = [&] {  // options that change no pixel
         ViewWords a = before;
         ViewWords b = words_;
         for (const char* option : {"--exposure", "--tone-map"}) {
@@ -430,7 +430,7 @@ bool Session::step()
     if (!scene_.is_there()) {
         return false;
     }
-    // The first picture waits for the first page, not the other way round.
+    // The first picture is rendered even before a page connects.
     const bool shown_before = renders_[0] && renders_[0]->renderer().samples() > 0;
     if ((clients_.empty() && shown_before) || (is_paused_ && shown_before)) {
         return false;
@@ -446,7 +446,7 @@ bool Session::step()
     if (wrong) {
         message_ = *wrong;
         drop_renders();
-        is_paused_ = true;  // or it would fail again and again
+        is_paused_ = true;  // otherwise it would fail again and again
         tell(true);
         return false;
     }
@@ -461,7 +461,7 @@ bool Session::preview()
     const std::optional<CoarsePicture> picture =
         coarse_picture(scene_.arguments(), scene_.stage(), size, stops.now);
     if (!picture) {
-        coarse_.skip();  // what stopped it begins anew
+        coarse_.skip();  // a restart follows
         return true;
     }
     coarse_.done(seconds_since(start));
@@ -483,7 +483,7 @@ bool Session::advance(std::optional<LiveRender>& render, std::size_t slot)
         return true;
     }
     if (!render) {
-        // A hand that moves on would wait for what begins now.
+        // A continuing motion would have to wait for a pass that starts now.
         constexpr std::chrono::milliseconds rest{150};
         if (generation_ > 1 && mailbox_.wait_for(rest)) {
             return true;
@@ -495,7 +495,7 @@ bool Session::advance(std::optional<LiveRender>& render, std::size_t slot)
         }
         render.emplace(std::move(arguments), scene_.stage());
     }
-    // Who wants to see something else waits for no picture of this.
+    // If stopped at once, the picture is obsolete.
     if (render->advance(stops) && !stops.now.stop_requested()) {
         show(slot);
         tell(true);
@@ -507,7 +507,7 @@ bool Session::advance_pictures()
 {
     std::size_t slot = 0;
     if (!integrator_b_.empty() && renders_[0]) {
-        // Who has less time goes on; who is done leaves it to the other.
+        // Advances the slot with less render time, or the one that is not done.
         const bool b_is_behind =
             !renders_[1] || renders_[0]->is_done() ||
             renders_[1]->renderer().seconds() < renders_[0]->renderer().seconds();

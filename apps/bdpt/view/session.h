@@ -24,18 +24,19 @@
 
 namespace bdpt::app {
 
-/// Whom a session tells. Called on the thread that renders.
+/// Receiver of a session's messages, called on the render thread.
 class Audience {
 public:
     virtual ~Audience() = default;
-    /// To all pages, and to those that come.
+    /// Sends the state to all pages, and to those that connect later.
     virtual void tell(std::string state) = 0;
     virtual void show(std::shared_ptr<const Frame> frame) = 0;
-    /// To one page.
+    /// Sends an answer to one page.
     virtual void answer(ClientId client, std::string text) = 0;
 };
 
-/// What `bdpt view` shows: one scene, one camera, by one or two integrators, for all pages.
+/// The session of `bdpt view`: one scene, one camera, rendered by one or two integrators, for all
+/// pages.
 class Session {
 public:
     Session(const ViewWords& words, Audience& audience, Console& console);
@@ -44,30 +45,31 @@ public:
     /// the scene cannot be loaded.
     void run();
 
-    // From any thread:
+    // Thread-safe:
     void join(ClientId client);
     void leave(ClientId client);
-    /// A message of a page.
+    /// Handles a message of a page.
     void ask(ClientId client, const std::string& message);
-    /// "save.png", "save.exr" or "save.json"; `done` is called on the thread that renders.
+    /// Saves "save.png", "save.exr" or "save.json"; `done` is called on the render thread.
     void save(const std::string& name, int slot, std::function<void(Download)> done);
     void stop() { mailbox_.close(); }
 
 private:
     void answer(ClientId client, const PageRequest& request);
     void change_camera(const PageRequest& request);
-    /// Throws `Error` for settings that cannot be.
+    /// Throws `Error` for invalid settings.
     void check(const ViewSettings& settings) const;
     void change_settings(const ViewSettings& settings);
     void set_environment(const std::string& name);
     [[nodiscard]] std::string inspected(const PixelSample& pixel);
     [[nodiscard]] Download saved(const std::string& name, int slot);
-    /// Throws `Error` if the scene cannot be loaded, unless a page is open to show why.
+    /// Loads the scene for the first time. Throws `Error` if it cannot be loaded, unless an open
+    /// page can show why.
     void load_first();
     void load();
-    /// Does what was asked for since, and begins anew.
+    /// Applies the changes requested since the last restart, and starts rendering again.
     void restart();
-    /// One pass, of whatever is next. False: there is nothing to do.
+    /// Renders the next pass. Returns false if there is nothing to do.
     [[nodiscard]] bool step();
     [[nodiscard]] bool preview();
     [[nodiscard]] bool advance(std::optional<LiveRender>& render, std::size_t slot);
@@ -78,12 +80,12 @@ private:
     [[nodiscard]] ViewWords words_of_slot(std::size_t slot) const;
     void drop_renders();
 
-    /// Sends what the layer shows of a slot.
+    /// Sends the picture of the current layer of a slot.
     void show(std::size_t slot);
     void show_all();
     void send(std::size_t slot, const Image& image, const Cover& cover, const Size& grid,
               const PixelRect& region, std::int64_t samples);
-    /// Tells pages the state now, or in a moment if they were told just before.
+    /// Sends the state to pages, now or shortly if it was sent just before.
     void tell(bool now);
     [[nodiscard]] ViewState state();
     [[nodiscard]] SlotState slot_state(std::size_t slot) const;
@@ -91,15 +93,15 @@ private:
 
     Audience& audience_;
     Console& console_;
-    Console quiet_{Format::text, Verbosity::quiet};  ///< of what is told again and again
+    Console quiet_{Format::text, Verbosity::quiet};  ///< for messages that would be repeated
     Mailbox mailbox_;
     const ViewWords first_words_;
-    ViewWords words_;        ///< that pages have asked for
-    ViewWords shown_words_;  ///< with which the scene was shown last
+    ViewWords words_;        ///< requested by pages
+    ViewWords shown_words_;  ///< words of the scene as last shown
     LiveScene scene_;
     std::array<std::optional<LiveRender>, 2> renders_;
     std::optional<LiveRender> strategies_;
-    std::array<std::int64_t, 2> shown_samples_{};  ///< of each slot, in the frame that was sent last
+    std::array<std::int64_t, 2> shown_samples_{};  ///< samples of each slot in the last frame sent
     CoarseToFine coarse_;
     std::string integrator_b_;
     ViewLayer layer_ = ViewLayer::picture;
@@ -107,13 +109,13 @@ private:
     bool is_paused_ = false;
     bool is_stale_ = false;       ///< words have changed
     bool files_changed_ = false;  ///< on disk
-    std::string message_;       ///< why the last change was not made
-    std::string file_message_;  ///< why the file was not loaded again
+    std::string message_;         ///< reason why the last change was refused
+    std::string file_message_;    ///< reason why the file was not reloaded
     float automatic_exposure_ = 0.0f;
-    bool is_metered_ = false;  ///< `automatic_exposure_` is of this scene
-    std::optional<Pose> pose_;  ///< of the camera, if it is known
+    bool is_metered_ = false;   ///< `automatic_exposure_` belongs to this scene
+    std::optional<Pose> pose_;  ///< pose of the camera, if known
     std::uint32_t generation_ = 0;
-    std::map<ClientId, std::uint32_t> clients_;  ///< with the last request that was done
+    std::map<ClientId, std::uint32_t> clients_;  ///< with their last handled request
     std::chrono::steady_clock::time_point told_{};
     bool is_untold_ = false;
     SceneWatch watch_;  // last: its thread uses the mailbox

@@ -1,4 +1,4 @@
-// What pages are shown and told.
+// Output to pages.
 
 #include <bdpt/io/tone_map.h>
 #include <bdpt/options/integrators.h>
@@ -15,10 +15,10 @@
 namespace bdpt::app {
 namespace {
 
-/// Edges of the longest paths whose strategies are shown apart.
+/// Maximum path length [edges] of strategies that are shown separately.
 constexpr int strategy_edges = 4;
 
-/// Those that begin on the lens, of paths of up to `edges`.
+/// Returns the strategies with a vertex on the lens, for paths of up to `edges`.
 std::vector<Strategy> strategies_up_to(int edges)
 {
     std::vector<Strategy> result;
@@ -174,7 +174,7 @@ ViewState Session::state()
     const RenderArguments& arguments = scene_.arguments();
     const Pose pose = pose_ ? *pose_ : scene_.pose();
     if (!is_stale_) {
-        pose_ = pose;  // else it is that of a camera that goes
+        pose_ = pose;  // otherwise it belongs to a moving camera
     }
     state.size = stage.size;
     state.camera_name = stage.camera.name;
@@ -242,7 +242,7 @@ SlotState Session::slot_state(std::size_t slot) const
     state.samples = render->renderer().samples();
     state.noise = render->noise();
     state.seconds = render->renderer().seconds();
-    // Pages take it as said of the picture that they have.
+    // Pages relate the state to the picture that they have.
     const bool is_shown = layer_ == ViewLayer::strategy || shown_samples_[slot] == state.samples;
     state.is_done = render->is_done() && is_shown && !is_stale_;
     return state;

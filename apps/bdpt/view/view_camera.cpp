@@ -8,7 +8,7 @@
 namespace bdpt::app {
 namespace {
 
-/// Right, up and forward, each of length 1.
+/// Right, up and forward unit vectors.
 struct Axes {
     Vec3 right;
     Vec3 up;
@@ -22,7 +22,7 @@ Axes axes_of(const CameraDesc& camera)
             .forward = -glm::normalize(Vec3(camera.world_from_camera[2]))};
 }
 
-/// Of an offset from the camera.
+/// Returns the position in the image of a point at an offset from the camera.
 std::optional<Vec2> raster_of_offset(const CameraDesc& camera, const Size& size, Vec3 offset)
 {
     const Axes axes = axes_of(camera);
@@ -30,7 +30,7 @@ std::optional<Vec2> raster_of_offset(const CameraDesc& camera, const Size& size,
     if (!(depth > 0.0f)) {
         return std::nullopt;
     }
-    const float height = view_height(camera, depth) * depth;  // of the image, there
+    const float height = view_height(camera, depth) * depth;  // height of the image at that depth
     const auto pixels = static_cast<float>(size.height);
     const Vec2 place = Vec2(glm::dot(offset, axes.right), -glm::dot(offset, axes.up)) / height;
     const Vec2 raster = pixels * place + 0.5f * Vec2(static_cast<float>(size.width), pixels);
@@ -50,7 +50,7 @@ Move& Move::operator+=(const Move& next)
 
 Pose moved(const Pose& pose, const Move& move, float height)
 {
-    // Upright: a camera that looks along the vertical has no right hand.
+    // Upright: a camera that looks along the vertical has no right axis.
     constexpr float steepest = 0.499f * std::numbers::pi_v<float>;
     const Vec3 arm = pose.from - pose.look_at;
     const float distance = glm::length(arm);
@@ -65,7 +65,7 @@ Pose moved(const Pose& pose, const Move& move, float height)
     const Vec3 right(std::cos(azimuth), 0.0f, -std::sin(azimuth));
     const Vec3 up = glm::cross(direction, right);
     const Vec3 shift = distance * height * (move.pan.y * up - move.pan.x * right);
-    // Nearer than this, floats no longer tell the two points apart.
+    // At smaller distances floats cannot tell the two points apart.
     const float nearest = 1e-4f * std::max(distance, 1e-3f);
     const Vec3 look_at = pose.look_at + shift;
     const Pose result{.from = look_at + std::max(distance * move.dolly, nearest) * direction,

@@ -12,22 +12,22 @@
 
 namespace bdpt::app {
 
-/// One of the pictures side by side.
+/// State of one of the pictures side by side.
 struct SlotState {
-    std::string integrator;  ///< that was chosen; empty: not yet
+    std::string integrator;  ///< the chosen one; empty: not yet chosen
     std::int64_t samples = 0;
     std::int64_t target = 0;
-    double noise = 0.0;  ///< infinite: not known
+    double noise = 0.0;  ///< infinite: unknown
     double seconds = 0.0;
     bool is_done = false;
 };
 
-/// All that pages are told beside pixels.
+/// State sent to pages, except pixels.
 struct ViewState {
     bool is_loading = true;
     std::string file;
-    std::string message;  ///< why the picture is not what it should be; empty: it is
-    // The rest once something was loaded.
+    std::string message;  ///< reason why the picture is not as requested; empty: it is
+    // The members below are valid once something was loaded.
     Size size{};
     std::string camera_name;
     Pose pose{};
@@ -38,11 +38,12 @@ struct ViewState {
     std::string environment;
     double rotation = 0.0;  ///< [deg]
     double intensity = 1.0;
-    double exposure = 0.0;            ///< [EV] that is shown
-    double automatic_exposure = 0.0;  ///< [EV] in the place of a number
+    double exposure = 0.0;            ///< shown exposure [EV]
+    double automatic_exposure = 0.0;  ///< exposure [EV] used if none is set
     bool exposure_is_automatic = true;
     std::string curve;
-    std::string background;  ///< "transparent" or a colour, like "#ffffff"; empty: the environment
+    std::string
+        background;  ///< "transparent" or a colour, such as "#ffffff"; empty: the environment
     std::vector<ViewLayer> layers;
     ViewLayer layer = ViewLayer::picture;
     std::optional<Scale> scale{};
@@ -54,7 +55,7 @@ struct ViewState {
     std::string command;
 };
 
-/// As JSON.
+/// Returns the state as JSON.
 [[nodiscard]] std::string state_text(const ViewState& state);
 
 }  // namespace bdpt::app

@@ -10,7 +10,7 @@
 namespace bdpt::app {
 namespace {
 
-/// The options of `bdpt render`, and what they are stored in.
+/// The options of `bdpt render`, and the request that they are stored in.
 struct RenderOptionList {
     RenderOptionList() { add_render_options(options, request); }
     RenderRequest request;

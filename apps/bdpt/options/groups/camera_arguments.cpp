@@ -36,7 +36,7 @@ ValueType<float> field_of_view()
             .info = {.json = JsonType::number, .range = {.low = 0, .low_is_excluded = true}}};
 }
 
-/// In millimetres, as the vertical field of view.
+/// Accepts a focal length in millimetres, as the vertical field of view.
 ValueType<float> focal_length()
 {
     constexpr double shortest = 1.0;

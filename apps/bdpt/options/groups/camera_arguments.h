@@ -8,11 +8,11 @@
 
 namespace bdpt::app {
 
-/// Adds --camera, which goes to `camera`, and what changes or frames a view.
+/// Adds --camera, stored in `camera`, and the options that change or frame a view.
 void add_camera_options(OptionList& options, std::optional<std::string>& camera,
                         ViewOverrides& view);
 
-/// Throws `OptionError` when those that were given do not go together.
+/// Throws `OptionError` if the given options are incompatible.
 void check_camera_options(const OptionList& options, const std::optional<std::string>& camera);
 
 }  // namespace bdpt::app

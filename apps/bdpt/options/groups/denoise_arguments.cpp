@@ -19,13 +19,13 @@ void add_denoise_options(OptionList& options, DenoiseArguments& denoise)
         denoise.as,
         ValueType<DenoisedAs>{
             .parse = kinds.type().parse, .expected = "image or layer", .info = kinds.type().info});
-    flag.uses.plan_render = true;  // merging needs its layers
+    flag.uses.plan_render = true;  // its layers are needed for merging
     Option& library =
         options.add("--denoiser-library", "FILE|DIR",
                     "Open Image Denoise 2, a file or its folder. Default: libOpenImageDenoise.so.2 "
                     "where the system finds it, in a Python environment that of pyoidn",
                     denoise.library, some_text("a file or a folder"));
-    library.uses = {.python_save = true, .job = false};  // no file says what code is loaded
+    library.uses = {.python_save = true, .job = false};  // no file may choose code to load
 }
 
 std::optional<DenoiseArguments> checked(const DenoiseArguments& denoise, const OptionList& options)

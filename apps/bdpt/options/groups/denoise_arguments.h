@@ -8,19 +8,20 @@
 
 namespace bdpt::app {
 
-/// Which of the two is the image of .exr files; the other one is a layer.
+/// Place of the denoised image in .exr files: it is the main image or a layer; the noisy image is
+/// the other one.
 enum class DenoisedAs : std::uint8_t { image, layer };
 
-/// How images are denoised.
+/// Options of denoising.
 struct DenoiseArguments {
     DenoisedAs as = DenoisedAs::image;
-    std::optional<std::filesystem::path> library{};  ///< none: where the system finds it
+    std::optional<std::filesystem::path> library{};  ///< none: the one that the system finds
 };
 
 /// Adds --denoise and --denoiser-library.
 void add_denoise_options(OptionList& options, DenoiseArguments& denoise);
 
-/// `denoise` where --denoise is given. Throws `OptionError` for the other option alone.
+/// Returns `denoise` if --denoise is given. Throws `OptionError` for the other option alone.
 [[nodiscard]] std::optional<DenoiseArguments> checked(const DenoiseArguments& denoise,
                                                       const OptionList& options);
 

@@ -15,7 +15,7 @@ namespace bdpt::app {
 
 namespace {
 
-/// "f0f0f0", or "fff" with each digit for two.
+/// Parses "f0f0f0", or "fff" with each digit doubled.
 std::optional<io::SrgbColor> parse_hexadecimal(std::string_view text)
 {
     constexpr int hexadecimal = 16;
@@ -36,7 +36,7 @@ std::optional<io::SrgbColor> parse_hexadecimal(std::string_view text)
     return color;
 }
 
-/// "1,0.5,0": parts of the brightest that a screen shows.
+/// Parses "1,0.5,0": fractions of the brightest value of a screen.
 std::optional<io::SrgbColor> parse_parts(std::string_view text)
 {
     const std::optional<Vec3> parts = parse_vec3(text);
@@ -130,8 +130,8 @@ void add_display_options(OptionList& options, DisplayArguments& display)
             "transparent, black, white, a colour like #f0f0f0, #fff or 0.9,0.9,0.9, or the name "
             "of a .png, .jpg, .webp, .exr or .hdr file"));
     background.info.separator = ',';
-    background.uses.plan_render = true;    // merging needs its alpha
-    background.uses.python_render = true;  // as does save()
+    background.uses.plan_render = true;    // its alpha is needed for merging
+    background.uses.python_render = true;  // and for save()
     const Choices<TexelType> depths{{{"8", TexelType::unorm8}, {"16", TexelType::unorm16}}};
     options.add("--png-bits", "8|16", "Bits of each channel of .png: 8 (default) or 16",
                 display.type, depths.type());

@@ -14,31 +14,31 @@
 
 namespace bdpt::app {
 
-/// What is seen in place of the environment.
+/// Background shown instead of the environment.
 struct Backdrop {
     std::optional<io::SrgbColor> color{};
-    std::filesystem::path photo{};  ///< a file with an image, in place of a colour; empty: none
+    std::filesystem::path photo{};  ///< file of an image shown instead of a colour; empty: none
 
     [[nodiscard]] bool is_transparent() const { return !color && photo.empty(); }
 };
 
-/// How images look on a screen.
+/// Options of images for screens.
 struct DisplayArguments {
-    /// None: by light with a backdrop and for frames, else automatic.
+    /// None: by light if there is a backdrop and for frames, else automatic.
     std::optional<Exposure> exposure{};
     io::ToneCurve curve = io::ToneCurve::filmic;
-    TexelType type = TexelType::unorm8;  ///< of .png
-    std::optional<Backdrop> backdrop{};  ///< none: the environment is seen
+    TexelType type = TexelType::unorm8;  ///< type of .png files
+    std::optional<Backdrop> backdrop{};  ///< none: the environment is shown
 };
 
-/// "transparent", "black", "white", "#rrggbb", "#rgb" sRGB-encoded "r,g,b" from 0 to 1, or
-/// the name of an image: .png, .jpg, .webp, .exr or .hdr.
+/// Parses "transparent", "black", "white", "#rrggbb", "#rgb" or sRGB-encoded "r,g,b" from 0 to 1,
+/// or the name of an image: .png, .jpg, .webp, .exr or .hdr.
 [[nodiscard]] std::optional<Backdrop> parse_backdrop(std::string_view text);
 
-/// Its inverse; black is "#000000".
+/// Formats a backdrop, the inverse of `parse_backdrop`; black is "#000000".
 [[nodiscard]] std::string backdrop_text(const Backdrop& backdrop);
 
-/// Throws `OptionError` where a transparent image goes to one of `outputs` that has no alpha.
+/// Throws `OptionError` if a transparent image goes to one of `outputs` that has no alpha.
 void check_transparency(const DisplayArguments& display,
                         std::span<const std::filesystem::path> outputs);
 

@@ -4,10 +4,10 @@
 
 namespace bdpt::app {
 
-/// What is changed in the environment of a scene, wherever it comes from.
+/// Changes of a scene's environment, whatever its source.
 struct EnvironmentChange {
-    double rotation = 0.0;   ///< [deg] about +y, counter-clockwise as seen from above
-    float intensity = 1.0f;  ///< >= 0, times the radiance
+    double rotation = 0.0;   ///< about +y, counter-clockwise as seen from above [deg]
+    float intensity = 1.0f;  ///< factor of the radiance, >= 0
 
     [[nodiscard]] bool operator==(const EnvironmentChange&) const = default;
 };

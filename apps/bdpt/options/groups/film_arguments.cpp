@@ -12,7 +12,7 @@
 namespace bdpt::app {
 namespace {
 
-/// The parts of `text` between commas; empty ones too.
+/// Splits `text` at commas; parts may be empty.
 std::vector<std::string_view> split_at_commas(std::string_view text)
 {
     std::vector<std::string_view> parts;
@@ -51,7 +51,7 @@ std::optional<AovSet> parse_aovs(std::string_view text)
     AovSet result;
     for (const std::string_view part : split_at_commas(text)) {
         const std::optional<Aov> aov = enumerator_of<Aov>(lower_case(part));
-        if (!aov || *aov == Aov::shadow) {  // that is --ground
+        if (!aov || *aov == Aov::shadow) {  // requested by --ground
             return std::nullopt;
         }
         result.insert(*aov);

@@ -13,28 +13,28 @@
 
 namespace bdpt::app {
 
-/// "gaussian" or "gaussian:2"; the radius [pixels] is in the range of `FilterOptions`.
+/// Parses "gaussian" or "gaussian:2"; the radius [pixels] is in the range of `FilterOptions`.
 [[nodiscard]] std::optional<FilterOptions> parse_filter(std::string_view text);
 
-/// "albedo,normal,depth,position,samples,variance,alpha,object,material", or some of them.
+/// Parses "albedo,normal,depth,position,samples,variance,alpha,object,material", or some of them.
 [[nodiscard]] std::optional<AovSet> parse_aovs(std::string_view text);
 
-/// "x0,y0,x1,y1", whole numbers; x0 < x1 and y0 < y1.
+/// Parses "x0,y0,x1,y1", whole numbers; x0 < x1 and y0 < y1.
 [[nodiscard]] std::optional<PixelRect> parse_crop(std::string_view text);
 
-// These as values of options.
+// Value types of options with these parsers.
 [[nodiscard]] ValueType<FilterOptions> filter_type();
 [[nodiscard]] ValueType<AovSet> aov_type();
 [[nodiscard]] ValueType<PixelRect> crop_type();
 
-/// What the ground below the scene does.
+/// Kinds of ground below the scene.
 enum class Ground : std::uint8_t { none, shadow };
 
 /// Adds --ground.
 void add_ground_option(OptionList& options, Ground& ground);
 
-/// `film` with the layer of the shadow on the ground, if that is wanted. Throws `OptionError` for
-/// options that do not go with it.
+/// Returns `film` with the layer of the shadow on the ground, if requested. Throws `OptionError`
+/// for options that are incompatible with it.
 [[nodiscard]] FilmOptions with_ground(Ground ground, FilmOptions film, const OptionList& options);
 
 }  // namespace bdpt::app

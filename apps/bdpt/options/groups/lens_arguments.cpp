@@ -19,10 +19,10 @@ bool is_finite(double value)
     return std::isfinite(static_cast<float>(value));
 }
 
-/// Depth [m] of what `camera` sees in the middle of its view, if there is anything.
+/// Returns the depth [m] of the surface in the middle of `camera`'s view, if any.
 std::optional<float> depth_in_the_middle(const Scene& scene, CameraDesc camera)
 {
-    constexpr float narrow = 1e-4f;  // [rad]: a film of one pixel is the middle of the view
+    constexpr float narrow = 1e-4f;  // [rad]; a film of one pixel is then the middle of the view
     camera.lens_radius = 0.0f;
     camera.vertical_fov = narrow;
     RenderOptions options;
@@ -38,7 +38,7 @@ std::optional<float> depth_in_the_middle(const Scene& scene, CameraDesc camera)
     return depth > 0.0f && std::isfinite(depth) ? std::optional(depth) : std::nullopt;
 }
 
-/// [m]
+/// Returns the lens radius [m].
 float radius_of(const LensChoice& lens, const CameraDesc& camera)
 {
     if (lens.radius) {

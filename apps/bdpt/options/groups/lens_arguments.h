@@ -9,7 +9,7 @@
 
 namespace bdpt::app {
 
-/// The lens that a view gets.
+/// Lens of a view.
 struct LensChoice {
     std::optional<double> radius{};          ///< [m]
     std::optional<double> f_stop{};          ///< focal length over diameter
@@ -22,9 +22,9 @@ void add_lens_options(OptionList& options, LensChoice& lens);
 /// Throws `OptionError` for a lens that is given in two ways.
 void check_lens_options(const OptionList& options);
 
-/// `camera` with `lens`. Focused on what `scene` shows in the middle of the view, if neither `lens`
-/// nor the camera's own lens say where. Throws `Error` (usage) when that is nothing, or the camera
-/// can have no lens.
+/// Returns `camera` with `lens`. If neither `lens` nor the camera's own lens has a focus distance,
+/// it focuses on the surface in the middle of the view of `scene`. Throws `Error` (usage) if there
+/// is none, or if the camera cannot have a lens.
 [[nodiscard]] CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& scene);
 
 }  // namespace bdpt::app

@@ -36,7 +36,7 @@ void add_volume_options(OptionList& options, VolumeChoice& volume)
                                         },
                                     .expected = "a file",
                                     .info = {.is_path = true}})
-        .uses.plan_render = false;  // a plan has a place of its own for files
+        .uses.plan_render = false;  // plans store files separately
     options.add("--volume-grid", "NAME",
                 "The grid of the volume that has its densities. Default: density, or the only one "
                 "of floats",

@@ -9,7 +9,7 @@
 
 namespace bdpt::app {
 
-/// A volume of an OpenVDB file that is put into the scene.
+/// A volume of an OpenVDB file to put into the scene.
 struct VolumeChoice {
     std::filesystem::path file{};
     io::VolumeOptions options{};  ///< without limits
@@ -21,7 +21,7 @@ void add_fog_options(OptionList& options, MediumDesc& fog);
 /// Adds --volume and the options whose names begin with it.
 void add_volume_options(OptionList& options, VolumeChoice& volume);
 
-/// Throws `OptionError` where one of them is given without --fog or --volume.
+/// Throws `OptionError` if one of them is given without --fog or --volume.
 void check_medium_options(const OptionList& options);
 
 }  // namespace bdpt::app

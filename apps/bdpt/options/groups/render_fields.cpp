@@ -19,7 +19,7 @@
 namespace bdpt::app {
 namespace {
 
-/// "--light-samples" of "light_samples".
+/// Returns "--light-samples" for "light_samples".
 std::string flag_of(std::string_view name)
 {
     std::string flag = "--" + std::string(name);
@@ -46,7 +46,7 @@ struct Unwrapped<std::optional<T>> {
     using Type = T;
 };
 
-/// How texts become values of a field of type `T`.
+/// Returns the value type for a field of type `T`.
 template <typename T>
 auto value_type(const OptionInfo& info)
 {

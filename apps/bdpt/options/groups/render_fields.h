@@ -9,8 +9,8 @@
 
 namespace bdpt::app {
 
-// Options of the command that are fields of `RenderOptions`, by the list in
-// <bdpt/options/option_fields.h>: a field that has a help text there is an option here.
+// Options of the command that are fields of `RenderOptions`, generated from the list in
+// <bdpt/options/option_fields.h>: a field with a help text there is an option here.
 
 void add_fields(OptionList& options, FilmOptions& film);
 void add_fields(OptionList& options, SamplingOptions& sampling);
@@ -18,7 +18,7 @@ void add_fields(OptionList& options, TransportOptions& transport);
 void add_fields(OptionList& options, BidirectionalOptions& bidirectional);
 void add_fields(OptionList& options, SystemOptions& system);
 
-/// Adds those of `names`, as "light_samples", of all groups.
+/// Adds the fields `names`, such as "light_samples", of all groups.
 void add_fields(OptionList& options, RenderOptions& render,
                 std::span<const std::string_view> names);
 

@@ -48,7 +48,7 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
                     "libktx 4, which decodes KTX2 textures (KHR_texture_basisu), a file or its "
                     "folder. Default: libktx.so.4 where the system finds it",
                     scene.ktx_library, some_text("a file or a folder"));
-    library.uses.plan_render = false;  // no file says what code is loaded
+    library.uses.plan_render = false;  // no file may choose code to load
     library.uses.job = false;
     options.add_flag("--ignore-required",
                      "Render files that require extensions which bdpt does not support, or libktx "

@@ -9,8 +9,9 @@
 
 namespace bdpt::app {
 
-/// Adds --scene, --variant, --frame-time, --animation and --shutter, which choose what of a file is
-/// loaded, --ktx-library and --ignore-required, which say how, and --max-memory [bytes].
+/// Adds --scene, --variant, --frame-time, --animation and --shutter, which select the part of a
+/// file to load, --ktx-library and --ignore-required, which control loading, and --max-memory
+/// [bytes].
 void add_scene_options(OptionList& options, io::GltfOptions& scene,
                        std::optional<std::uint64_t>& max_memory);
 

@@ -24,7 +24,7 @@ std::optional<int> parse_int(std::string_view text)
     return good ? std::optional(value) : std::nullopt;
 }
 
-/// The parts of `text` between colons.
+/// Splits `text` at colons.
 std::vector<std::string_view> split_at_colons(std::string_view text)
 {
     std::vector<std::string_view> parts;

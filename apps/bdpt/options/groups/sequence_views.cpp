@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All files that an image has.
+/// Returns all files of an image.
 std::vector<fs::path> files_of(const RenderArguments& arguments)
 {
     std::vector<fs::path> files = arguments.outputs;
@@ -46,7 +46,7 @@ std::vector<int> numbers_of(const FrameRange& range)
     return numbers;
 }
 
-/// Throws when two cameras have the same files.
+/// Throws if two cameras have the same files.
 void check_names(const std::vector<std::string>& cameras, const RenderArguments& arguments)
 {
     if (cameras.empty()) {

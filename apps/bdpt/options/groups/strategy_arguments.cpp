@@ -19,7 +19,7 @@ void add_strategy_options(OptionList& options, StrategyFiles& strategies)
         options, strategies,
         "Write an image of each strategy (bdpt, lt) to this .exr: layers like s02t03 (weighted: "
         "its part of the image) and s02t03.unweighted (alone); and a contact sheet of all as .png");
-    constexpr int most = 100;  // beyond, nobody could look at the sheet
+    constexpr int most = 100;  // larger sheets are unreadable
     Option& depth =
         options.add("--strategy-depth", "N",
                     fmt::format("Longest paths, in edges, of --strategies. Default: {}, or fewer "
@@ -48,7 +48,7 @@ std::optional<StrategyFiles> checked(const StrategyFiles& strategies, const Rend
                                      const OptionList& options)
 {
     if (options.find("--strategies") == nullptr) {
-        return std::nullopt;  // bench: its --strategy-depth is one of its own
+        return std::nullopt;  // bench: its --strategy-depth is a different option
     }
     const bool file = options.given("--strategies");
     if (!file && !options.given("--strategy-depth")) {

@@ -31,7 +31,7 @@ std::string integrator_help()
     return fmt::format("{}", fmt::join(phrases, "; "));
 }
 
-/// "s2t1".
+/// Parses "s2t1".
 std::optional<Strategy> parse_strategy(std::string_view text)
 {
     constexpr std::size_t max_vertices = max_path_edges + 1;
@@ -47,7 +47,8 @@ std::optional<Strategy> parse_strategy(std::string_view text)
     return Strategy{static_cast<int>(*s), static_cast<int>(*t)};
 }
 
-/// What is said of subpaths and strategies is said to bdpt, unless another integrator is named.
+/// Returns the integrator: options of subpaths and strategies imply bdpt, unless another integrator
+/// is named.
 IntegratorKind integrator_of(const RenderOptions& render, const OptionList& options)
 {
     constexpr std::array for_bdpt{"--light-paths", "--connections", "--disable",
@@ -59,7 +60,7 @@ IntegratorKind integrator_of(const RenderOptions& render, const OptionList& opti
                : render.integrator;
 }
 
-/// Throws where an option is given that only some integrators take.
+/// Throws if an option is given that the integrator does not have.
 void check_takers(const RenderOptions& render, const OptionList& options)
 {
     struct Row {
@@ -95,7 +96,7 @@ void check_takers(const RenderOptions& render, const OptionList& options)
     }
 }
 
-/// Throws for values that the integrator cannot do with.
+/// Throws for values that the integrator does not support.
 void check_values(const RenderOptions& render, const OptionList& options)
 {
     const bool no_light_paths = render.bidirectional.light_paths == 0.0;
@@ -116,7 +117,7 @@ void check_values(const RenderOptions& render, const OptionList& options)
     }
 }
 
-/// Paths with one bounce and less are direct light, all others indirect.
+/// Limits the depth: paths with one bounce and less are direct light, all others indirect.
 TransportOptions with_only(PathsOnly only, TransportOptions transport)
 {
     constexpr int max_direct_depth = 2;
@@ -132,7 +133,7 @@ TransportOptions with_only(PathsOnly only, TransportOptions transport)
     return transport;
 }
 
-/// Whole numbers without a fraction.
+/// Returns whole numbers as JSON without a fraction.
 nlohmann::ordered_json number_json(double number)
 {
     if (number == std::floor(number)) {

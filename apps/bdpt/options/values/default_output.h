@@ -4,8 +4,8 @@
 
 namespace bdpt::app {
 
-/// Where the image of the scene in `file` goes, if nobody says so: its name with .png, in the
-/// working directory. Throws `Error` (output) where something else is than an image of ours.
+/// Returns the default output for the scene in `file`: its name with .png, in the working
+/// directory. Throws `Error` (output) if a file there is not an image of ours.
 [[nodiscard]] std::filesystem::path default_output(const std::filesystem::path& file);
 
 }  // namespace bdpt::app

@@ -6,21 +6,21 @@
 
 namespace bdpt::app {
 
-/// What an exposure is counted from.
+/// Reference of an exposure.
 enum class ExposureBase : std::uint8_t {
-    radiance,   ///< pixels as they are: the value is all there is
-    automatic,  ///< what makes the image neither dark nor bright
-    light,      ///< what makes a white card white that stands where the scene stands
+    radiance,   ///< pixel values as they are: the value is absolute
+    automatic,  ///< exposure by the image's average luminance
+    light,      ///< exposure that makes a white card at the scene's position white
 };
 
-/// How bright images are shown.
+/// Exposure of images for screens.
 struct Exposure {
     ExposureBase base = ExposureBase::radiance;
-    float value = 0.0f;  ///< [EV] beyond the base
+    float value = 0.0f;  ///< relative to the base [EV]
 };
 
-/// "1.5" or "+1.5", which counts from radiance; "auto", "light", and both with a number behind them
-/// that has a sign: "light-0.5".
+/// Parses "1.5" or "+1.5", relative to radiance; "auto", "light", and either followed by a signed
+/// number: "light-0.5".
 [[nodiscard]] std::optional<Exposure> parse_exposure(const std::string& text);
 
 }  // namespace bdpt::app

@@ -30,7 +30,7 @@ std::string as_file_name(std::string word)
     return word;
 }
 
-/// `file` with `word` wherever its name has `place`.
+/// Replaces `place` by `word` in the name of `file`.
 fs::path with_word(const fs::path& file, std::string_view place, const std::string& word)
 {
     std::string name = file.filename().string();

@@ -5,22 +5,23 @@
 
 namespace bdpt::app {
 
-/// Has the name of `file` a run of '#', like "out.####.exr", in which a number goes?
+/// Tests whether the name of `file` has a run of '#', the placeholder of a number: "out.####.exr".
 [[nodiscard]] bool takes_number(const std::filesystem::path& file);
 
-/// `file` with `number` in the place of its run of '#', with zeros in front if it is shorter:
-/// "out.0012.exr". Without a run it stays. Throws `OptionError` when its name has two runs.
+/// Replaces the run of '#' in `file` by `number`, with leading zeros up to its length:
+/// "out.0012.exr". A file without a run is unchanged. Throws `OptionError` if its name has two
+/// runs.
 [[nodiscard]] std::filesystem::path with_number(const std::filesystem::path& file, int number);
 
-/// Has the name of `file` a place for the name of a camera: "{camera}"?
+/// Tests whether the name of `file` has the placeholder of a camera's name: "{camera}".
 [[nodiscard]] bool takes_camera(const std::filesystem::path& file);
 
-/// `file` with `camera` in the place of "{camera}". What could be more than a part of a file's name
-/// (slashes, control characters, a dot at its beginning) becomes '_'.
+/// Replaces "{camera}" in `file` by `camera`. Characters that cannot be in a file name (slashes,
+/// control characters, a dot at its beginning) become '_'.
 [[nodiscard]] std::filesystem::path with_camera(const std::filesystem::path& file,
                                                 const std::string& camera);
 
-/// `file` with `name`, that of a scene, in the place of "{name}" in its name.
+/// Replaces "{name}" in the name of `file` by `name`, that of a scene.
 [[nodiscard]] std::filesystem::path with_scene(const std::filesystem::path& file,
                                                const std::string& name);
 

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// None: it is not there.
+/// Returns device and inode of a file; none: it does not exist.
 std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& file)
 {
     struct stat status {};
@@ -23,7 +23,7 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& file)
     return result == 0 ? std::optional(std::pair(status.st_dev, status.st_ino)) : std::nullopt;
 }
 
-/// Where a file that is not there would be.
+/// Returns the resolved path of a file that does not exist.
 fs::path place_of(const fs::path& file)
 {
     if (is_standard_output(file)) {

@@ -9,14 +9,14 @@
 
 namespace bdpt::app {
 
-/// Files by what they are, be they there or not: links, hard links and other spellings of a name do
-/// not matter.
+/// A set of files by identity, existing or not: links, hard links and other spellings of a name
+/// count as the same file.
 class FileSet {
 public:
     FileSet() = default;
     FileSet(const std::vector<std::filesystem::path>& files) { add(files); }
 
-    /// Whether it was not in the set before.
+    /// Adds a file; returns true if it was not in the set before.
     bool add(const std::filesystem::path& file);
     void add(const std::vector<std::filesystem::path>& files);
     [[nodiscard]] bool contains(const std::filesystem::path& file) const;

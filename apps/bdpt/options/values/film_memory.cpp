@@ -13,14 +13,14 @@ namespace {
 constexpr std::uint64_t color_sum = 3 * sizeof(ExactSum);
 constexpr std::uint64_t shadow_sums = 2 * sizeof(ExactSum) + sizeof(std::uint64_t);
 
-/// Sums of a pixel in an `AovFilm` or `IdFilm`, and floats of the layer that they are developed to.
+/// Memory per pixel of an AOV: sums in an `AovFilm` or `IdFilm`, and floats of the developed layer.
 struct AovCost {
     Aov aov;
     std::uint64_t sums;  // [bytes]
     std::uint64_t channels;
 };
 
-/// What most pixels take; each further id takes 8 bytes, and what the heap adds.
+/// Typical cost of a pixel; each further id takes 8 bytes, and the heap's overhead.
 constexpr std::uint64_t two_ids = sizeof(IdCounts) + 32;
 constexpr std::uint64_t id_channels = 2 * IdFilm::levels;
 
@@ -45,7 +45,7 @@ std::uint64_t film_bytes(const RenderOptions& options, const Size& size)
     std::uint64_t pixel = halves * (splats ? 2 : 1) * color_sum + sizeof(Rgb);
     for (const AovCost& cost : aov_costs) {
         if (options.film.aovs.contains(cost.aov)) {
-            // Developed, and once more in the order of a file.
+            // Developed, and once more in the channel order of a file.
             pixel += cost.sums + 2 * cost.channels * sizeof(float);
         }
     }

@@ -8,8 +8,8 @@
 
 namespace bdpt::app {
 
-/// Memory that the film of a render of `size` takes, with the layers that are asked for and the
-/// image that it is developed to [bytes].
+/// Returns the memory of the film of a render of `size`, with its layers and the image that it is
+/// developed to [bytes].
 [[nodiscard]] std::uint64_t film_bytes(const RenderOptions& options, const Size& size);
 
 }  // namespace bdpt::app

@@ -7,8 +7,9 @@
 
 namespace bdpt::app {
 
-/// The point around which a camera goes: `look_at` or, without it, where its view axis is nearest
-/// to the `middle` of the scene [m]. Throws `Error` (usage) when that is not in front of it.
+/// Returns the point that a camera orbits: `look_at` or, without it, the point of its view axis
+/// nearest to the `middle` of the scene [m]. Throws `Error` (usage) if it is not in front of the
+/// camera.
 [[nodiscard]] Vec3 orbit_center(const CameraDesc& camera, const std::optional<Vec3>& look_at,
                                 Vec3 middle);
 

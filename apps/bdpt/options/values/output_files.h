@@ -11,36 +11,36 @@
 
 namespace bdpt::app {
 
-/// The types of images that we write.
+/// Types of images that bdpt writes.
 enum class ImageType : std::uint8_t { exr, hdr, png, jpeg, webp };
 
-/// Has it tone-mapped images for screens, not linear radiance?
+/// Tests whether images of the type are tone-mapped for screens, not linear radiance.
 [[nodiscard]] bool is_for_screens(ImageType type);
 
-/// By the name of `output`; none: of none of these types.
+/// Returns the type by the name of `output`; none: unknown.
 [[nodiscard]] std::optional<ImageType> type_of(const std::filesystem::path& output);
 
-/// Does the name of `file` end with `extension`, like ".exr", in small or capital letters?
+/// Tests whether the name of `file` ends with `extension`, such as ".exr", in small or capital
+/// letters.
 [[nodiscard]] bool has_extension(const std::filesystem::path& file, std::string_view extension);
 
-/// Refuses outputs that would overwrite what is read: throws `Error` (usage) for one that is also
-/// in `inputs`.
+/// Throws `Error` (usage) for an output that is also in `inputs`, which it would overwrite.
 void check_not_read(std::span<const std::filesystem::path> outputs, const FileSet& inputs);
 
-/// Refuses, before anything is rendered, what could not be written afterwards: throws `Error`
-/// (usage) for a file type that we do not write, for a file that is also in `inputs` and for one
-/// that is named twice, (output) for a place where nothing can be written.
+/// Checks, before anything is rendered, that outputs can be written. Throws `Error`: usage for a
+/// file type that bdpt does not write, for a file that is also in `inputs` and for one that is
+/// named twice; output for a place where nothing can be written.
 void check_outputs(std::span<const std::filesystem::path> outputs, const FileSet& inputs);
 
-/// The same of a file that `option` names: throws `Error` (usage) when it is an input or one of
-/// `outputs`, (output) for a place where nothing can be written.
+/// Checks a file that `option` names. Throws `Error`: usage if it is an input or one of `outputs`,
+/// output for a place where nothing can be written.
 void check_output(std::string_view option, const std::filesystem::path& file, const FileSet& inputs,
                   const FileSet& outputs);
 
-/// Is one of `outputs` an EXR file?
+/// Tests whether one of `outputs` is an EXR file.
 [[nodiscard]] bool writes_exr(std::span<const std::filesystem::path> outputs);
 
-/// Where the outputs grow; to be removed when the process ends in the middle.
+/// Returns the temporary paths of the outputs, to be removed if the process ends while writing.
 [[nodiscard]] std::vector<std::filesystem::path> temporary_paths(
     std::span<const std::filesystem::path> outputs);
 

@@ -10,7 +10,7 @@
 namespace bdpt::app {
 namespace {
 
-/// How the user asked for images of strategies.
+/// Returns the option by which strategy images were requested.
 std::string option_of(const StrategyFiles& files)
 {
     return files.layers.empty() ? "--strategy-depth"
@@ -28,7 +28,7 @@ std::uint64_t bytes_up_to(int depth, RenderOptions options, const CameraDesc& ca
     return strategy_image_bytes(options, camera);
 }
 
-/// The greatest depth up to `wanted` whose images fit into memory; 0 when none does.
+/// Returns the greatest depth up to `wanted` whose images fit into memory; 0 if none does.
 int affordable_depth(int wanted, const RenderOptions& options, const CameraDesc& camera)
 {
     int depth = wanted;

@@ -10,14 +10,15 @@
 
 namespace bdpt::app {
 
-/// How long the paths are whose strategies get images.
+/// Maximum path length of strategy images.
 struct StrategyDepth {
     int edges = 0;
-    std::optional<std::string> warning;  ///< that they are shorter than they would be
+    std::optional<std::string> warning;  ///< that paths are shorter than by default
 };
 
-/// The depth that the user chose, or the default one or as much of it as memory is allowed for.
-/// Throws `Error` (usage) when that is too much, or when no strategy makes such paths.
+/// Returns the depth that the user chose, or else the default, reduced to what memory allows.
+/// Throws `Error` (usage) if the chosen one needs too much memory, or if no strategy makes such
+/// paths.
 [[nodiscard]] StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
                                            const CameraDesc& camera);
 

@@ -35,7 +35,7 @@ ValueType<double> number_that(const Accept& accept, std::string expected, Range 
             .info = {.json = JsonType::number, .range = range}};
 }
 
-/// Three numbers in [0, most], or one for all channels.
+/// Accepts three numbers in [0, most], or one for all channels.
 ValueType<Rgb> color_up_to(float most, std::string expected)
 {
     const auto parse = [most](const std::string& text) -> std::optional<Rgb> {

@@ -17,46 +17,46 @@
 
 namespace bdpt::app {
 
-// How the texts of options become values (`ValueType`).
+// Conversions of option texts to values (`ValueType`).
 
-/// Any text, also an empty one.
+/// Accepts any text, also an empty one.
 [[nodiscard]] ValueType<std::string> any_text();
 
-/// The path of a file or folder, or one of `words`.
+/// Accepts the path of a file or folder, or one of `words`.
 [[nodiscard]] ValueType<std::string> file_path(std::vector<std::string> words = {});
 
-/// A text that is not empty; `expected` says what it is.
+/// Accepts a text that is not empty; `expected` describes it.
 [[nodiscard]] ValueType<std::string> some_text(std::string expected);
 
-/// The name of a file that ends with one of `extensions`, as ".exr".
+/// Accepts the name of a file that ends with one of `extensions`, such as ".exr".
 [[nodiscard]] ValueType<std::string> file_named(std::vector<std::string> extensions,
                                                 std::string expected);
 
-/// Digits, and a sign, in [least, most].
+/// Accepts digits with an optional sign, in [least, most].
 [[nodiscard]] ValueType<std::int64_t> whole_number(std::int64_t least, std::int64_t most);
 
-/// All of `text` as a decimal number, also an infinite one.
+/// Parses all of `text` as a decimal number, which may be infinite.
 [[nodiscard]] std::optional<double> decimal_number(const std::string& text);
 
-/// From 0 to 2^64 - 1.
+/// Accepts 0 to 2^64 - 1.
 [[nodiscard]] ValueType<std::uint64_t> any_seed();
 
-/// A decimal number in [least, most].
+/// Accepts a decimal number in [least, most].
 [[nodiscard]] ValueType<double> number(double least, double most);
 
-/// A decimal number in [least, most]; `expected` says so, with its unit.
+/// Accepts a decimal number in [least, most]; `expected` says so, with its unit.
 [[nodiscard]] ValueType<double> number(double least, double most, std::string expected);
 
-/// A decimal number in (low, most]; `expected` says so.
+/// Accepts a decimal number in (low, most]; `expected` says so.
 [[nodiscard]] ValueType<double> number_above(double low, double most, std::string expected);
 
-/// A finite number.
+/// Accepts a finite number.
 [[nodiscard]] ValueType<double> finite_number(std::string expected = "a number");
 
-/// A number above 0, also as a float, where it is finite; `expected` says so, with its unit.
+/// Accepts a number above 0 that is finite as a float, too; `expected` says so, with its unit.
 [[nodiscard]] ValueType<double> positive_number(std::string expected);
 
-/// What `parse` makes of a text.
+/// Accepts texts that `parse` can parse.
 template <typename Parse>
 [[nodiscard]] auto parsed_by(Parse parse, std::string expected)
     -> ValueType<typename decltype(parse(std::declval<const std::string&>()))::value_type>
@@ -64,40 +64,40 @@ template <typename Parse>
     return {.parse = std::move(parse), .expected = std::move(expected), .info = {}};
 }
 
-/// "three numbers x,y,z".
+/// Accepts "three numbers x,y,z".
 [[nodiscard]] ValueType<Vec3> point();
 
-/// "a time like 60s, 2m or 1h30m", as seconds.
+/// Accepts "a time like 60s, 2m or 1h30m", as seconds.
 [[nodiscard]] ValueType<double> duration(std::string expected = "a time like 60s, 2m or 1h30m");
 
-/// "WIDTHxHEIGHT", or one number for both.
+/// Accepts "WIDTHxHEIGHT", or one number for both.
 [[nodiscard]] ValueType<Size> image_size();
 
-/// "2%", "2" or "0.02" as a fraction.
+/// Accepts "2%", "2" or "0.02" as a fraction.
 [[nodiscard]] ValueType<double> noise_level();
 
-/// "A:B": samples A to B - 1.
+/// Accepts "A:B": samples A to B - 1.
 [[nodiscard]] ValueType<SampleRange> sample_range();
 
-/// Percent in (0, most] as a fraction.
+/// Accepts percent in (0, most] as a fraction.
 [[nodiscard]] ValueType<double> percent(double most);
 
-/// Extinction of a medium [1/m]: a number from 0 to 10^6, or three.
+/// Accepts the extinction of a medium [1/m]: a number from 0 to 10^6, or three.
 [[nodiscard]] ValueType<Rgb> extinction();
 
-/// Single-scattering albedo: a number in [0, 1], or three.
+/// Accepts a single-scattering albedo: a number in [0, 1], or three.
 [[nodiscard]] ValueType<Rgb> albedo();
 
-/// g of Henyey and Greenstein's phase function.
+/// Accepts g of Henyey and Greenstein's phase function.
 [[nodiscard]] ValueType<float> anisotropy();
 
-/// "pt, nee or mis".
+/// Returns "pt, nee or mis".
 [[nodiscard]] std::string words_text(const std::vector<std::string>& words);
 
-/// "pt|nee|mis".
+/// Returns "pt|nee|mis".
 [[nodiscard]] std::string choice_text(const std::vector<std::string>& words);
 
-/// One of some words; each stands for a value.
+/// A set of words, each of which stands for a value.
 template <typename Value>
 struct Choices {
     std::vector<std::pair<std::string, Value>> entries;
@@ -122,7 +122,7 @@ struct Choices {
         };
         return {.parse = parse, .expected = words_text(words()), .info = {.words = words()}};
     }
-    /// The first word of `value`, which is one of them.
+    /// Returns the first word of `value`, which is one of them.
     [[nodiscard]] std::string word_of(Value value) const
     {
         for (const auto& [word, its] : entries) {
@@ -134,7 +134,7 @@ struct Choices {
     }
 };
 
-/// The words of an enumeration.
+/// Returns the words of an enumeration.
 template <HasEnumerators Enum>
 [[nodiscard]] Choices<Enum> choices_of_enumeration()
 {
@@ -145,7 +145,7 @@ template <HasEnumerators Enum>
     return result;
 }
 
-/// Words for all of `values`, by their names.
+/// Returns the words of all `values`, by their names.
 template <typename Values, typename NameOf>
 [[nodiscard]] auto choices_of(const Values& values, const NameOf& name_of)
 {

@@ -24,10 +24,10 @@ std::string list_cameras(std::span<const CameraDesc> cameras)
     return result + (cameras.size() > max_listed ? ", ..." : "");
 }
 
-/// Camera axes that look from `eye` to `target`, upright where that is defined.
+/// Returns camera axes that look from `eye` to `target`, upright where that is defined.
 Mat4 look_at(Vec3 eye, Vec3 target)
 {
-    // Nearer to the vertical than this, +y is no longer up in the image; -z is then.
+    // Closer to the vertical, +y is no longer up in the image; then -z is.
     constexpr float vertical = 0.9999f;
     const Vec3 forward = glm::normalize(target - eye);
     const Vec3 up =
@@ -76,7 +76,7 @@ CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
     if (!overrides.from && !overrides.look_at) {
         return result;
     }
-    result.motion.clear();  // The user says where it is.
+    result.motion.clear();  // The user fixes the position.
     const Vec3 eye = overrides.from.value_or(Vec3(camera.world_from_camera[3]));
     const std::optional<Vec3> goal = overrides.look_at ? overrides.look_at : target;
     if (!goal) {
@@ -102,7 +102,7 @@ Size default_size(const std::optional<float>& aspect_ratio)
     if (!(aspect > 0.0f) || !std::isfinite(aspect)) {
         return box;
     }
-    // Clamped before the conversion: a ratio of 1e30 has no int.
+    // Clamped before the conversion, as a ratio of 1e30 exceeds an int.
     if (aspect >= box_aspect) {
         const float height = std::max(1.0f, std::round(static_cast<float>(box.width) / aspect));
         return {box.width, static_cast<int>(height)};

@@ -24,7 +24,7 @@ std::optional<DisplayAddress> parse_address(const std::string& text)
     }
     if (bracketed) {
         if (address.host.size() != bracket + 1) {
-            return std::nullopt;  // something between the bracket and the colon
+            return std::nullopt;  // text between the bracket and the colon
         }
         address.host = address.host.substr(1, bracket - 1);
     }

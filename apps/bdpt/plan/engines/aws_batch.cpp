@@ -56,7 +56,7 @@ merge=$(aws batch submit-job --job-name @NAME@-merge --job-queue "$queue" --job-
 echo "tasks: job $job; merge: job $merge"
 )sh";
 
-/// As it stands in a here-document in which the shell fills in variables.
+/// Escapes text for a here-document in which the shell expands variables.
 std::string in_here_document(const std::string& text)
 {
     std::string result;

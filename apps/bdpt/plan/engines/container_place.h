@@ -7,18 +7,18 @@
 
 namespace bdpt::app {
 
-/// How a plan looks from within a container that has the planned files in /data.
+/// Paths of a plan in a container that has the planned files in /data.
 struct ContainerPlace {
-    std::filesystem::path shared;   ///< folder here that /data is there
-    std::filesystem::path working;  ///< folder there that has plan.json
+    std::filesystem::path shared;   ///< host folder mounted at /data
+    std::filesystem::path working;  ///< container folder with plan.json
 };
 
-/// The smallest folder that has the plan's folder and all files of it that are named by relative
+/// Returns the smallest folder that contains the plan's folder and all its files named by relative
 /// paths. `folder` is that of the plan, absolute.
 [[nodiscard]] ContainerPlace container_place(const Plan& plan, const std::filesystem::path& folder);
 
-/// A name for a job that Kubernetes and AWS accept: "bdpt-" and what the folder's name has of small
-/// letters and digits.
+/// Returns a job name that Kubernetes and AWS accept: "bdpt-" and the small letters and digits of
+/// the folder's name.
 [[nodiscard]] std::string job_name(const std::filesystem::path& folder);
 
 }  // namespace bdpt::app

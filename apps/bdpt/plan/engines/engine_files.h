@@ -12,21 +12,21 @@ namespace bdpt::app {
 
 enum class FileKind : std::uint8_t { text, program };
 
-/// A file that an engine starts tasks with.
+/// A file by which an engine starts tasks.
 struct EngineFile {
     std::string name;
     std::string text;
     FileKind kind = FileKind::text;
 };
 
-/// Those of `plan`, whose file is plan.json in `folder`, which is absolute.
+/// Returns the files of `plan`, whose file is plan.json in `folder`, which is absolute.
 [[nodiscard]] std::vector<EngineFile> engine_files(Engine engine, const Plan& plan,
                                                    const std::filesystem::path& folder);
 
-/// What the user types to start the tasks.
+/// Returns the command that the user types to start the tasks.
 [[nodiscard]] std::string start_command(Engine engine, const std::filesystem::path& folder);
 
-// One for each engine.
+// Files of each engine.
 [[nodiscard]] std::vector<EngineFile> slurm_files(const Plan& plan);
 [[nodiscard]] std::vector<EngineFile> kubernetes_files(const Plan& plan,
                                                        const std::filesystem::path& folder);

@@ -50,7 +50,8 @@ spec:@HOW@
           persistentVolumeClaim: {claimName: bdpt}
 )";
 
-// 143: the pod is taken away, and has written its part. 2 to 5: no other pod would do better.
+// 143: the pod was evicted, and has written its part. 2 to 5: retrying in another pod would not
+// help.
 constexpr const char* how_tasks = R"(
   completionMode: Indexed
   completions: @COUNT@
@@ -84,7 +85,7 @@ std::vector<EngineFile> kubernetes_files(const Plan& plan, const std::filesystem
                             {"WORKING", json(place.working.string()).dump()},
                             {"ARGS", args.dump()}});
     };
-    // Kubernetes itself puts the index in the place of $(...).
+    // Kubernetes replaces $(...) by the index.
     const json task{"render", "--plan", "plan.json", "--task", "$(JOB_COMPLETION_INDEX)",
                     "--quiet"};
     const json merge{"merge", "--plan", "plan.json", "--wait"};

@@ -12,8 +12,8 @@
 namespace bdpt::app {
 namespace {
 
-// Tasks are phony: whether one is done is for bdpt to say, which looks at the samples that are in
-// its part. Time stamps would take the checkpoint of a killed task for the whole.
+// Tasks are phony: bdpt decides by the samples in a part whether its task is done. By time stamps
+// the checkpoint of a killed task would count as complete.
 constexpr const char* makefile =
     R"(# make -j4 -k: renders four tasks of plan.json at a time, and merges them.
 # Again: what is missing; tasks that are done end at once.
@@ -32,8 +32,8 @@ $(tasks): task-%:
 	$(BDPT) render --plan plan.json --task $* --quiet $(THREADS:%=--threads %)
 )";
 
-/// This program, as a makefile names it to a shell. make runs on this machine, where `bdpt` may be
-/// another program, or none.
+/// Returns the path of this program, quoted for a shell in a makefile. make runs on this machine,
+/// where `bdpt` may be another program, or none.
 std::string this_program()
 {
     std::error_code unknown;

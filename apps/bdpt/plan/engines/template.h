@@ -6,7 +6,7 @@
 
 namespace bdpt::app {
 
-/// `text` with @NAME@ replaced by its value.
+/// Replaces @NAME@ in `text` by its value.
 [[nodiscard]] std::string filled(const std::string& text,
                                  const std::vector<std::pair<std::string, std::string>>& values);
 

@@ -7,11 +7,11 @@
 
 namespace bdpt::app {
 
-/// Steps that are all tried, also when some of them fail: so that an image is not lost because
+/// Steps that are all attempted even if some of them fail, so that an image is not lost because
 /// another file cannot be written.
 class Attempts {
 public:
-    /// Does `work()`; whether it threw no `Error`.
+    /// Calls `work()`; returns false if it threw an `Error`.
     template <typename Work>
     bool run(const Work& work)
     {
@@ -23,7 +23,7 @@ public:
             return false;
         }
     }
-    /// Throws one `Error` for all that failed, if any did, with the code of the first.
+    /// Throws one `Error` for all failures, if any, with the code of the first.
     void finish() const;
 
 private:

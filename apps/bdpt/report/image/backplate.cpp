@@ -11,14 +11,14 @@
 namespace bdpt::app {
 namespace {
 
-/// The samples of one axis that make a pixel, and their weights.
+/// The samples on one axis that contribute to a pixel, and their weights.
 struct Taps {
     int first = 0;
     std::vector<float> weights;
 };
 
-/// Of a pixel whose centre lies at `center` on an axis of `size` samples, of which `step` go to a
-/// pixel: a tent as wide as two pixels, or two samples where they are larger.
+/// Returns the taps of a pixel centred at `center` on an axis of `size` samples, of which `step`
+/// cover a pixel: a tent two pixels wide, or two samples if those are larger.
 Taps taps_at(double center, double step, int size)
 {
     const double radius = std::max(1.0, step);
@@ -34,7 +34,7 @@ Taps taps_at(double center, double step, int size)
         sum += weight(sample);
     }
     for (int sample = first; sample <= last; ++sample) {
-        // Beyond the edge is what lies at the edge.
+        // The border is replicated.
         const int inside = std::clamp(sample, 0, size - 1);
         taps.weights[static_cast<std::size_t>(inside - taps.first)] +=
             static_cast<float>(weight(sample) / sum);
@@ -50,7 +50,7 @@ Rgb shown(Rgb color)
     return color;
 }
 
-/// The weighted sum of pixels that lie `stride` apart.
+/// Returns the weighted sum of pixels at a distance of `stride`.
 Rgb weighted(const Image& image, std::size_t begin, std::size_t stride, const Taps& taps)
 {
     Rgb sum(0.0f);
@@ -76,7 +76,7 @@ Image behind_frame(const Image& image, const io::ExrPlacement& frame, int width,
     for (int x = 0; x < width; ++x) {
         across.push_back(taps(x + frame.x, frame.full_width, image.width));
     }
-    Image wide{width, image.height, {}};  // of the right width
+    Image wide{width, image.height, {}};  // final width, original height
     for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) {
         for (const Taps& of_pixel : across) {
             wide.pixels.push_back(weighted(

@@ -49,7 +49,7 @@ Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const
     const Image colors = image_of(visible_values(layer_of(image, ""), coverage.noisy));
     Image result = denoised(denoiser, colors, helpers);
     for (std::size_t i = 0; i < result.pixels.size(); ++i) {
-        // Light paths may find what no camera ray of the pixel has found.
+        // Light paths may contribute to pixels whose camera rays found nothing.
         const float clean = coverage.clean[i];
         result.pixels[i] = clean > 0.0f ? clean * result.pixels[i] : image.pixels[i];
     }

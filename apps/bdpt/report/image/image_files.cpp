@@ -21,14 +21,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What files for screens show.
+/// Image content of files for screens.
 struct Picture {
     const Image& image;
     Matte matte;
     std::optional<Image> backplate{};
 };
 
-/// The pixels of files of that type.
+/// Returns the pixels of files of that type.
 TexelImage texels_of(const Picture& picture, ImageType type, float exposure,
                      const DisplayArguments& display)
 {
@@ -87,10 +87,10 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
     return report;
 }
 
-/// Without noise; the options have a denoiser.
+/// Returns the image denoised; the options have a denoiser.
 Image clean_image(const Image& image, const Matte& noisy, const ImageFileOptions& options)
 {
-    // Without a backdrop what no surface covers is the sky.
+    // Without a backdrop, uncovered pixels show the environment.
     return options.display.backdrop && !noisy.alpha.empty()
                ? denoised(
                      *options.denoiser, image, options.layers,

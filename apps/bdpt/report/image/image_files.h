@@ -20,29 +20,29 @@ namespace bdpt::app {
 
 struct ImageFileOptions {
     io::ExrOptions exr;
-    std::vector<Layer> layers;               ///< of EXR files, beside the image
-    DisplayArguments display;                ///< of files for screens
-    const io::Denoiser* denoiser = nullptr;  ///< null: images stay as they are
+    std::vector<Layer> layers;               ///< layers of EXR files, beside the image
+    DisplayArguments display;                ///< options of files for screens
+    const io::Denoiser* denoiser = nullptr;  ///< null: images are not denoised
     DenoisedAs denoised_as = DenoisedAs::image;
 };
 
 struct WrittenImages {
     std::size_t clamped_pixels = 0;            ///< in an EXR file of halves
-    std::optional<float> exposure;             ///< [EV] of the files for screens, if there were any
-    std::vector<std::filesystem::path> files;  ///< that could be written
+    std::optional<float> exposure;             ///< exposure of files for screens [EV], if any
+    std::vector<std::filesystem::path> files;  ///< files that were written
 };
 
-/// All layers that were asked for; `film` is of the same samples.
+/// Returns all requested layers; `film` is of the same samples.
 [[nodiscard]] std::vector<Layer> layers_of(const Film& film, const AovFilm& aovs,
                                            const IdFilm& ids);
 
-/// Writes all `outputs`, each as its extension says; with a denoiser files for screens are
-/// denoised, and EXR files have both images. A file for screens with a backdrop needs the layer
-/// with alpha. What cannot be written is left to `attempts`.
+/// Writes all `outputs`, each by its extension; with a denoiser, files for screens are denoised,
+/// and EXR files have both images. A file for screens with a backdrop needs the layer with alpha.
+/// Failures are collected in `attempts`.
 WrittenImages write_image_files(std::span<const std::filesystem::path> outputs, const Image& image,
                                 ImageFileOptions options, Attempts& attempts);
 
-/// The pixels of the PNG file that `write_image_files` would write.
+/// Returns the pixels of the PNG file that `write_image_files` would write.
 [[nodiscard]] TexelImage screen_image(const Image& image, const ImageFileOptions& options);
 
 }  // namespace bdpt::app

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-/// The pixels in `rect`.
+/// Returns the pixels in `rect`.
 Image cropped(Image image, const PixelRect& rect)
 {
     if (rect.x0 == 0 && rect.y0 == 0 && rect.x1 == image.width && rect.y1 == image.height) {
@@ -34,7 +34,7 @@ Image cropped(Image image, const PixelRect& rect)
     return result;
 }
 
-/// A layer of `file`, where it has data; none: it has no such layer.
+/// Reads a layer of `file`, within its data window; none: there is no such layer.
 std::optional<Image> layer_in(const fs::path& file, const char* name)
 {
     try {
@@ -48,7 +48,7 @@ std::optional<Image> layer_in(const fs::path& file, const char* name)
     }
 }
 
-/// One value a pixel.
+/// Returns a layer with one value per pixel.
 Layer alpha_layer(const Image& image, const char* name)
 {
     Layer layer{
@@ -59,8 +59,7 @@ Layer alpha_layer(const Image& image, const char* name)
     return layer;
 }
 
-/// `layers` of `file` with its denoised alpha and shadow in the place of the noisy ones, if it has
-/// them.
+/// Replaces the noisy alpha and shadow in `layers` of `file` by its denoised ones, if it has them.
 std::vector<Layer> with_clean_matte(const fs::path& file, std::vector<Layer> layers)
 {
     const Matte noisy = matte_of(layers);
@@ -112,8 +111,8 @@ io::ImageMetadata metadata_in(const Attributes& attributes)
     return metadata;
 }
 
-/// What is behind the image, by the settings of its render. Alpha of other programs is that of a
-/// transparent image; ours may also be a layer of one that shows the environment.
+/// Returns the backdrop by the settings of the image's render. Alpha of other programs is that of a
+/// transparent image; ours may also be a layer of an image that shows the environment.
 std::optional<Backdrop> backdrop_of(const io::ImageMetadata& metadata, bool has_alpha)
 {
     if (!has_alpha) {

@@ -14,25 +14,25 @@
 
 namespace bdpt::app {
 
-/// What an EXR file has that pictures are made from.
+/// Contents of an EXR file from which images for screens are made.
 struct LayeredImage {
-    Image image;                 ///< where the file has data
-    io::ExrPlacement placement;  ///< where in the whole that is
-    std::vector<Layer> layers;   ///< alpha, shadow, albedo and normal, as far as there are any
-    bool is_denoised = false;    ///< or else it is as it was rendered
-    std::optional<Backdrop> backdrop{};  ///< none: the environment is seen
+    Image image;                         ///< region with data
+    io::ExrPlacement placement;          ///< position in the whole image
+    std::vector<Layer> layers;           ///< alpha, shadow, albedo and normal, as available
+    bool is_denoised = false;            ///< false: the image is as rendered
+    std::optional<Backdrop> backdrop{};  ///< none: the environment is shown
     io::ImageMetadata metadata;
     std::vector<std::string> warnings;  ///< one line each, without the file's name
 };
 
-/// Which of two images a file may have.
+/// Selects one of two images that a file may have.
 enum class Wanted : std::uint8_t {
-    main,   ///< that of viewers
+    main,   ///< the one that viewers show
     clean,  ///< the denoised one, if there is one
 };
 
-/// Reads an EXR file of ours, or of another program: one with alpha has a transparent backdrop
-/// then. Throws `Error`.
+/// Reads an EXR file of bdpt or of another program: one of another program with alpha has a
+/// transparent backdrop. Throws `Error`.
 [[nodiscard]] LayeredImage read_layered_image(const std::filesystem::path& file, Wanted wanted);
 
 }  // namespace bdpt::app

@@ -13,7 +13,7 @@
 namespace bdpt::app {
 namespace {
 
-/// The layer of that name with alpha alone.
+/// Returns the layer of that name that has only alpha.
 template <typename Layers>
 auto* find(Layers& layers, std::string_view name)
 {
@@ -64,7 +64,7 @@ Matte denoised(const io::Denoiser& denoiser, const Matte& noisy, std::span<const
         result.alpha = coverage;
         return result;
     }
-    std::vector<float> seen = coverage_of(noisy);  // of the ground
+    std::vector<float> seen = coverage_of(noisy);  // visible fraction of the ground
     std::transform(seen.begin(), seen.end(), seen.begin(),
                    [](float covered) { return 1.0f - covered; });
     const Layer opacity = visible_values(*shadow, seen);

@@ -8,33 +8,34 @@
 
 namespace bdpt::app {
 
-/// How far the pixels of an image hide what is put behind it, each in [0, 1]; empty where no layer
-/// tells.
+/// Opacity of the pixels of an image towards its background, each in [0, 1]; empty if there is no
+/// such layer.
 struct Matte {
     std::vector<float> alpha{};
-    std::vector<float> shadow{};  ///< the part of alpha that is a shadow on the ground
+    std::vector<float> shadow{};  ///< part of alpha that is a shadow on the ground
 };
 
 [[nodiscard]] Matte matte_of(std::span<const Layer> layers);
 
-/// Shares of pixels that surfaces cover: alpha without the shadow.
+/// Returns the fraction of each pixel that surfaces cover: alpha without the shadow.
 [[nodiscard]] std::vector<float> coverage_of(const Matte& matte);
 
-/// The same by the layer `opacity`, if there is one, which has no noise where surfaces blend.
+/// Returns the fraction of each pixel that surfaces cover by the layer `opacity`, if there is one,
+/// which has no noise where surfaces blend.
 [[nodiscard]] std::vector<float> clean_coverage(const Matte& noisy, std::span<const Layer> layers);
 
-/// `noisy` with clean coverage, and with its shadow denoised: its opacity where the ground is seen.
-/// The layers are those that it is of.
+/// Returns `noisy` with clean coverage, and with its shadow denoised: the shadow's opacity where
+/// the ground is visible. The layers belong to the same image.
 [[nodiscard]] Matte denoised(const io::Denoiser& denoiser, const Matte& noisy,
                              std::span<const Layer> layers);
 
-/// What is not put into the place of the other is kept as a layer of that name.
+/// Layer names for the values of a matte that are replaced in the main layers.
 struct MatteNames {
     const char* alpha;
     const char* shadow;
 };
 
-/// Puts `matte` into those layers, and adds those of `other` under their names, as far as they
+/// Stores `matte` in the layers, and adds the values of `other` under their names where both may
 /// differ: the shadow if there is one, alpha if there is a layer `opacity`.
 void put(const Matte& matte, const Matte& other, const MatteNames& names_of_other,
          std::vector<Layer>& layers);

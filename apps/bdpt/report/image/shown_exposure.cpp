@@ -33,7 +33,7 @@ float shown_exposure(const std::optional<Exposure>& asked, const io::ImageMetada
     if (exposure.base == ExposureBase::radiance) {
         return exposure.value;
     }
-    // Light is metered only where it is the default, or asked for.
+    // Light is metered only if that is the default, or requested.
     const std::optional<float> metered =
         exposure.base == ExposureBase::light ? metered_in(settings) : std::nullopt;
     return exposure.value + (metered ? *metered : io::automatic_exposure(image));

@@ -10,14 +10,14 @@
 
 namespace bdpt::app {
 
-/// The exposure [EV] of an image of which `metadata` tells how it was rendered; if none is asked
-/// for, by light before a background and for frames, else automatic. It is automatic in place
-/// of that by light if none was metered.
+/// Returns the exposure [EV] of an image whose `metadata` tell how it was rendered; if none is
+/// requested, it is by light with a background and for frames, else automatic. Without metered
+/// light an exposure by light falls back to automatic.
 [[nodiscard]] float shown_exposure(const std::optional<Exposure>& asked,
                                    const io::ImageMetadata& metadata, const Image& image);
 
-/// Throws `Error` (invalid_input) where the exposure is to be that by light, and `what` was
-/// rendered without metering it.
+/// Throws `Error` (invalid_input) if the exposure is to be by light, and `what` was rendered
+/// without metering it.
 void check_metered(const std::optional<Exposure>& asked, const io::ImageMetadata& metadata,
                    const std::string& what);
 

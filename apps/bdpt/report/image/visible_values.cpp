@@ -16,7 +16,7 @@ struct Level {
     std::vector<float> shares;
 };
 
-/// With means of two by two pixels.
+/// Returns the next coarser level: means of two by two pixels.
 Level pulled(const Level& fine, std::size_t channels)
 {
     Level coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}};
@@ -36,7 +36,7 @@ Level pulled(const Level& fine, std::size_t channels)
     return coarse;
 }
 
-/// Values of a level; of pixels that show nothing those of the coarser one.
+/// Returns the values of a level; pixels that show nothing get those of the coarser one.
 std::vector<float> pushed(const Level& fine, const std::vector<float>& coarse, std::size_t channels)
 {
     std::vector<float> values(fine.sums.size());
@@ -44,7 +44,7 @@ std::vector<float> pushed(const Level& fine, const std::vector<float>& coarse, s
     for (std::size_t i = 0; i < fine.shares.size(); ++i) {
         const std::size_t parent = (i / fine.width / 2) * coarse_width + (i % fine.width) / 2;
         for (std::size_t c = 0; c < channels; ++c) {
-            // A mean of both would bring a lamp nearby into the dark pixels of an edge.
+            // Mixing both would bleed a bright neighbour into the dark pixels of an edge.
             values[i * channels + c] = fine.shares[i] > 0.0f
                                            ? fine.sums[i * channels + c] / fine.shares[i]
                                            : coarse[parent * channels + c];

@@ -27,8 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// The settings in `text`, which a part has. What is no JSON is discarded, and so is what is longer
-/// or deeper than any render's: keys are looked for one by one, and text is written recursively.
+/// Parses the settings `text` of a part. Invalid JSON is discarded, and so is text longer or deeper
+/// than that of any render, as keys are searched linearly and text is written recursively.
 ordered_json parsed_settings(const std::string& text)
 {
     constexpr std::size_t max_length = std::size_t{64} << 10;
@@ -44,7 +44,7 @@ ordered_json parsed_settings(const std::string& text)
     return ordered_json::parse(text, nullptr, false);
 }
 
-/// The settings that the parts have, with the number of samples of all and what is put behind.
+/// Returns the settings of the parts, with the total number of samples and the backdrop.
 std::string settings_of(const std::string& text, std::int64_t samples,
                         const std::optional<Backdrop>& backdrop)
 {

@@ -14,24 +14,24 @@
 
 namespace bdpt::app {
 
-/// How images of parts are shown: parts without the environment behind them get the backdrop that
-/// was asked for when they were rendered, or that of `asked`. Throws `Error` (invalid_input) for a
-/// backdrop behind parts that show the environment.
+/// Returns the display options of images of parts: parts without the environment behind them get
+/// the backdrop requested when they were rendered, or that of `asked`. Throws `Error`
+/// (invalid_input) for a backdrop behind parts that show the environment.
 [[nodiscard]] DisplayArguments display_of_parts(const io::ImageMetadata& metadata,
                                                 DisplayArguments asked);
 
-/// Refuses files that could not be written: what `check_outputs` and `check_strategy_files` do. No
+/// Checks that files can be written, like `check_outputs` and `check_strategy_files`, and that no
 /// file of an image is a part of any.
 void check_merged_files(std::span<const MergeArguments> images);
 
-/// Throws `Error` (invalid_input) when `part` has no images of strategies, and those are asked for.
+/// Throws `Error` (invalid_input) if strategy images are requested but `part` has none.
 void check_strategies(const MergeArguments& arguments, const io::PartInfo& part);
 
-/// All files that are written.
+/// Returns all files that are written.
 [[nodiscard]] std::vector<std::filesystem::path> merged_files(const MergeArguments& arguments);
 
-/// Writes `part` to the files of `arguments`, images as `display` says, denoised if there is a
-/// denoiser. Throws `Error` (output).
+/// Writes `part` to the files of `arguments`, images by `display`, denoised if there is a denoiser.
+/// Throws `Error` (output).
 void write_merged_files(const MergeArguments& arguments, const DisplayArguments& display,
                         const io::Denoiser* denoiser, const RenderPart& part, io::PartNotes notes);
 

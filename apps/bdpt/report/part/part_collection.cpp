@@ -23,7 +23,7 @@ using io::PartInfo;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-/// Throws when `part` is of another render than `plan` or `first`.
+/// Throws if `part` belongs to another render than `plan` or `first`.
 void check_same_render(const PartInfo& part, const MergeArguments& arguments,
                        const std::optional<PlannedIdentity>& planned, const PartInfo* first)
 {
@@ -45,7 +45,7 @@ void check_same_render(const PartInfo& part, const MergeArguments& arguments,
 
 struct ReadParts {
     std::vector<PartInfo> parts;
-    std::vector<std::string> faults;  ///< of other files, when those may come
+    std::vector<std::string> faults;  ///< errors of files that may become readable later
 };
 
 ReadParts read_parts(const MergeArguments& arguments, const std::optional<PlannedIdentity>& planned)
@@ -74,10 +74,11 @@ ReadParts read_parts(const MergeArguments& arguments, const std::optional<Planne
     return result;
 }
 
-/// Puts parts together, in n log n for n ranges of samples.
+/// Combines parts, in n log n for n ranges of samples.
 class Collector {
 public:
-    /// Adds `part`, unless its samples are there. Throws `Error` (invalid_input) for some of them.
+    /// Adds `part`, unless all its samples are there. Throws `Error` (invalid_input) if some of
+    /// them are.
     void add(PartInfo part)
     {
         const PartInfo* const other = overlapping(part.samples);
@@ -112,7 +113,7 @@ private:
         std::size_t part = 0;
     };
 
-    /// A part that has some of `samples`; null if there is none.
+    /// Returns a part that has some of `samples`, or null.
     [[nodiscard]] const PartInfo* overlapping(const SampleSet& samples) const
     {
         for (const SampleRange& range : samples.ranges()) {
@@ -126,10 +127,10 @@ private:
     }
 
     PartCollection result_;
-    std::map<std::int64_t, Owner> owners_;  // of ranges, by their beginning
+    std::map<std::int64_t, Owner> owners_;  // by the begin of their ranges
 };
 
-/// The samples that the render was to have, as far as the user, the plan or the parts tell.
+/// Returns the requested samples of the render, as far as the user, the plan or the parts tell.
 SampleSet goal_of(const std::vector<PartInfo>& parts, const MergeArguments& arguments)
 {
     if (arguments.goal) {
@@ -150,7 +151,7 @@ PartCollection collect_now(const MergeArguments& arguments,
 {
     auto [all, faults] = read_parts(arguments, planned);
     SampleSet goal = goal_of(all, arguments);
-    // The larger ones first: what lies in another one comes behind it.
+    // Larger ones first, so that a part precedes those that it contains.
     std::vector<std::pair<std::int64_t, std::size_t>> order;
     for (std::size_t i = 0; i < all.size(); ++i) {
         order.emplace_back(-all[i].samples.count(), i);
@@ -166,7 +167,7 @@ PartCollection collect_now(const MergeArguments& arguments,
     return result;
 }
 
-/// All samples are there; without a goal that is known, all parts, too.
+/// Tests whether all samples are there; without a known goal, all parts, too.
 bool is_complete(const PartCollection& collection, const MergeArguments& arguments)
 {
     const bool knows_goal = arguments.plan || arguments.samples;
@@ -187,7 +188,7 @@ void show_waiting(Console& console, const PartCollection& collection, Seconds pa
 PartCollection collect_parts(const MergeArguments& arguments, const std::optional<Plan>& plan,
                              Console& console)
 {
-    // Looking is reading all there is: it takes a tenth of the time at most.
+    // A check reads all files, so it takes at most a tenth of the time.
     constexpr Seconds min_pause{1.0};
     constexpr double pause_of_looks = 10.0;
     const Clock::time_point start = Clock::now();

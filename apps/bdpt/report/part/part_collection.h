@@ -16,22 +16,22 @@
 
 namespace bdpt::app {
 
-/// Parts of one render, of which none has samples of another.
+/// Disjoint parts of one render.
 struct PartCollection {
     std::vector<io::PartInfo> parts;
-    SampleSet samples;                ///< of all of them
-    SampleSet goal;                   ///< that the render was to have, as far as is known
-    std::vector<std::string> notes;   ///< on parts that bring nothing
-    std::vector<std::string> faults;  ///< of files that may become readable, if that is waited for
+    SampleSet samples;                ///< samples of all parts
+    SampleSet goal;                   ///< requested samples of the render, as far as known
+    std::vector<std::string> notes;   ///< about parts that contribute nothing
+    std::vector<std::string> faults;  ///< errors of files that may become readable later
     [[nodiscard]] SampleSet missing() const { return samples.missing(goal); }
 };
 
-/// The parts of `arguments`, all of one image of `plan` if there is one, which may be waited for
-/// until all samples of the goal are there or the time is over. Whether they are is decided by what
-/// is in the files alone. Files of a plan may be absent; when they are waited for, all may be, and
-/// may be unreadable for a while. Throws `Error`: what `read_part_info` does, and invalid_input for
-/// parts of different renders, or of another than the plan's, and for parts that overlap without
-/// one being in the other.
+/// Collects the parts of `arguments`, all of one image of `plan` if there is one, waiting on
+/// request until all samples of the goal are there or the time is over. Only the files' contents
+/// decide that. Files of a plan may be absent; when waiting, all files may be absent, and may be
+/// unreadable for a while. Throws `Error`: those of `read_part_info`, and invalid_input for parts
+/// of different renders, or of another than the plan's, and for parts that overlap without one
+/// containing the other.
 [[nodiscard]] PartCollection collect_parts(const MergeArguments& arguments,
                                            const std::optional<Plan>& plan, Console& console);
 

@@ -25,7 +25,7 @@ bool has(const Names& names, std::string_view word)
     return std::find(names.begin(), names.end(), word) != names.end();
 }
 
-/// `command(i)` of the first of `count` commands.
+/// Returns the text of the first `command(i)` of `count` that fit.
 template <typename Command>
 std::string text_of_commands(std::size_t count, const Command& command)
 {
@@ -46,7 +46,8 @@ std::vector<std::string> render_words(const std::vector<std::string>& words)
         const std::string& word = words[i];
         const std::string name = word.substr(0, word.find('='));
         if (has(with_value, name)) {
-            i += std::size_t{name.size() == word.size() ? 1U : 0U};  // else it has the value
+            i += std::size_t{
+                name.size() == word.size() ? 1U : 0U};  // otherwise the word contains the value
         } else if (!has(flags, word) && !(word.starts_with("-o") && word.size() > 2)) {
             result.push_back(one_line(word));
         }

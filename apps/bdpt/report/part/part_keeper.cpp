@@ -13,9 +13,10 @@ namespace bdpt::app {
 namespace {
 
 constexpr std::chrono::duration<double> min_write_interval{60.0};
-/// Of the time that the last write took: checkpoints take at most 1 % of the time.
+/// Interval of checkpoints relative to the time of the last write: they take at most 1 % of the
+/// time.
 constexpr double interval_of_writes = 100.0;
-/// Of the interval, after a write that failed.
+/// Factor of the interval after a failed write.
 constexpr double interval_after_failure = 10.0;
 
 }  // namespace
@@ -111,7 +112,7 @@ void PartKeeper::write(const RenderPart& part)
             fmt::format("{}: has more samples by now, and stays as it is", choice_.file.string()));
         return;
     }
-    old_ = io::OldPart::keep_if_more;  // from now on it is ours
+    old_ = io::OldPart::keep_if_more;  // from now on the file is ours
     written_ = part.samples;
     console_.event("part", {{"file", choice_.file.string()}, {"samples", written_.text()}});
     console_.detail(fmt::format("wrote {}: samples {}", choice_.file.string(), written_.text()));

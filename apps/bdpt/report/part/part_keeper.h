@@ -14,26 +14,27 @@
 
 namespace bdpt::app {
 
-/// Whether the user wants a checkpoint now.
+/// Tells whether the user wants a checkpoint now.
 enum class Checkpoint : std::uint8_t { when_due, now };
 
-/// Reads the part that a render goes on with, and writes it in good time and at the end.
+/// Reads the part that a render continues, and writes it at intervals and at the end.
 class PartKeeper {
 public:
-    /// `planned`: what the plan of `choice` says of the image, if there is a plan. Throws `Error`
-    /// (invalid_input) when the file is there, is to be gone on with, and is no whole part.
+    /// `planned`: identity of the image by the plan of `choice`, if there is a plan. Throws `Error`
+    /// (invalid_input) if the file exists, is to be continued, and is no intact part.
     PartKeeper(PartChoice choice, std::optional<PlannedIdentity> planned, Console& console);
 
-    /// Is nothing left to do: are all of these samples in the file, as the plan wants them?
+    /// Tests whether nothing is left to do: the file has all of these samples, and satisfies the
+    /// plan.
     [[nodiscard]] bool is_complete(SampleRange samples) const;
-    /// The part to go on with; without samples when the render begins. `identity` is that of the
-    /// render, `notes` go into the file. Throws `Error` (invalid_input) when the file is a part of
-    /// another render, or the plan one of another.
+    /// Returns the part to continue; without samples if the render begins. `identity` is that of
+    /// the render, `notes` are written into the file. Throws `Error` (invalid_input) if the file is
+    /// a part of another render, or the plan is one of another.
     [[nodiscard]] RenderPart start(const Identity& identity, io::PartNotes notes);
-    /// Between passes: writes a checkpoint when there was none for a while. That it cannot be
-    /// written is a warning; there will be another one.
+    /// Writes a checkpoint if the last one is old enough; called between passes. A failure is only
+    /// a warning, as there will be another checkpoint.
     void after_pass(const RenderPart& part, Checkpoint checkpoint);
-    /// Writes what is not in the file yet. Throws `Error` (output).
+    /// Writes the samples that are not in the file yet. Throws `Error` (output).
     void finish(const RenderPart& part);
 
 private:

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::string_view_literals;
 
-/// Has it the signature of OpenEXR or PNG, and our entry among what is told before the pixels?
+/// Tests for the signature of OpenEXR or PNG, with an entry of bdpt before the pixels.
 bool is_image_of_ours(const fs::path& file)
 {
     std::error_code ignored;
@@ -39,7 +39,7 @@ bool is_image_of_ours(const fs::path& file)
     return is_image && start.find("bdpt.version"sv) != std::string::npos;
 }
 
-/// The files that the plan in `file` names for image `image`.
+/// Returns the files that the plan in `file` names for image `image`.
 std::set<fs::path> planned_files(const Plan& plan, const fs::path& file, std::size_t image)
 {
     const auto name = [&](const fs::path& path) {

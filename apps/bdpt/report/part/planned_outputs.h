@@ -5,8 +5,8 @@
 
 namespace bdpt::app {
 
-/// Refuses to replace a file of `arguments` because `plan` says so, unless it is an image that bdpt
-/// wrote: the plan may come from anywhere. Throws `Error` (output).
+/// Throws `Error` (output) if the plan makes `arguments` replace a file that is not an image
+/// written by bdpt: plans are not trusted.
 void check_planned_outputs(const MergeArguments& arguments, const Plan& plan);
 
 }  // namespace bdpt::app

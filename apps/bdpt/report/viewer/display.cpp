@@ -16,11 +16,12 @@ using std::chrono::duration;
 using std::chrono::duration_cast;
 
 constexpr duration<double> min_image_interval{1.0};
-/// Of the time that the last image took: developing them takes at most 1 % of the time.
+/// Interval of images relative to the time of the last one: developing them takes at most 1 % of
+/// the time.
 constexpr double interval_of_images = 99.0;
 constexpr duration<double> reconnect_interval{2.0};
-constexpr duration<double> farewell{2.0};  // for the last image
-constexpr int band_bytes = 1 << 20;        // that are sent at once, about
+constexpr duration<double> farewell{2.0};  // wait for the last image
+constexpr int band_bytes = 1 << 20;        // approximate size of one message
 
 }  // namespace
 
@@ -55,7 +56,7 @@ void Display::after_pass(const Film& film)
     {
         const std::lock_guard lock(mutex_);
         if (viewer_ != Viewer::there || shown_ != made_) {
-            return;  // nobody looks, or the last one is still on its way
+            return;  // no viewer, or the last image is still being sent
         }
     }
     develop(film);
@@ -64,7 +65,7 @@ void Display::after_pass(const Film& film)
 void Display::finish(const Film& film)
 {
     {
-        // A short render may be over before the viewer was found.
+        // A short render may end before the viewer was found.
         std::unique_lock lock(mutex_);
         changed_.wait_for(lock, farewell, [this] { return viewer_ != Viewer::sought; });
         if (viewer_ != Viewer::there) {

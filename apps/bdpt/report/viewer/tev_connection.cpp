@@ -15,8 +15,8 @@
 namespace bdpt::app {
 namespace {
 
-constexpr double patience = 10.0;  // [s] with a viewer that takes nothing
-constexpr int interval = 100;      // [ms] between looks at whether to stop
+constexpr double patience = 10.0;  // [s] to wait for a viewer that accepts nothing
+constexpr int interval = 100;      // [ms] between polls of `stopped`
 
 [[noreturn]] void fail(int error)
 {

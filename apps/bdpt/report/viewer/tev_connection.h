@@ -9,8 +9,8 @@
 
 namespace bdpt::app {
 
-/// A connection to a viewer, in which nothing waits for long: whoever takes no bytes for ten
-/// seconds is taken for dead, and `stopped` is asked ten times a second. Throws std::runtime_error.
+/// A connection to a viewer that never blocks for long: a viewer that accepts no bytes for ten
+/// seconds is taken as dead, and `stopped` is polled ten times a second. Throws std::runtime_error.
 class TevConnection {
 public:
     TevConnection(const DisplayAddress& address, const std::function<bool()>& stopped);
@@ -18,9 +18,9 @@ public:
     TevConnection(const TevConnection&) = delete;
     TevConnection& operator=(const TevConnection&) = delete;
 
-    /// Throws when the viewer is gone, takes nothing, or `stopped` says so.
+    /// Throws if the viewer is gone, accepts nothing, or `stopped` returns true.
     void send(std::string_view bytes) const;
-    /// Has the viewer closed the connection?
+    /// Tests whether the viewer has closed the connection.
     [[nodiscard]] bool is_closed() const;
 
 private:

@@ -15,7 +15,7 @@ enum class MessageKind : std::uint8_t { create_image = 4, update_image = 6 };
 
 constexpr std::array<std::string_view, 3> channels{"R", "G", "B"};
 
-/// Puts a message together, and its length in front.
+/// Builds a message with its length in front.
 class Message {
 public:
     explicit Message(MessageKind kind)
@@ -60,7 +60,7 @@ private:
     std::string bytes_;
 };
 
-constexpr std::uint8_t keep_focus = 0;  // what the user looks at stays in front
+constexpr std::uint8_t keep_focus = 0;  // the user's selected image stays in front
 
 }  // namespace
 
@@ -88,10 +88,10 @@ std::string tev_update_image(std::string_view name, const Image& image, int x, i
     message.add(std::int32_t{image.width});
     message.add(std::int32_t{end_row - first_row});
     for (std::int64_t channel = 0; channel < 3; ++channel) {
-        message.add(channel);  // where its first value is
+        message.add(channel);  // offset of its first value
     }
     for (int channel = 0; channel < 3; ++channel) {
-        message.add(std::int64_t{3});  // from one of its values to the next
+        message.add(std::int64_t{3});  // stride of its values
     }
     const auto width = static_cast<std::size_t>(image.width);
     message.add(std::span(image.pixels)

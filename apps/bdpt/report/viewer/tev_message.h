@@ -10,14 +10,15 @@
 namespace bdpt::app {
 
 // Messages of the tev image viewer's protocol over TCP [github.com/Tom94/tev, "inter-process
-// communication" in its README]: the length of all in four bytes, a byte that says which message it
-// is, and its fields, integers in little-endian order and strings with a zero at their end.
+// communication" in its README]: total length in four bytes, a byte with the type of the message,
+// and its fields, integers in little-endian order and strings with a zero at their end.
 
-/// Makes an empty image with the channels R, G and B, which takes the place of one with that name.
+/// Returns the message that creates an empty image with the channels R, G and B, replacing one of
+/// that name.
 [[nodiscard]] std::string tev_create_image(std::string_view name, int width, int height);
 
-/// Fills the rows from `first_row` to `end_row` of `image` into the viewer's image; (x, y) is where
-/// the image's first pixel lies in it. At least one row.
+/// Returns the message that fills rows `first_row` to `end_row` of `image` into the viewer's image;
+/// (x, y) is the position of the image's first pixel in it. At least one row.
 [[nodiscard]] std::string tev_update_image(std::string_view name, const Image& image, int x, int y,
                                            int first_row, int end_row);
 

@@ -21,7 +21,8 @@ std::string lowered(std::string_view text)
     return result;
 }
 
-/// "localhost" of "localhost:8080", "[::1]" of "[::1]:8080"; empty: the port is no number.
+/// Returns "localhost" for "localhost:8080", "[::1]" for "[::1]:8080"; empty: the port is no
+/// number.
 std::string_view without_port(std::string_view host)
 {
     const std::size_t bracket = host.rfind(']');
@@ -32,7 +33,7 @@ std::string_view without_port(std::string_view host)
     return is_number ? host.substr(0, colon) : std::string_view();
 }
 
-/// An address in numbers, which no name server can turn to another machine.
+/// Tests for a numeric address, which no name server can redirect to another machine.
 bool is_numeric(std::string_view host)
 {
     constexpr std::string_view of_v4 = "0123456789.";
@@ -74,8 +75,7 @@ Access::Access(std::string token, std::string host)
     : token_(std::move(token)),
       host_(lowered(host)),
       listens_everywhere_(host_ == "0.0.0.0" || host_ == "::")
-{
-}
+{}
 
 bool Access::is_ours(std::string_view host) const
 {
@@ -83,12 +83,12 @@ bool Access::is_ours(std::string_view host) const
     const std::string name = lowered(without_port(host));
     return !name.empty() &&
            (name == "localhost" || name == "127.0.0.1" || name == "[::1]" || name == host_ ||
-           name == "[" + host_ + "]" || (listens_everywhere_ && is_numeric(name)));
+            name == "[" + host_ + "]" || (listens_everywhere_ && is_numeric(name)));
 }
 
 std::optional<Refusal> Access::refusal(const RequestHead& head) const
 {
-    // Of a page that has made a name of its own point to this machine.
+    // DNS rebinding: a foreign page's own name points to this machine.
     if (!is_ours(head.host)) {
         return Refusal{403, "this server is not known by that name"};
     }

@@ -7,19 +7,20 @@
 
 namespace bdpt::app {
 
-/// 128 bits that nobody can guess, in 32 digits. Throws `Error` (internal) if the system has none.
+/// Returns an unguessable token of 128 bits, in 32 digits. Throws `Error` (internal) if the system
+/// provides none.
 [[nodiscard]] std::string random_token();
 
-/// Are they equal? Takes the same time wherever texts of one length differ.
+/// Compares texts in constant time for texts of equal length, wherever they differ.
 [[nodiscard]] bool are_equal_in_constant_time(std::string_view a, std::string_view b);
 
-/// Why a request is not answered.
+/// Reason for refusing a request.
 struct Refusal {
-    int status = 403;  ///< of HTTP
+    int status = 403;  ///< HTTP status
     std::string line;
 };
 
-/// What of a request says who asks.
+/// The parts of a request that identify its sender.
 struct RequestHead {
     std::string_view method;
     std::string_view target;
@@ -27,17 +28,18 @@ struct RequestHead {
     std::optional<std::string_view> origin{};
 };
 
-/// Who may ask, and for what.
+/// Access control of the server.
 class Access {
 public:
-    /// `host` is where the server listens, as the user named it.
+    /// `host` is the address that the server listens on, as given by the user.
     Access(std::string token, std::string host);
 
-    /// None: `path_of` tells what is asked for.
+    /// Returns the reason for refusing a request; none: it is allowed, and `path_of` tells the
+    /// resource.
     [[nodiscard]] std::optional<Refusal> refusal(const RequestHead& head) const;
-    /// The part of `target` behind the token, without the query.
+    /// Returns the part of `target` behind the token, without the query.
     [[nodiscard]] static std::string_view path_of(std::string_view target);
-    /// What comes behind '?'.
+    /// Returns the part behind '?'.
     [[nodiscard]] static std::string_view query_of(std::string_view target);
 
 private:

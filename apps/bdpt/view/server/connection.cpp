@@ -18,17 +18,17 @@ using boost::system::error_code;
 
 namespace {
 
-constexpr std::chrono::seconds patience{10};  // with those who say nothing
+constexpr std::chrono::seconds patience{10};  // with silent clients
 constexpr std::uint32_t max_header_bytes = 8192;
 constexpr std::size_t max_message_bytes = 65536;
-constexpr std::size_t max_waiting_answers = 256;  // that wait for one window
+constexpr std::size_t max_waiting_answers = 256;  // per window
 
 std::string_view view_of(boost::beast::string_view text)
 {
     return {text.data(), text.size()};
 }
 
-/// The N of the query "slot=N"; 0 without one, none if that is no slot.
+/// Parses the N of the query "slot=N"; 0 without one, none if that is no slot.
 std::optional<int> slot_of(std::string_view query)
 {
     if (query == "slot=1") {
@@ -37,7 +37,7 @@ std::optional<int> slot_of(std::string_view query)
     return query.empty() || query == "slot=0" ? std::optional(0) : std::nullopt;
 }
 
-/// A name for a header: what might end it is left out.
+/// Returns a name for a header, without characters that could end it.
 std::string header_name(const std::string& name)
 {
     std::string result;
@@ -156,8 +156,8 @@ void Connection::save(const std::string& name)
 
 void Connection::open_window()
 {
-    stream_.expires_never();  // web sockets have a clock of their own
-    counts_ = false;          // the window counts in its place
+    stream_.expires_never();  // web sockets have their own time-outs
+    counts_ = false;          // the window counts instead
     std::make_shared<Window>(std::move(stream_), server_)->open(parser_->get());
 }
 
@@ -170,7 +170,7 @@ Connection::Response Connection::response(int status, const std::string& type) c
     answer.set("X-Content-Type-Options", "nosniff");
     answer.set("X-Frame-Options", "DENY");
     answer.set("Cross-Origin-Resource-Policy", "same-origin");
-    // Web sockets of older browsers are not among 'self'.
+    // Older browsers do not count web sockets as 'self'.
     const auto host = parser_->get()[http::field::host];
     answer.set("Content-Security-Policy",
                "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
@@ -244,9 +244,9 @@ void Window::read()
 {
     stream_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
         if (error) {
-            return;  // the window is closed, or says what is no message
+            return;  // the window is closed, or sent an invalid message
         }
-        // Who asks and does not listen is left.
+        // Requests of a client that does not read its answers are dropped.
         if (self->answers_.size() < max_waiting_answers) {
             self->server_.doors.ask(self->client_, beast::buffers_to_string(self->buffer_.data()));
             self->buffer_.consume(self->buffer_.size());

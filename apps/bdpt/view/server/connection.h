@@ -26,20 +26,20 @@ namespace bdpt::app {
 
 class Window;
 
-/// What all connections of a server know.
+/// State shared by all connections of a server.
 struct ServerState {
     std::string page;
     std::optional<Access> access;
     Doors doors;
-    std::string text{};  ///< the last state that was told; empty: none yet
-    std::array<std::shared_ptr<const Frame>, 2> frames{};  ///< the last of each slot
+    std::string text{};  ///< last state sent to pages; empty: none yet
+    std::array<std::shared_ptr<const Frame>, 2> frames{};  ///< last frame of each slot
     std::map<ClientId, std::weak_ptr<Window>> windows{};
     ClientId next_client = 1;
     int connections = 0;
     bool is_closing = false;
 };
 
-/// One connection that speaks HTTP, until it ends or becomes a `Window`.
+/// An HTTP connection, until it ends or becomes a `Window`.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     Connection(boost::asio::ip::tcp::socket socket, ServerState& server);
@@ -65,10 +65,10 @@ private:
     ServerState& server_;
     boost::beast::flat_buffer buffer_;
     std::optional<Parser> parser_;
-    bool counts_ = true;  // among the connections
+    bool counts_ = true;  // counts towards `connections`
 };
 
-/// A page that is open: a web socket.
+/// An open page: a web socket.
 class Window : public std::enable_shared_from_this<Window> {
 public:
     using Stream = boost::beast::websocket::stream<boost::beast::tcp_stream>;
@@ -79,7 +79,7 @@ public:
     Window& operator=(const Window&) = delete;
 
     void open(const boost::beast::http::request<boost::beast::http::empty_body>& request);
-    /// Sends the state that the server has.
+    /// Sends the server's current state.
     void tell();
     void show(const std::shared_ptr<const Frame>& frame);
     void answer(std::string text);
@@ -94,11 +94,11 @@ private:
     ServerState& server_;
     ClientId client_;
     boost::beast::flat_buffer buffer_;
-    // What waits to be sent.
+    // Waiting to be sent.
     std::deque<std::string> answers_;
     bool has_news_ = false;  // the state
     std::array<std::shared_ptr<const Frame>, 2> frames_;
-    // What is on its way.
+    // Being sent.
     bool is_writing_ = false;
     bool is_open_ = false;
     std::string text_;

@@ -7,7 +7,7 @@
 namespace bdpt::app {
 namespace {
 
-/// A half, to the nearest one; to the even one of two. `value` is not below 0.
+/// Rounds to the nearest half, ties to even. `value` is not negative.
 std::uint16_t half_of(float value)
 {
     constexpr float greatest = 65504.0f;

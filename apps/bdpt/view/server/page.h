@@ -5,10 +5,10 @@
 
 namespace bdpt::app {
 
-/// The page of `bdpt view`, which needs nothing else.
+/// Returns the self-contained page of `bdpt view`.
 [[nodiscard]] std::string view_page();
 
-// What it is made of: files of apps/bdpt/view/page, and those that the report of bdpt bench shares.
+// Parts of the page: files of apps/bdpt/view/page, and those shared with the report of bdpt bench.
 [[nodiscard]] std::string_view page_template();
 [[nodiscard]] std::string_view page_style();
 [[nodiscard]] std::string_view page_script();

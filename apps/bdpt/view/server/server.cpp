@@ -25,7 +25,7 @@ namespace {
 
 constexpr int max_connections = 64;
 
-/// With brackets around what has colons.
+/// Adds brackets to hosts with colons.
 std::string host_text(const std::string& host)
 {
     return host.find(':') != std::string::npos ? "[" + host + "]" : host;
@@ -66,7 +66,7 @@ public:
         for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
             struct sigaction action {};
             ::sigaction(number, nullptr, &action);
-            if (action.sa_handler != SIG_IGN) {  // as nohup has it
+            if (action.sa_handler != SIG_IGN) {  // nohup ignores signals
                 signals_.add(number);
             }
         }
@@ -145,12 +145,12 @@ private:
                 return;
             }
             if (error) {
-                // There are no more files to open: wait until there may be some.
+                // Out of file descriptors: wait for free ones.
                 pause_.expires_after(std::chrono::milliseconds(100));
                 pause_.async_wait([this](const error_code& /*error*/) { accept(); });
                 return;
             }
-            // Those that are too many are closed, as the socket goes.
+            // Excess connections are closed by the socket's destructor.
             if (state_.connections < max_connections) {
                 std::make_shared<Connection>(std::move(socket), state_)->read();
             }
@@ -158,7 +158,8 @@ private:
         });
     }
 
-    ServerState state_;  // first: connections, which the context holds, look at it as they go
+    ServerState
+        state_;  // first: connections, owned by the context, use it while they are destroyed
     asio::io_context context_{1};
     asio::signal_set signals_;
     tcp::acceptor acceptor_;

@@ -35,7 +35,7 @@ bool reaches(const BenchRun& run, const BenchGoals& goals)
     return has(goals.equal_time) && has(goals.equal_samples);
 }
 
-/// The run that the folder has; none if there is none.
+/// Returns the run in the folder; none if there is none.
 std::optional<BenchRun> kept_run(const BenchFiles& files, const BenchGoals& goals,
                                  std::uint64_t seed)
 {
@@ -66,11 +66,11 @@ void keep(const Trial& trial, const BenchFiles& files, const BenchScene& scene,
     exr.metadata.camera = scene.camera;
     exr.metadata.created = std::chrono::system_clock::now();
     io::write_exr(files.image(goals.integrator, trial.run.seed), trial.image, exr);
-    // Comes last: a run without its numbers is none.
+    // Written last: a run without its numbers does not count.
     write_json(files.run(goals.integrator, trial.run.seed), run_json(trial.run));
 }
 
-/// False if stopped.
+/// Returns false if stopped.
 bool run_all(const BenchScene& scene, const BenchOptions& options, const BenchFiles& files,
              const Reference& reference, BenchProgressMeter& meter, const BenchControl& control,
              SceneResult& result)
@@ -99,7 +99,7 @@ bool run_all(const BenchScene& scene, const BenchOptions& options, const BenchFi
     return true;
 }
 
-/// What the images of each integrator have in common beside the reference.
+/// Returns the error floor of each integrator that has one.
 std::vector<ErrorFloor> find_floors(const SceneResult& result, const BenchFiles& files,
                                     const Reference& reference)
 {
@@ -161,7 +161,7 @@ std::optional<SceneResult> run_scene(const BenchScene& scene, const BenchOptions
     const BenchFiles files(folder, scene.name);
     files.create();
     BenchProgressMeter meter(planned_seconds(options), control);
-    // A folder that does not fit is refused before a reference is rendered for it.
+    // Refuses an unsuitable folder before a reference is rendered for it.
     std::optional<Plan> plan;
     if (!options.reference) {
         plan.emplace(scene, options, files, reference_key(scene, options));

@@ -85,7 +85,7 @@ void BenchFiles::create() const
 ordered_json render_settings(const BenchScene& scene, const RenderOptions& options)
 {
     RenderOptions common = options;
-    common.integrator = IntegratorKind::mis;  // the one that no pilot has to choose
+    common.integrator = IntegratorKind::mis;  // a kind that needs no pilot
     common.film.width = scene.width;
     common.film.height = scene.height;
     common.sampling.seed = 0;

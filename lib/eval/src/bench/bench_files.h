@@ -13,7 +13,7 @@
 
 namespace bdpt::eval {
 
-/// Where a benchmark of one scene keeps things.
+/// File paths of the benchmark of one scene.
 class BenchFiles {
 public:
     BenchFiles(std::filesystem::path folder, std::string scene);
@@ -23,11 +23,11 @@ public:
     [[nodiscard]] std::filesystem::path image(IntegratorKind integrator, std::uint64_t seed) const;
     [[nodiscard]] std::filesystem::path strategies() const;
     [[nodiscard]] std::filesystem::path time_split(IntegratorKind integrator) const;
-    /// `key` tells references of one scene apart.
+    /// `key` distinguishes the references of a scene.
     [[nodiscard]] std::filesystem::path reference_image(const std::string& key) const;
     [[nodiscard]] std::filesystem::path reference_facts(const std::string& key) const;
 
-    /// Makes the folders. Throws `Error` (output).
+    /// Creates the folders. Throws `Error` (output).
     void create() const;
 
 private:
@@ -35,25 +35,25 @@ private:
     std::string scene_;
 };
 
-/// What images of a scene depend on, but for integrator, samples, seed and the machine: components
-/// of the render's identity, by name.
+/// Returns the settings that images of a scene depend on, apart from integrator, samples, seed and
+/// machine: components of the render's identity, by name.
 [[nodiscard]] nlohmann::ordered_json render_settings(const BenchScene& scene,
                                                      const RenderOptions& options);
-/// A hash of what is rendered: scene and camera.
+/// Returns a hash of what is rendered: scene and camera.
 [[nodiscard]] std::string content_of(const BenchScene& scene);
-/// 32 hexadecimal digits that tell contents apart.
+/// Returns a content hash of 32 hexadecimal digits.
 [[nodiscard]] std::string hash_of(std::string_view bytes);
 
-/// A whole JSON file; none if there is no such file. Throws `Error`: not_found when it cannot be
-/// read, invalid_input when it is no JSON.
+/// Reads a JSON file; returns none if there is no such file. Throws `Error`: not_found if it cannot
+/// be read, invalid_input if it is no JSON.
 [[nodiscard]] std::optional<nlohmann::ordered_json> read_json(const std::filesystem::path& file);
-/// Atomically. Throws `Error` (output).
+/// Writes a JSON file atomically. Throws `Error` (output).
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
 
 /// Throws `Error` (invalid_input) for an image of another size.
 void check_size(const Image& image, int width, int height, const std::filesystem::path& file);
 
-/// A run as JSON and back. The latter throws `Error` (invalid_input) that names `file`.
+/// Converts a run to JSON and back. The latter throws `Error` (invalid_input) that names `file`.
 [[nodiscard]] nlohmann::ordered_json run_json(const BenchRun& run);
 [[nodiscard]] BenchRun parse_run(const nlohmann::ordered_json& json,
                                  const std::filesystem::path& file);

@@ -8,10 +8,10 @@
 namespace bdpt::eval {
 namespace {
 
-/// Above this, noise does not explain the difference of two images.
+/// Disagreement above which noise does not explain the difference of two images.
 constexpr double max_disagreement = 2.0;
 
-/// Mean of (a - b)^2 / (r^2 + e), where r is `base`.
+/// Returns the mean of (a - b)^2 / (r^2 + e), where r is `base`.
 double relative_difference(const Image& a, const Image& b, const Image& base, double epsilon)
 {
     double sum = 0.0;
@@ -59,7 +59,7 @@ CombinedReference combine(const HalvedImage& all_light, const HalvedImage& most_
     const double noise = noise_a + noise_b;
     const double difference =
         relative_difference(all_light.image, most_light.image, middle, epsilon);
-    // Two images without noise agree only if they are the same but for rounding.
+    // Two images without noise agree only if they are equal up to rounding.
     const double agreement = difference / std::max(noise, 1e-10);
     const double share = agreement > max_disagreement ? 1.0 : noise > 0.0 ? noise_b / noise : 0.5;
     CombinedReference result{.image = mix(all_light.image, most_light.image, share),

@@ -40,7 +40,7 @@ Reference render_reference(const BenchScene& scene, const RenderOptions& options
     const BenchProgressMeter meter(0.0, control);
     const TrialSetup setup =
         make_setup(scene, options, IntegratorKind::bdpt, reference_seed, control);
-    // Nobody stops it.
+    // Never stopped, so it has a value.
     const Film film = render_all(setup, samples, meter).value();
     HalvedImage halved{
         .image = film.develop(), .first = film.develop_half(0), .second = film.develop_half(1)};

@@ -7,10 +7,10 @@
 namespace bdpt::eval {
 namespace {
 
-constexpr double min_share = 0.1;  // of the error; a smaller floor does not spoil a comparison
+constexpr double min_share = 0.1;  // least share of the error; a smaller floor is negligible
 constexpr double min_errors = 3.0;
 
-/// Mean of (a - r) (b - r) / (r^2 + e).
+/// Returns the mean of (a - r) (b - r) / (r^2 + e).
 double product(const Image& a, const Image& b, const Image& reference, double epsilon)
 {
     double sum = 0.0;
@@ -30,8 +30,8 @@ std::optional<double> error_floor(std::span<const Image> images, const Image& re
                                   double noise)
 {
     const double epsilon = bench_scale(reference).squared_epsilon;
-    Moments own;     // relMSE of each
-    Moments common;  // of each pair
+    Moments own;     // relMSE of each image
+    Moments common;  // product of the errors of each pair of images
     for (std::size_t i = 0; i < images.size(); ++i) {
         own.add(product(images[i], images[i], reference, epsilon));
         for (std::size_t j = 0; j < i; ++j) {

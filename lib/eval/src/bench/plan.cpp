@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* samples_member = "equal_time_samples";
 
-/// What all runs in a folder have in common.
+/// Returns the settings that all runs in a folder share.
 ordered_json plan_settings(const BenchScene& scene, const BenchOptions& options,
                            const std::string& reference)
 {
@@ -30,13 +30,13 @@ ordered_json plan_settings(const BenchScene& scene, const BenchOptions& options,
     return settings;
 }
 
-/// Texts without quotes.
+/// Returns a value as text, without quotes.
 std::string shown(const ordered_json& value)
 {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-/// Throws the `Error` for a folder that holds something else, with what differs.
+/// Throws the `Error` for a folder with other settings, naming the difference.
 void check_same(const ordered_json& ours, const ordered_json& kept,
                 const std::filesystem::path& file)
 {

@@ -12,23 +12,23 @@
 
 namespace bdpt::eval {
 
-/// Of a run's time, what finding out its samples takes at most.
+/// Greatest fraction of a run's time spent on finding its number of samples.
 inline constexpr double calibration_share = 1.0 / 3.0;
 
-/// What all runs of a scene in a folder have in common: options, and the samples of each
-/// integrator, which are found out once and then kept.
+/// The data that all runs of a scene in a folder share: options, and the samples of each
+/// integrator, which are measured once and then kept.
 class Plan {
 public:
-    /// `reference` is its key. Throws `Error`: usage when `files` have another plan, which says
-    /// what differs; those of read_json().
+    /// Takes the key of the reference. Throws `Error`: usage if `files` have another plan, with the
+    /// difference; those of read_json().
     Plan(const BenchScene& scene, const BenchOptions& options, const BenchFiles& files,
          const std::string& reference);
 
-    /// Finds out what is not known yet, and keeps it. False if stopped.
+    /// Measures what is not known yet, and saves it. Returns false if stopped.
     [[nodiscard]] bool complete(const BenchScene& scene, const BenchOptions& options,
                                 BenchProgressMeter& meter, const BenchControl& control);
 
-    /// Of a complete plan. Throws `Error` (invalid_input) for numbers that make no sense.
+    /// Returns the goals of a complete plan. Throws `Error` (invalid_input) for invalid numbers.
     [[nodiscard]] BenchGoals goals(IntegratorKind kind) const;
 
 private:

@@ -7,22 +7,22 @@
 
 namespace bdpt::eval {
 
-/// Keeps account of the work on a scene, and tells the caller.
+/// Tracks the progress of the work on a scene, and reports it to the caller.
 class BenchProgressMeter {
 public:
-    /// `planned`: all of the work, in CPU time [s].
+    /// `planned`: total work, in CPU time [s].
     BenchProgressMeter(double planned, const BenchControl& control)
         : left_(planned), control_(&control)
     {}
 
-    /// Now comes work of about `seconds`.
+    /// Begins a piece of work of about `seconds`.
     void begin(const std::string& activity, double seconds)
     {
         activity_ = activity;
         piece_ = seconds;
         tell(0.0);
     }
-    /// `fraction` of it, in [0, 1], is done.
+    /// Reports that `fraction` of the current piece, in [0, 1], is done.
     void tell(double fraction) const
     {
         if (control_->on_progress) {
@@ -32,14 +32,14 @@ public:
                                    .activity = activity_});
         }
     }
-    /// It is done.
+    /// Ends the current piece.
     void end()
     {
         worked_ += piece_;
         skip(piece_);
         piece_ = 0.0;
     }
-    /// Work of about `seconds` does not have to be done.
+    /// Removes work of about `seconds` from the plan.
     void skip(double seconds) { left_ = std::max(left_ - seconds, 0.0); }
 
 private:

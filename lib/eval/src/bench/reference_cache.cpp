@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// What the layer "variance" of an image says about its own noise; 0 without the layer.
+/// Returns the noise of an image by its layer "variance"; 0 without the layer.
 double noise_by_layer(const fs::path& file, const Image& image)
 {
     io::LoadedImage variance;
@@ -105,7 +105,7 @@ void keep(const KeyedReference& keyed, const BenchFiles& files, const BenchScene
     exr.metadata.camera = scene.camera;
     exr.metadata.created = std::chrono::system_clock::now();
     io::write_exr(keyed.file, keyed.reference.image, exr);
-    // Comes last: a reference without its facts is none.
+    // Written last: a reference without its facts does not count.
     write_json(files.reference_facts(keyed.key),
                {{"origin", keyed.reference.origin},
                 {"noise_relmse", keyed.reference.noise},

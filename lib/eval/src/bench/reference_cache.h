@@ -12,14 +12,14 @@
 
 namespace bdpt::eval {
 
-/// A reference and what tells it from others.
+/// A reference and its key.
 struct KeyedReference {
     Reference reference;
-    std::string key;             ///< of what was asked for, or of the pixels that were given
-    std::filesystem::path file;  ///< where it is
+    std::string key;  ///< hash of the options it was requested with, or of the given pixels
+    std::filesystem::path file;  ///< path of the image
 };
 
-/// The reference that was given, or that `files` have, or a new one, which is kept there; none if
+/// Returns the given reference, or the one in `files`, or a new one, which is kept there; none if
 /// stopped. Throws `Error` like `run_scene`.
 [[nodiscard]] std::optional<KeyedReference> reference_for(const BenchScene& scene,
                                                           const BenchOptions& options,
@@ -27,7 +27,7 @@ struct KeyedReference {
                                                           BenchProgressMeter& meter,
                                                           const BenchControl& control);
 
-/// Where the reference of the options would be kept.
+/// Returns the key under which the reference of the options is kept.
 [[nodiscard]] std::string reference_key(const BenchScene& scene, const BenchOptions& options);
 
 }  // namespace bdpt::eval

@@ -5,10 +5,10 @@
 
 namespace bdpt::eval {
 
-/// Forgets the peak of memory, so that the next one is that of what comes now. Linux only.
+/// Resets the peak memory, so that the next peak is measured from here on. Linux only.
 void reset_peak_memory();
 
-/// The most memory that this process had since then [bytes]; none where it cannot be told.
+/// Returns the peak memory of this process since the reset [bytes]; none where it is unknown.
 [[nodiscard]] std::optional<std::uint64_t> peak_memory();
 
 }  // namespace bdpt::eval

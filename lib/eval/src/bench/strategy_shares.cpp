@@ -19,11 +19,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::uint64_t first_seed = 2'000'000;  // no run and no reference has these
-constexpr int batches = 8;          // independent renders that variances are taken from
-constexpr int thumbnail_side = 64;  // [pixels] at most
+constexpr std::uint64_t first_seed = 2'000'000;  // not used by any run or reference
+constexpr int batches = 8;          // independent renders that variances are estimated from
+constexpr int thumbnail_side = 64;  // maximum [pixels]
 
-/// Images of one kind of one strategy, from several renders.
+/// Moments of images of one kind of one strategy, from several renders.
 class ImageMoments {
 public:
     void add(const Image& image)
@@ -47,7 +47,7 @@ public:
         }
         return result;
     }
-    /// Of one render, over r^2 + e; mean over pixels and channels.
+    /// Returns the variance of one render over r^2 + e; mean over pixels and channels.
     [[nodiscard]] double relative_variance(const Image& reference, double epsilon) const
     {
         double result = 0.0;
@@ -61,7 +61,7 @@ public:
         }
         return result / (3.0 * static_cast<double>(sums_.size()));
     }
-    /// Mean over pixels and channels.
+    /// Returns the mean square over pixels and channels.
     [[nodiscard]] double energy() const
     {
         double result = 0.0;
@@ -84,12 +84,12 @@ struct StrategyMoments {
     ImageMoments unweighted;
 };
 
-/// The deepest images that are asked for and fit into memory.
+/// Returns the greatest requested depth of strategy images that fit into memory.
 int affordable_depth(RenderOptions options, const CameraDesc& camera, int asked)
 {
     for (int depth = std::min(asked, options.transport.max_depth); depth > 0; --depth) {
         options.bidirectional.strategy_depth = depth;
-        // The moments take twelve doubles beside it.
+        // The moments take twelve doubles in addition.
         if (2 * strategy_image_bytes(options, camera) <= options.bidirectional.strategy_memory) {
             return depth;
         }
@@ -108,7 +108,8 @@ ordered_json share_json(const ImageMoments& moments, const Image& reference, dou
             {"picture", packed_image(shrunk(mean, factor), scale)}};
 }
 
-/// Mean length [edges] of the paths that bring a pixel its light, 32 steps an edge; 0: no light.
+/// Returns the mean length [edges] of the paths that contribute to each pixel, in 32 steps per
+/// edge; 0: no light.
 std::vector<std::uint8_t> length_map(const std::vector<StrategyMoments>& all)
 {
     std::vector<double> light;

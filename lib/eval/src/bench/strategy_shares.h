@@ -8,9 +8,10 @@
 
 namespace bdpt::eval {
 
-/// What each strategy of bdpt brings: share of light and of variance, weighted and by itself, with
-/// small images for the report; and the mean length of paths in each pixel. Kept in a file, and
-/// not made again. Nothing is kept if stopped. Throws `Error` (output, out of memory).
+/// Measures the contribution of each strategy of bdpt: share of light and of variance, weighted and
+/// unweighted, with small images for the report; and the mean path length in each pixel. Kept in a
+/// file, and not measured again. Nothing is kept if stopped. Throws `Error` (output, out of
+/// memory).
 void measure_strategies(const BenchScene& scene, const BenchOptions& options,
                         const BenchFiles& files, const Reference& reference,
                         BenchProgressMeter& meter, const BenchControl& control);

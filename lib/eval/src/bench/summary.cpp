@@ -7,15 +7,15 @@
 namespace bdpt::eval {
 namespace {
 
-/// What is left of an error without the reference's noise; a little of that where nothing is left,
-/// so that logarithms of it exist.
+/// Removes the reference's noise from an error; the result is at least a small fraction of the
+/// noise, so that its logarithm exists.
 double without_noise(double relmse, double noise)
 {
     constexpr double least = 1e-12;
     return std::max({relmse - noise, 0.1 * noise, least});
 }
 
-/// A number of each run at the checkpoint of `samples`.
+/// Returns a value of each run at the checkpoint of `samples`.
 template <typename Value>
 std::vector<double> at(const std::vector<const BenchRun*>& runs, std::int64_t samples,
                        const Value& value)
@@ -31,11 +31,11 @@ std::vector<double> at(const std::vector<const BenchRun*>& runs, std::int64_t sa
     return result;
 }
 
-/// What noise that pixels do not share adds to relMSE over scales, of what it adds to relMSE: the
-/// averages over squares of 2, 4, 8 and 16 pixels a side have the less the larger they are.
+/// Ratio of relmse_scales to relmse of uncorrelated noise: averages over squares of 2, 4, 8 and 16
+/// pixels a side reduce its variance by their area.
 constexpr double noise_at_scales = (1.0 + 1.0 / 4.0 + 1.0 / 16.0 + 1.0 / 64.0 + 1.0 / 256.0) / 5.0;
 
-/// `seconds`: the CPU time that errors are brought to; none: they are what they are.
+/// Summarizes runs. `seconds`: CPU time that errors are extrapolated to; none: no extrapolation.
 GoalSummary summarize_goal(const std::vector<const BenchRun*>& runs, std::int64_t samples,
                            double noise, std::optional<double> seconds)
 {
@@ -43,7 +43,7 @@ GoalSummary summarize_goal(const std::vector<const BenchRun*>& runs, std::int64_
         return spread(at(runs, samples, value)).median;
     };
     const double raw = median_of([](const Checkpoint& point) { return point.relmse; });
-    // As if errors fell with the inverse of the time.
+    // Errors are taken as proportional to the inverse of the time.
     const auto brought_to_time = [&](double error, const Checkpoint& point) {
         return error * (seconds ? point.cpu_seconds / *seconds : 1.0);
     };
@@ -81,7 +81,7 @@ std::vector<CurvePoint> curve_of(const std::vector<const BenchRun*>& runs, doubl
     return result;
 }
 
-/// Rates over all runs, in time on the wall.
+/// Adds rates over all runs, in wall-clock time.
 void add_rates(const std::vector<const BenchRun*>& runs, IntegratorSummary& summary)
 {
     double seconds = 0.0;

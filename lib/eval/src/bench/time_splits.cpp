@@ -19,9 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::uint64_t split_seed = 3'000'000;  // no run and no reference has it
+constexpr std::uint64_t split_seed = 3'000'000;  // not used by any run or reference
 
-/// Logarithms of times in a byte: 0 for none, then from 2^-28 s in twelfths of an octave.
+/// Encoding of logarithms of times in a byte: 0 for none, then from 2^-28 s in twelfths of an
+/// octave.
 constexpr double octaves_below = 28.0;
 constexpr double steps = 12.0;
 
@@ -77,7 +78,7 @@ TimeSplit parse_split(const ordered_json& json, IntegratorKind integrator, const
     return split;
 }
 
-/// None if stopped.
+/// Measures a time split; returns none if stopped.
 std::optional<TimeSplit> measure(const TrialSetup& setup, const BenchGoals& goals,
                                  const fs::path& file, const BenchProgressMeter& meter)
 {

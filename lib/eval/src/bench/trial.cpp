@@ -12,7 +12,7 @@
 namespace bdpt::eval {
 namespace {
 
-constexpr double min_seconds = 1e-6;  // the step of the clock
+constexpr double min_seconds = 1e-6;  // resolution of the clock
 
 struct TimedRender {
     RenderResult result;
@@ -20,7 +20,7 @@ struct TimedRender {
     double wall_seconds = 0.0;
 };
 
-/// The samples [begin, end); none if stopped.
+/// Renders the samples [begin, end); returns none if stopped.
 std::optional<TimedRender> render_range(const TrialSetup& setup, SampleRange samples,
                                         std::function<void(const Progress&)> on_progress = {})
 {
@@ -41,7 +41,7 @@ std::optional<TimedRender> render_range(const TrialSetup& setup, SampleRange sam
         .result = std::move(result), .cpu_seconds = used, .wall_seconds = passed.count()};
 }
 
-/// What an integrator that chooses has chosen, which takes its time once.
+/// Resolves the choice of an integrator that chooses, whose time counts once.
 TrialSetup with_choice(TrialSetup setup, Checkpoint& point)
 {
     const auto wall = std::chrono::steady_clock::now();
@@ -53,7 +53,7 @@ TrialSetup with_choice(TrialSetup setup, Checkpoint& point)
     return setup;
 }
 
-/// Notes the errors of `image`.
+/// Records the errors of `image`.
 void judge(const Image& image, const Reference& reference, const MetricScale& scale,
            Checkpoint& point)
 {

@@ -13,10 +13,10 @@
 
 namespace bdpt::eval {
 
-/// What renders of a scene have in common.
+/// Parameters that the renders of a scene share.
 struct TrialSetup {
     const BenchScene& scene;
-    RenderOptions options;  ///< with integrator, size and seed; samples do not count
+    RenderOptions options;  ///< including integrator, size and seed; samples are ignored
     const BenchControl& control;
 };
 
@@ -24,17 +24,18 @@ struct TrialSetup {
                                     IntegratorKind integrator, std::uint64_t seed,
                                     const BenchControl& control);
 
-/// Seed of references; no run and no round has it.
+/// Seed of references; not used by any run or round.
 inline constexpr std::uint64_t reference_seed = 1'000'003;
 
-/// Renders that samples are taken to be endless for: more than anybody has time for.
+/// Upper bound of samples: more than anybody has time for.
 inline constexpr std::int64_t max_samples = std::int64_t{1} << 20;
 
-/// How many samples, an even number, take about `seconds` of CPU time: from renders that grow until
-/// one takes a good part of it. What a choice of the integrator takes counts once. None if stopped.
+/// Returns the even number of samples that take about `seconds` of CPU time, measured by renders
+/// that grow until one takes a good part of it. Time for choosing the integrator counts once.
+/// Returns none if stopped.
 [[nodiscard]] std::optional<std::int64_t> samples_in(const TrialSetup& setup, double seconds);
 
-/// A render of `samples` samples from the first on; none if stopped.
+/// Renders `samples` samples from the first on; returns none if stopped.
 [[nodiscard]] std::optional<Film> render_all(const TrialSetup& setup, std::int64_t samples,
                                              const BenchProgressMeter& meter);
 
@@ -44,16 +45,16 @@ struct Trial {
     Image image;
 };
 
-/// Makes it; none if stopped.
+/// Renders a run; returns none if stopped.
 [[nodiscard]] std::optional<Trial> make_trial(const TrialSetup& setup, const BenchGoals& goals,
                                               const Reference& reference,
                                               const BenchProgressMeter& meter);
 
-/// A render of `samples` samples from the first on, looked at at its end; none if stopped.
+/// Renders `samples` samples from the first on and measures the result; returns none if stopped.
 [[nodiscard]] std::optional<Checkpoint> measure_once(const TrialSetup& setup, std::int64_t samples,
                                                      const Reference& reference);
 
-/// Where a run is looked at: at powers of two and at its goals, in order.
+/// Returns the samples at which a run is measured: powers of two and its goals, in order.
 [[nodiscard]] std::vector<std::int64_t> checkpoint_samples(const BenchGoals& goals);
 
 }  // namespace bdpt::eval

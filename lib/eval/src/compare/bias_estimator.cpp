@@ -14,7 +14,7 @@
 namespace bdpt::eval {
 namespace {
 
-constexpr int block_side = 8;  // [pixels] more than the width of any of our pixel filters
+constexpr int block_side = 8;  // [pixels], more than the width of any of our pixel filters
 
 }  // namespace
 
@@ -87,7 +87,7 @@ Bias BiasEstimator::bias_of_one() const
 double BiasEstimator::pixel_standard_error() const
 {
     const double images = static_cast<double>(means_[0].count());
-    // The squares about each pixel's mean are all squares less those of the means.
+    // The sum of squares about each pixel's mean is the sum of all squares less those of the means.
     double squares = squares_;
     for (const std::vector<double>& sums : sums_) {
         for (const double sum : sums) {
@@ -132,7 +132,7 @@ std::vector<TileBias> BiasEstimator::tile_tests() const
     for (std::size_t i = 0; i < result.size(); ++i) {
         result[i].p = adjusted[i];
     }
-    // All have as many degrees of freedom, so the greatest t has the lowest p.
+    // All have equal degrees of freedom, so the greatest t has the lowest p.
     std::stable_sort(result.begin(), result.end(), [](const TileBias& a, const TileBias& b) {
         return std::abs(a.t) > std::abs(b.t);
     });

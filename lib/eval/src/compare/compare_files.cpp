@@ -39,7 +39,7 @@ std::string to_text(const PixelRect& rect)
            "," + std::to_string(rect.y1);
 }
 
-/// An image and where it comes from.
+/// An image and its name.
 struct NamedImage {
     std::string name;
     Image image;

@@ -26,7 +26,7 @@ void check_options(const ComparisonOptions& options)
     }
 }
 
-/// The reference, which can be one.
+/// Returns the reference if it is valid.
 Image checked(const std::string& name, Image reference, const ComparisonOptions& options)
 {
     check_options(options);

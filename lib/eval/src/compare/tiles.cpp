@@ -7,7 +7,7 @@ namespace bdpt::eval {
 
 std::vector<PixelRect> make_tiles(int width, int height, int size)
 {
-    // Beyond the image a tile's size does not matter, but sums could overflow.
+    // Larger tiles are equivalent, but sums could overflow.
     const int side = std::min(size, std::max(width, height));
     std::vector<PixelRect> tiles;
     for (int y = 0; y < height; y += side) {

@@ -12,14 +12,14 @@
 namespace bdpt::eval {
 namespace {
 
-constexpr int longest_side = 160;  // of an image on the sheet [pixels]
+constexpr int longest_side = 160;  // maximum side of an image on the sheet [pixels]
 constexpr int gap = 4;             // between cells [pixels]
 constexpr std::uint8_t background = 40;
 
-/// Measures of all cells.
+/// Dimensions of all cells.
 struct CellShape {
     int shrink_factor;
-    int dot;  // of labels
+    int dot;  // size of a dot of labels
     SheetSize cell;
     [[nodiscard]] int label_height() const { return (glyph_height + 4) * dot; }
 };

@@ -17,13 +17,13 @@ namespace {
 
 constexpr Color8 ground{40, 40, 40};
 
-// The strip below the map, from the top [pixels at zoom 1].
+// Layout of the strip below the map, from the top [pixels at zoom 1].
 constexpr int bar_top = 4;
 constexpr int bar_height = 10;
 constexpr int numbers_top = bar_top + bar_height + 3;
 constexpr int title_top = numbers_top + glyph_height + 3;
 constexpr int strip_height = title_top + glyph_height + 4;
-constexpr int min_width = 160;      // three numbers side by side
+constexpr int min_width = 160;      // room for three numbers side by side
 constexpr int width_at_zoom = 640;  // images this wide have glyphs of twice the size, and so on
 constexpr int margin = 4;
 
@@ -105,7 +105,7 @@ io::DisplayImage false_color(const ErrorMap& map, const FalseColorOptions& optio
     Canvas canvas(width, map.height + strip_height * zoom);
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
-            const double error = map.at(x, y);  // NaN has the first colour
+            const double error = map.at(x, y);  // NaN gets the first colour
             const double part = error > 0.0 ? std::min(error / options.scale, 1.0) : 0.0;
             canvas.set(x, y, colors[static_cast<std::size_t>(std::lround(part * last))]);
         }

@@ -7,8 +7,7 @@ namespace {
 
 const std::map<char, Glyph>& all_glyphs()
 {
-    // Digits, what numbers are written with, and the letters of the metrics' names and of the
-    // labels of sheets.
+    // Digits, signs of numbers, and the letters of the metrics' names and of the labels of sheets.
     static const std::map<char, Glyph> glyphs{
         {'0', {".###.", "#...#", "#..##", "#.#.#", "##..#", "#...#", ".###."}},
         {'1', {"..#..", ".##..", "..#..", "..#..", "..#..", "..#..", ".###."}},

@@ -12,7 +12,7 @@
 namespace bdpt::eval {
 namespace {
 
-/// A curve through L*a*b* that stays inside of sRGB: `t` in [0, 1].
+/// Returns a point on a curve through L*a*b* within the sRGB gamut: `t` in [0, 1].
 Vec3 lab_on_curve(double t)
 {
     constexpr double degrees = std::numbers::pi / 180.0;
@@ -27,7 +27,7 @@ Vec3 lab_on_curve(double t)
 std::vector<Color8> heat_colors()
 {
     constexpr std::size_t steps = 8192;
-    std::vector<double> lengths{0.0};  // of the curve up to each step
+    std::vector<double> lengths{0.0};  // arc length of the curve up to each step
     for (std::size_t i = 1; i <= steps; ++i) {
         const auto at = [](std::size_t k) {
             return lab_on_curve(static_cast<double>(k) / static_cast<double>(steps));

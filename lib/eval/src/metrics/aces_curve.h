@@ -5,8 +5,8 @@
 
 namespace bdpt::eval {
 
-/// The tone curve that HDR-FLIP uses: a fit of ACES [Narkowicz 2016], whose input is scaled by 0.6
-/// [Andersson et al. 2021, sec. 4]. From [0, inf) to [0, 1].
+/// The tone curve of HDR-FLIP: a fit of ACES [Narkowicz 2016], whose input is scaled by 0.6
+/// [Andersson et al. 2021, sec. 4]. Maps [0, inf) to [0, 1].
 struct AcesCurve {
     static constexpr double input_scale = 0.6;
     // (a x^2 + b x) / (c x^2 + d x + e)
@@ -23,7 +23,7 @@ struct AcesCurve {
         return static_cast<float>(std::clamp(shown, 0.0, 1.0));
     }
 
-    /// Where the curve reaches `shown`, which is in (0, 1).
+    /// Returns the input that the curve maps to `shown`, which is in (0, 1).
     [[nodiscard]] static double inverse(double shown)
     {
         const double qa = a - shown * c;

@@ -6,11 +6,11 @@
 
 namespace bdpt::eval {
 
-/// An image to be measured, with what messages call it.
+/// An image to measure, with its name for messages.
 struct NamedInput {
     std::string name;
     const Image& image;
-    /// Where it lies in the whole image [pixels].
+    /// Position in the whole image [pixels].
     int x0 = 0;
     int y0 = 0;
 };
@@ -19,7 +19,7 @@ struct NamedInput {
 /// naming the pixel.
 void check_image(const NamedInput& input);
 
-/// The same, and for an image that does not have the size of its reference.
+/// Throws as the other overload does, and for an image whose size differs from its reference's.
 void check_image(const NamedInput& input, const NamedInput& reference);
 
 }  // namespace bdpt::eval

@@ -5,11 +5,11 @@
 namespace bdpt::eval {
 namespace {
 
-/// The white D65 as [Andersson et al. 2020] have it; CIE XYZ with Y = 1.
+/// White point D65 as in [Andersson et al. 2020]; CIE XYZ with Y = 1.
 constexpr Vec3 white(0.950428545f, 1.0f, 1.088900371f);
 
-/// To CIE XYZ, each component relative to white's: the primaries of sRGB, such that (1, 1, 1) is
-/// white. Derived from their chromaticities (0.64, 0.33), (0.30, 0.60), (0.15, 0.06).
+/// Converts to CIE XYZ relative to the white point, so that (1, 1, 1) is white: the primaries of
+/// sRGB, derived from their chromaticities (0.64, 0.33), (0.30, 0.60), (0.15, 0.06).
 Vec3 relative_xyz_from_linear(Rgb c)
 {
     const Vec3 xyz(0.4123865627f * c.r + 0.3575914911f * c.g + 0.1804504912f * c.b,
@@ -18,7 +18,7 @@ Vec3 relative_xyz_from_linear(Rgb c)
     return xyz / white;
 }
 
-/// The inverse of that.
+/// Inverts `relative_xyz_from_linear`.
 Rgb linear_from_relative_xyz(Vec3 relative)
 {
     const Vec3 c = relative * white;
@@ -27,7 +27,8 @@ Rgb linear_from_relative_xyz(Vec3 relative)
             0.0556394198f * c.x - 0.2040112061f * c.y + 1.0571489770f * c.z};
 }
 
-constexpr float knee = 6.0f / 29.0f;  // of CIE 1976: below its cube the root is a line
+constexpr float knee =
+    6.0f / 29.0f;  // knee of CIE 1976: below its cube the root is replaced by a line
 
 float lab_curve(float t)
 {

@@ -7,7 +7,7 @@
 namespace bdpt::eval {
 namespace {
 
-/// The row with its first and last value repeated `radius` times.
+/// Returns the row with its first and last value repeated `radius` times.
 std::vector<float> padded(std::span<const float> row, std::size_t radius)
 {
     std::vector<float> result;

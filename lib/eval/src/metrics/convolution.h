@@ -6,7 +6,7 @@
 
 namespace bdpt::eval {
 
-/// One number a pixel, row-major.
+/// One value per pixel, row-major.
 struct Plane {
     int width = 0;
     int height = 0;
@@ -28,8 +28,8 @@ private:
 /// Weights of the pixels at distances -radius to radius; an odd number of them.
 using Kernel = std::vector<float>;
 
-/// Correlates rows with `horizontal` and columns with `vertical`. Beyond the border the outermost
-/// pixels go on.
+/// Correlates rows with `horizontal` and columns with `vertical`. The border pixels are replicated
+/// beyond the border.
 [[nodiscard]] Plane convolve(const Plane& plane, const Kernel& horizontal, const Kernel& vertical);
 
 }  // namespace bdpt::eval

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A sum of two Gaussians: what the eye's contrast sensitivity does to one channel, in space
-/// [eq. 2 and table 1]. b in squared degrees.
+/// Contrast sensitivity of the eye in one channel: a sum of two Gaussians in space [eq. 2 and table
+/// 1]. b in squared degrees.
 struct Sensitivity {
     double a1, b1, a2, b2;
 };
@@ -32,7 +32,7 @@ constexpr double widest_deviation = 0.0450158158079;  // [degrees] sqrt(0.04 / (
 constexpr double feature_size = 0.082;  // [degrees] w of an edge or a point [sec. 4.2]
 
 constexpr double q_color = 0.7;  // compresses large colour differences [sec. 4.1.3]
-constexpr double p_color = 0.4;  // the part of the greatest difference that maps to p_shown
+constexpr double p_color = 0.4;  // fraction of the greatest difference that maps to p_shown
 constexpr double p_shown = 0.95;
 constexpr double q_feature = 0.5;
 
@@ -41,7 +41,7 @@ int radius_for(double deviation_in_pixels)
     return static_cast<int>(std::ceil(3.0 * deviation_in_pixels));
 }
 
-/// `weight(x)` for x from -radius to radius.
+/// Returns `weight(x)` for x from -radius to radius.
 template <typename Weight>
 std::vector<double> sample(int radius, Weight weight)
 {
@@ -61,7 +61,7 @@ Kernel scaled(const std::vector<double>& weights, double factor)
     return result;
 }
 
-/// A Gaussian of one channel's sensitivity, and its share of the whole.
+/// A Gaussian of one channel's sensitivity, and its share of the total.
 struct Blur {
     Kernel kernel;  // sums to 1
     double share;
@@ -81,7 +81,7 @@ std::vector<Blur> make_blurs(const Sensitivity& s, double pixels_per_degree)
             return std::exp(-pi * pi * degrees * degrees / b);
         });
         const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-        // In two dimensions a Gaussian is the product of two, so it weighs the square of its sum.
+        // A 2D Gaussian is the product of two 1D ones, so its weight has the square of their sum.
         const double share = a * std::sqrt(pi / b) * sum * sum;
         blurs.push_back({scaled(weights, 1.0 / sum), share});
         total += share;
@@ -104,7 +104,7 @@ Plane blurred(const Plane& plane, const std::vector<Blur>& blurs)
     return result;
 }
 
-/// Makes the positive weights sum to 1 and the negative ones to -1.
+/// Scales the positive weights to a sum of 1 and the negative ones to -1.
 Kernel balanced(std::vector<double> weights)
 {
     double positive = 0.0;
@@ -140,7 +140,7 @@ Detectors make_detectors(double pixels_per_degree)
             }))};
 }
 
-/// Length of the vector of the answers along both axes.
+/// Returns the length of the vector of the responses along both axes.
 Plane detect(const Plane& luminance, const Kernel& detector, const Kernel& gaussian)
 {
     Plane result = convolve(luminance, detector, gaussian);
@@ -151,20 +151,20 @@ Plane detect(const Plane& luminance, const Kernel& detector, const Kernel& gauss
     return result;
 }
 
-/// L*a*b* with less colour in the dark [Hunt 1952; sec. 4.1.2].
+/// Converts to L*a*b*, with less colour in the dark [Hunt 1952; sec. 4.1.2].
 Vec3 hunt_lab(Rgb linear)
 {
     const Vec3 lab = lab_from_linear(linear);
     return {lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z};
 }
 
-/// HyAB [Abasi et al. 2020]: city blocks between lightness and colour.
+/// Returns the HyAB distance [Abasi et al. 2020]: city-block distance between lightness and colour.
 double hyab(Vec3 a, Vec3 b)
 {
     return static_cast<double>(std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z));
 }
 
-/// To [0, 1]: most of it for the smaller differences [sec. 4.1.3].
+/// Maps a difference to [0, 1]: most of the range for the smaller differences [sec. 4.1.3].
 double redistributed(double difference, double greatest)
 {
     const double knee = p_color * greatest;
@@ -172,9 +172,9 @@ double redistributed(double difference, double greatest)
                              : p_shown + (difference - knee) / (greatest - knee) * (1.0 - p_shown);
 }
 
-/// What an image is to the eye: its colours after blurring, and its features.
+/// Perception of an image: its colours after blurring, and its features.
 struct Percept {
-    std::vector<Vec3> colors;  // hunt_lab
+    std::vector<Vec3> colors;  // by hunt_lab
     Plane edges;
     Plane points;
 };
@@ -238,10 +238,10 @@ double feature_difference(const Percept& a, const Percept& b, std::size_t i)
     return std::pow(std::max(edges, points) / std::numbers::sqrt2, q_feature);
 }
 
-/// [eq. 8]: features make a colour difference count more.
+/// Combines colour and feature differences [eq. 8]: features amplify a colour difference.
 ErrorMap difference(const Percept& a, const Percept& b, int width, int height)
 {
-    // The two colours of sRGB that are farthest apart [sec. 4.1.3].
+    // The two colours of sRGB with the greatest distance [sec. 4.1.3].
     const double greatest =
         std::pow(hyab(hunt_lab({0.0f, 1.0f, 0.0f}), hunt_lab({0.0f, 0.0f, 1.0f})), q_color);
     ErrorMap map{width, height, std::vector<double>(a.colors.size())};

@@ -11,8 +11,8 @@ namespace bdpt::eval {
 
 FlipExposures flip_exposures(const Image& reference)
 {
-    constexpr double shown = 0.85;     // of the brightest and of the median luminance
-    constexpr double least = 0x1p-23;  // of the median: below is nothing that a screen can show
+    constexpr double shown = 0.85;     // display value of the brightest and of the median luminance
+    constexpr double least = 0x1p-23;  // minimum median: a screen shows nothing darker
     std::vector<double> luminances;
     luminances.reserve(reference.pixels.size());
     for (const Rgb& pixel : reference.pixels) {

@@ -14,7 +14,7 @@
 namespace bdpt::eval {
 namespace {
 
-/// The mean over the channels of `term(x, r)`, for each pixel.
+/// Returns the mean over the channels of `term(x, r)`, for each pixel.
 template <typename Term>
 ErrorMap channel_means(const Image& image, const Image& reference, Term term)
 {
@@ -38,7 +38,7 @@ ErrorMap relative_squares(const Image& image, const Image& reference, const Metr
     });
 }
 
-/// For each pixel the mean over all scales of the square that it lies in.
+/// Returns for each pixel the mean over all scales of the square that contains it.
 ErrorMap relative_squares_at_scales(const Image& image, const Image& reference,
                                     const MetricScale& scale)
 {
@@ -61,7 +61,7 @@ ErrorMap relative_squares_at_scales(const Image& image, const Image& reference,
     return map;
 }
 
-/// As `bdpt render` shows it in a PNG file, in linear light.
+/// Returns the image as `bdpt render` shows it in a PNG file, in linear light.
 Image on_screen(const Image& image, float exposure)
 {
     Image result = image;

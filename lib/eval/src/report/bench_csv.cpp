@@ -14,7 +14,7 @@ constexpr const char* columns =
     "shade_share,"
     "connect_share,weigh_share,splat_share,threads,cpu,libraries,version\n";
 
-/// A field of a CSV file [RFC 4180].
+/// Formats a field of a CSV file [RFC 4180].
 std::string field(const std::string& text)
 {
     std::string result = "\"";
@@ -31,7 +31,7 @@ std::string number(double value)
     return text;
 }
 
-/// How the time of its samples is split, a field for each phase: empty if that is not known.
+/// Returns the time split of an integrator, one field per phase: empty if it is not known.
 std::string share_fields(const SceneResult& scene, IntegratorKind integrator)
 {
     const auto split =

@@ -26,11 +26,12 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Logarithms of variances in a byte: 0 for nothing, then 2^-24 to 2^8 in eighths of an octave.
+/// Encoding of logarithms of variances in a byte: 0 for zero, then 2^-24 to 2^8 in eighths of an
+/// octave.
 constexpr double variance_octaves_below = 24.0;
 constexpr double variance_steps = 8.0;
 
-/// The images of an integrator at equal time, one for each seed that it has runs with.
+/// Reads the images of an integrator at equal time, one per seed of its runs.
 std::vector<Image> read_images(const SceneResult& scene, IntegratorKind kind,
                                const fs::path& folder)
 {
@@ -43,7 +44,7 @@ std::vector<Image> read_images(const SceneResult& scene, IntegratorKind kind,
     return result;
 }
 
-/// Variance between images over r^2 + e: mean of the channels, as bytes of logarithms.
+/// Returns the variance between images over r^2 + e: mean of the channels, as bytes of logarithms.
 std::vector<std::uint8_t> variance_map(const std::vector<Image>& images, const Image& reference,
                                        double epsilon)
 {
@@ -96,7 +97,7 @@ ordered_json image_list_json(const SceneResult& scene, const fs::path& folder,
             {"variance", std::move(variances)}};
 }
 
-/// Maps of the time that pixels take.
+/// Returns the maps of time per pixel.
 ordered_json times_json(const SceneResult& scene, const BenchFiles& files)
 {
     ordered_json maps = ordered_json::object();

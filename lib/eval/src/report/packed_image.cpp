@@ -38,7 +38,8 @@ std::string base64(std::span<const Bytef> bytes)
 std::uint32_t pack_rgb9e5(Rgb rgb)
 {
     const auto clamped = [](float value) {
-        return value > 0.0f ? std::min(value, max_value) : 0.0f;  // NaN is not above 0
+        return value > 0.0f ? std::min(value, max_value)
+                            : 0.0f;  // NaN is not above 0, so it becomes 0
     };
     const Rgb color(clamped(rgb.r), clamped(rgb.g), clamped(rgb.b));
     const float greatest = std::max({color.r, color.g, color.b});
@@ -52,7 +53,7 @@ std::uint32_t pack_rgb9e5(Rgb rgb)
             std::floor(std::ldexp(value, mantissa_bits - exponent) + 0.5f));
     };
     if (mantissa(greatest) == 1u << mantissa_bits) {
-        ++exponent;  // it was rounded up to the next power of two
+        ++exponent;  // rounded up to the next power of two
     }
     const auto biased =
         static_cast<std::uint32_t>(std::min(exponent + exponent_bias, max_exponent));

@@ -4,7 +4,7 @@
 
 namespace bdpt::eval {
 
-/// The files of lib/eval/src/report/page/, as they were when the library was built.
+/// Contents of the files of lib/eval/src/report/page/ at build time.
 [[nodiscard]] std::string_view page_template();
 [[nodiscard]] std::string_view page_style();
 [[nodiscard]] std::string_view page_script();

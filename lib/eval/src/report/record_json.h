@@ -7,10 +7,10 @@
 
 namespace bdpt::eval {
 
-/// What is the same for all scenes.
+/// Returns the part of the report that is common to all scenes.
 [[nodiscard]] nlohmann::ordered_json head_json(const BenchRecord& record);
 
-/// A scene without its runs.
+/// Returns a scene without its runs.
 [[nodiscard]] nlohmann::ordered_json scene_json(const SceneResult& scene, double seconds);
 
 }  // namespace bdpt::eval

@@ -7,8 +7,8 @@
 namespace bdpt::eval {
 namespace {
 
-/// Continued fraction of the incomplete beta function [DLMF 8.17.22], by Lentz's method. Converges
-/// fast for x < (a + 1) / (a + b + 2).
+/// Evaluates the continued fraction of the incomplete beta function [DLMF 8.17.22], by Lentz's
+/// method. Converges fast for x < (a + 1) / (a + b + 2).
 double beta_fraction(double x, double a, double b)
 {
     constexpr double tiny = 1e-300;
@@ -34,7 +34,8 @@ double beta_fraction(double x, double a, double b)
     return result;
 }
 
-/// I_x(a, b), the regularised incomplete beta function; `y` is 1 - x without its rounding error.
+/// Returns I_x(a, b), the regularised incomplete beta function; `y` is 1 - x without its rounding
+/// error.
 double incomplete_beta(double x, double y, double a, double b)
 {
     if (x <= 0.0) {

@@ -11,8 +11,8 @@ double squared_error(const Moments& moments)
     return moments.variance() / static_cast<double>(moments.count());
 }
 
-/// Samples of an estimate: how many and which there were, and what `expected_samples` of them are
-/// expected to be.
+/// Second moments of the samples of an estimate: as observed, and as expected for
+/// `expected_samples` samples.
 struct SampleMoments {
     double samples;
     const SecondMoment& seen;
@@ -20,8 +20,8 @@ struct SampleMoments {
     const SecondMoment& expected;
 };
 
-/// What the spread lacks of the variance of a mean: that of rare samples, one of which moves the
-/// mean too much, as far as fewer of them were seen than expected.
+/// Returns the part of a mean's variance that its spread lacks: that of rare samples, a single one
+/// of which moves the mean too much, as far as fewer occurred than expected.
 double unseen_variance(const SampleMoments& of, double sample_variance)
 {
     const double size = rare_fraction * std::sqrt(sample_variance) * of.samples;
@@ -46,7 +46,8 @@ const SecondMoment& second_moment(const LengthSums& sums, IntegratorKind integra
     }
 }
 
-/// `found` has both sides of the same samples: evidence of a strategy, or of merging.
+/// Compares both sides of `found`, which are from the same samples: evidence of a strategy, or of
+/// merging.
 template <typename PairedEvidence>
 MeanComparison compare_paired(const PairedEvidence& found, double samples)
 {

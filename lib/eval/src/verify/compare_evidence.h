@@ -7,15 +7,15 @@
 
 namespace bdpt::eval {
 
-/// What a strategy found against what is expected of it, in a cell.
+/// Compares the tested estimate of a strategy with the expected one, in a cell.
 [[nodiscard]] MeanComparison compare_strategy(const Evidence& evidence, std::size_t cell,
                                               std::size_t index);
 
-/// One of `other_integrators` against the paths of bdpt that it can make, in a cell.
+/// Compares one of `other_integrators` with the paths of bdpt that it can sample, in a cell.
 [[nodiscard]] MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell,
                                                 int edges, std::size_t integrator);
 
-/// What merging found against what is expected of it, in the whole image.
+/// Compares the tested estimate of merging with the expected one, in the whole image.
 [[nodiscard]] MeanComparison compare_merges(const Evidence& evidence, int edges);
 
 }  // namespace bdpt::eval

@@ -49,7 +49,7 @@ double critical_z(double false_alarm, std::size_t tests)
 
 double detectable_z(double critical, double freedom)
 {
-    constexpr double ninety_percent = 1.2816;  // of a normal distribution
+    constexpr double ninety_percent = 1.2816;  // quantile of a normal distribution
     return critical + ninety_percent * std::sqrt(1.0 + critical * critical / (2.0 * freedom));
 }
 

@@ -7,39 +7,40 @@
 
 namespace bdpt::eval {
 
-/// Means that differ by less than this fraction of the expected one are not told apart: rounding of
-/// single floats has an influence, too.
+/// Means that differ by less than this fraction of the expected one count as equal, as rounding to
+/// single precision contributes, too.
 constexpr double indifference = 1e-4;
 
-/// What is known about the difference of two means.
+/// Statistics of the difference of two means.
 struct Difference {
     double found = 0.0;
     double expected = 0.0;
-    /// Variance of the difference, as the spread of the batches says.
+    /// Variance of the difference, from the spread of the batches.
     double sample_variance = 0.0;
-    /// What samples add to that which are so bright that they have not turned up yet as often as
-    /// all strategies together expect.
+    /// Additional variance of samples so bright that they have not occurred yet as often as all
+    /// strategies together predict.
     double rare_variance = 0.0;
     double freedom = 1.0;  ///< degrees of freedom of `sample_variance`
 };
 
 /// Samples are rare if a single one moves the mean by more than this fraction of its standard
-/// error: the spread of 400 equal ones is about as sure as the test needs it to be.
+/// error: the spread of 400 equal samples is about as accurate as the test needs.
 constexpr double rare_fraction = 0.05;
 
-/// Welch's t-test [Welch 1947]. p is that of Student's t, or the bound 2 exp(-z^2 / 2) if that is
-/// greater; means of numbers that are not negative keep it below their expectation whatever their
-/// distribution [Maurer 2003]. No correction for other tests yet.
+/// Performs Welch's t-test [Welch 1947]. p is that of Student's t, or the bound 2 exp(-z^2 / 2) if
+/// that is greater; means of non-negative numbers obey this bound below their expectation for every
+/// distribution [Maurer 2003]. Not yet corrected for other tests.
 [[nodiscard]] MeanComparison compare_means(const Difference& difference);
 
-/// Degrees of freedom of the difference of two independent means [Welch 1947].
+/// Returns the degrees of freedom of the difference of two independent means [Welch 1947].
 [[nodiscard]] double welch_freedom(const Moments& a, const Moments& b);
 
-/// z at which a test of a family of `tests` fails at the latest, with `false_alarm` for all of it.
+/// Returns the z at which a test of a family of `tests` fails at the latest, with `false_alarm` for
+/// the whole family.
 [[nodiscard]] double critical_z(double false_alarm, std::size_t tests);
 
-/// The difference in standard errors beyond which 90 % of all results are beyond the critical z.
-/// The errors are estimates with so many degrees of freedom, and vary by a fraction (2
+/// Returns the difference in standard errors at which 90 % of all results are beyond the critical
+/// z. The errors are estimates with `freedom` degrees of freedom, and vary by a fraction (2
 /// freedom)^-1/2.
 [[nodiscard]] double detectable_z(double critical, double freedom);
 

@@ -16,18 +16,18 @@
 
 namespace bdpt::eval {
 
-/// Those that are held against bdpt, vcm only if it is asked for.
+/// Integrators that are compared with bdpt, vcm only if requested.
 constexpr std::array<IntegratorKind, 5> other_integrators{IntegratorKind::pt, IntegratorKind::nee,
                                                           IntegratorKind::mis, IntegratorKind::lt,
                                                           IntegratorKind::vcm};
 
-/// How many of them, from the first.
+/// Returns how many of `other_integrators` are tested, counted from the first.
 [[nodiscard]] inline std::size_t count_of_others(const VerifyOptions& options)
 {
     return options.merge_radius ? other_integrators.size() : other_integrators.size() - 1;
 }
 
-/// Samples a pixel that a batch takes of paths of this length.
+/// Returns the samples per pixel that a batch takes of paths of this length.
 [[nodiscard]] constexpr int samples_of(IntegratorKind integrator, int edges)
 {
     return integrator == IntegratorKind::bdpt               ? bdpt_samples
@@ -36,12 +36,12 @@ constexpr std::array<IntegratorKind, 5> other_integrators{IntegratorKind::pt, In
                                                             : other_samples;
 }
 
-/// What one integrator said about itself in a batch.
+/// Self-checks of one integrator's image in a batch.
 struct ImageCheck {
     FilmDefects defects;
-    double lost = 0.0;  ///< as `ImageFinding::lost`
+    double lost = 0.0;  ///< see `ImageFinding::lost`
 
-    /// Adds what a later render said.
+    /// Adds the checks of a later render.
     ImageCheck& operator+=(const ImageCheck& later);
 };
 
@@ -52,13 +52,13 @@ using PerImage = std::array<T, 1 + other_integrators.size()>;
 struct Batch {
     PathSums bdpt;
     std::vector<RadianceSums> others;   ///< in the order of `other_integrators`
-    PerImage<ImageCheck> images;        ///< bdpt, then in that order
+    PerImage<ImageCheck> images;        ///< bdpt, then `other_integrators` in their order
     std::optional<MergeSums> merges{};  ///< if vcm is among the others
-    /// The same samples by `channel_measures`, but for `images`. May be left out.
+    /// The same samples by `channel_measures`, without `images`. Optional.
     std::vector<Batch> channels{};
 };
 
-/// What many batches say about a strategy in a tile or in the whole image.
+/// Statistics over batches of a strategy in a tile or in the whole image.
 struct StrategyEvidence {
     Moments difference;  ///< tested - expected, a mean over samples and pixels
     StrategySums sums;
@@ -69,20 +69,21 @@ struct LengthEvidence {
     Moments from_camera;
     Moments from_light;
     std::array<Moments, other_integrators.size()> others;
-    std::array<SecondMoment, other_integrators.size()> seen;  ///< of the samples of `others`
+    std::array<SecondMoment, other_integrators.size()>
+        seen;  ///< second moments of the samples of `others`
     LengthSums sums;
 };
 
-/// What many batches say about merging.
+/// Statistics over batches of merging.
 struct MergeEvidence {
     Moments difference;  ///< tested - expected, a mean over samples and pixels
     MergeSumsOfLength sums;
 };
 
-/// All batches together, by cell: the tiles, then the whole image.
+/// Statistics over all batches, by cell: the tiles, then the whole image.
 class Evidence {
 public:
-    /// Batches have sums of the first `others` of `other_integrators`.
+    /// Takes batches with sums of the first `others` of `other_integrators`.
     Evidence(const TileGrid& grid, int max_depth, std::size_t others);
 
     void add(const Batch& batch);
@@ -101,35 +102,36 @@ public:
         return lengths_[cell * static_cast<std::size_t>(row_.max_depth()) +
                         static_cast<std::size_t>(edges - 1)];
     }
-    /// Sum over all batches of `PathSums::expected_from`.
+    /// Returns the sum over all batches of `PathSums::expected_from`.
     [[nodiscard]] double expected_from(int edges, std::size_t u, std::size_t finder) const
     {
         return finders_[row_.pair(edges, u, finder)];
     }
-    /// Of the whole image; only if vcm is among the others.
+    /// Returns the evidence on merging in the whole image; only if vcm is tested.
     [[nodiscard]] const MergeEvidence& merges(int edges) const
     {
         return merges_[static_cast<std::size_t>(edges - 1)];
     }
     [[nodiscard]] bool knows_merges() const { return !merges_.empty(); }
-    /// By `channel_measures`, of the whole image; empty if the batches had none.
+    /// Returns the evidence by `channel_measures`, for the whole image; empty if the batches had
+    /// none.
     [[nodiscard]] const std::vector<Evidence>& channels() const { return channels_; }
-    /// Over all lengths: bdpt, then `other_integrators`.
+    /// Returns statistics over all path lengths: bdpt, then `other_integrators`.
     [[nodiscard]] const PerImage<Moments>& images() const { return images_; }
     [[nodiscard]] const PerImage<ImageCheck>& checks() const { return checks_; }
     [[nodiscard]] const WeightFinding& weights() const { return weights_; }
-    /// Pixels of a cell.
+    /// Returns the number of pixels of a cell.
     [[nodiscard]] double pixels(std::size_t cell) const
     {
         return cell == whole() ? grid_.pixels() : grid_.pixels(cell);
     }
 
-    /// Samples of an integrator in a cell, for paths of that length.
+    /// Returns the samples of an integrator in a cell, for paths of that length.
     [[nodiscard]] double samples_in(std::size_t cell, IntegratorKind kind, int edges) const
     {
         return samples_of(kind, edges) * pixels(cell) * static_cast<double>(batches_);
     }
-    /// Samples of bdpt in a cell.
+    /// Returns the samples of bdpt in a cell.
     [[nodiscard]] double bdpt_samples_in(std::size_t cell) const
     {
         return bdpt_samples * pixels(cell) * static_cast<double>(batches_);

@@ -8,10 +8,11 @@
 
 namespace bdpt::eval {
 
-/// The number that stands for a colour in a comparison of means.
+/// The scalar that represents a colour in a comparison of means.
 enum class Measure : std::uint8_t { red, green, blue, mean };
 
-/// A mistake may move light from one channel to another and leave the mean of all as it is.
+/// Per-channel measures: a mistake may move light from one channel to another and preserve the
+/// mean.
 constexpr std::array<Measure, 3> channel_measures{Measure::red, Measure::green, Measure::blue};
 
 [[nodiscard]] inline double measured(Measure measure, Rgb c)
@@ -22,7 +23,7 @@ constexpr std::array<Measure, 3> channel_measures{Measure::red, Measure::green, 
                : static_cast<double>(c[static_cast<int>(measure)]);
 }
 
-/// Edges of a path; where it was merged, two vertices are one.
+/// Returns the edges of a path; the two vertices of a merge count as one.
 [[nodiscard]] inline int edges_of(const PathContribution& path)
 {
     return path.strategy.s + path.strategy.t - (path.merged ? 2 : 1);

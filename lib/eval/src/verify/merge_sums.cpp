@@ -8,8 +8,8 @@
 namespace bdpt::eval {
 namespace {
 
-/// The share of all merges of the path. Sums of floats are off by some 1e-7: smaller shares than
-/// 1e-4 count as none, for whoever found the path.
+/// Returns the share of all merges of the path. Sums of floats are off by some 1e-7: shares below
+/// 1e-4 count as 0, whichever technique found the path.
 double share_of_merges(const PathContribution& path)
 {
     constexpr double min_share = 1e-4;
@@ -37,7 +37,7 @@ MergeSumsOfLength& MergeSumsOfLength::operator+=(const MergeSumsOfLength& other)
 void MergeSums::add(const PathContribution& path)
 {
     const int edges = edges_of(path);
-    // By the balance heuristic a weighted find is f over the sum of all densities.
+    // By the balance heuristic a weighted contribution is f over the sum of all densities.
     const double weighted = static_cast<double>(path.weight) * measured(measure_, path.unweighted);
     if (edges > static_cast<int>(lengths_.size()) || !std::isfinite(weighted)) {
         return;
@@ -51,7 +51,7 @@ void MergeSums::add(const PathContribution& path)
     const double g = std::min(1.0, share / full_share);
     const double sample = g * weighted / share;  // f over the sum of the densities of merges
     sums.expected += g * weighted;
-    // Of all merges of so long a path, this one is thinned most by roulette.
+    // Of all merges of a path of this length, roulette thins this one most.
     const double most = roulette_.max_weight({.s = edges, .t = 2});
     sums.second_moment.add(most * sample, most * weighted * g * sample);
     if (path.merged) {

@@ -17,15 +17,15 @@ struct Technique {
     double max_weight = 1.0;  // by roulette
 };
 
-/// The samples of two strategies, weighed by the power heuristic, along a path of which all
-/// strategies together make `all`; none without a share.
+/// Adds the second moment of the samples of two strategies, weighted by the power heuristic, along
+/// a path for which all strategies together estimate `all`; nothing without a share.
 void add_pair(SecondMoment& moment, double weighted, double all, Technique a, Technique b)
 {
     const double greater = std::max(a.share, b.share);
     if (!(greater > 0.0)) {
         return;
     }
-    // Divided by the greater first: squares of small shares would be lost.
+    // Divided by the greater one first, as squares of small shares would underflow.
     const double x = a.share / greater;
     const double y = b.share / greater;
     const double sum = x * x + y * y;
@@ -88,7 +88,7 @@ PathSums::PathSums(const TileGrid& grid, int max_depth, SampleCounts counts, Mea
 
 void PathSums::check_weight(const PathContribution& path, double definition)
 {
-    constexpr double tolerance = 1e-3;  // far above what rounding does
+    constexpr double tolerance = 1e-3;  // far above rounding errors
     const double difference = std::abs(static_cast<double>(path.weight) - definition);
     ++weights_.paths;
     if (!(difference <= tolerance)) {
@@ -110,7 +110,8 @@ void PathSums::add(const PathContribution& path)
     }
     const auto own = static_cast<std::size_t>(path.strategy.s);
     const double own_share = share_of(path, own);
-    // A strategy that found what it claims that it cannot find has no share: its weight is wrong.
+    // A strategy that finds a path which it claims it cannot find has no share: its weight is
+    // wrong.
     check_weight(path, squares > 0.0 ? square(own_share) / squares : 0.0);
     if (!(squares > 0.0)) {
         return;
@@ -161,8 +162,8 @@ void PathSums::add_to_strategies(const PathContribution& path, const PathValue& 
         sums.expected += g * weighted;
         finders_[row_.pair(edges, u, own)] += g * weighted;
         sums.reach += weighted;
-        // Found by u, the path adds g (1 - w_u) / b_u to the difference; found by v, it takes g w_v
-        // / b_v from it.
+        // If u finds the path, it adds g (1 - w_u) / b_u to the difference; if v does, it subtracts
+        // g w_v / b_v.
         const double by_own = (1.0 - weight) * g * all / share;
         const double most = max_weight(edges, u);
         sums.second_moment.add(most * by_own, weighted * most * by_own * (1.0 - weight) * g);
@@ -185,9 +186,9 @@ void PathSums::add_to_length(LengthSums& sums, const PathContribution& path,
         return Technique{.share = share_of(path, s), .max_weight = max_weight(edges, s)};
     };
     const Technique hit = technique(0);
-    // Of paths of one edge, s = 1 goes through the lens: no path tracer has that.
+    // For paths of one edge, s = 1 passes through the lens, which no path tracer samples.
     const Technique next_event = n > 2 ? technique(1) : Technique{};
-    // Light tracing has one light path for each pixel, whatever bdpt has.
+    // Light tracing has one light path per pixel, whatever bdpt has.
     const auto from_one = [&](Technique of_all) {
         return Technique{.share = of_all.share / counts_.light_paths,
                          .max_weight = of_all.max_weight};

@@ -13,14 +13,14 @@
 
 namespace bdpt::eval {
 
-/// Where strategies of paths of 1 to `max_depth` edges stand in a row: by length, then by s.
+/// Layout of the strategies of paths of 1 to `max_depth` edges in an array: by length, then by s.
 class StrategyRow {
 public:
     explicit StrategyRow(int max_depth) : max_depth_(max_depth) {}
 
     [[nodiscard]] int max_depth() const { return max_depth_; }
     [[nodiscard]] std::size_t size() const { return begin(max_depth_ + 1); }
-    /// The first of paths of `edges` edges.
+    /// Returns the index of the first strategy of paths of `edges` edges.
     [[nodiscard]] std::size_t begin(int edges) const
     {
         return static_cast<std::size_t>(edges * (edges + 3) / 2 - 2);
@@ -30,7 +30,8 @@ public:
         return begin(strategy.s + strategy.t - 1) + static_cast<std::size_t>(strategy.s);
     }
 
-    /// Pairs of strategies of the same length stand in a row as well.
+    /// Returns the number of pairs of strategies of the same length, which have an array layout,
+    /// too.
     [[nodiscard]] std::size_t pairs() const { return pair(max_depth_ + 1, 0, 0); }
     [[nodiscard]] std::size_t pair(int edges, std::size_t u, std::size_t v) const
     {
@@ -47,30 +48,31 @@ private:
     int max_depth_;
 };
 
-/// The share of a strategy by the balance heuristic below which its samples count less in the test
-/// of the strategy: so each counts at most for the inverse of it times what all strategies together
-/// would make of the path.
+/// Balance-heuristic share of a strategy below which its samples are scaled down in the test of the
+/// strategy. So each counts at most 1 / `full_share` times the estimate of all strategies together
+/// for the path.
 constexpr double full_share = 1.0 / 16.0;
 
-/// What the paths of bdpt say about one strategy u in one tile. All numbers are sums of the
-/// measure that is compared [nit]. Tested are the paths in which u has a share, each multiplied by
-/// g = min(1, share / `full_share`); g is a function of the path, so whoever finds it takes the
-/// same. Expected second moments hold for the greatest weight that roulette may give.
+/// Sums over the paths of bdpt that test one strategy u in one tile, all of the compared measure
+/// [nit]. The test covers paths in which u has a share, each multiplied by g = min(1, share /
+/// `full_share`); g is a function of the path, so it does not depend on the strategy that found it.
+/// Expected second moments hold for the greatest weight that roulette may give.
 struct StrategySums {
-    double tested = 0.0;         ///< g times the unweighted paths that u found
-    double expected = 0.0;       ///< g times the weighted paths that anyone found
-    SecondMoment second_moment;  ///< of a sample's `tested - expected`, estimated from all paths
-    SecondMoment seen;           ///< the same of the paths as they were found
-    double reach = 0.0;          ///< weighted paths that u can make, found by anyone
-    double weighted = 0.0;       ///< paths that u found
+    double tested = 0.0;    ///< g times the unweighted paths that u found
+    double expected = 0.0;  ///< g times the weighted paths of all strategies
+    SecondMoment
+        second_moment;      ///< moment of a sample's `tested - expected`, estimated from all paths
+    SecondMoment seen;      ///< moment of a sample's `tested - expected`, from the paths as found
+    double reach = 0.0;     ///< weighted paths that u can sample, found by any strategy
+    double weighted = 0.0;  ///< paths that u found
     double unweighted = 0.0;
-    double solitary = 0.0;   ///< weighted paths that u alone can make
-    double unchecked = 0.0;  ///< of these, those that no integrator makes from the camera
+    double solitary = 0.0;   ///< weighted paths that u alone can sample
+    double unchecked = 0.0;  ///< part of `solitary` that no integrator samples from the camera
 
     StrategySums& operator+=(const StrategySums& other);
 };
 
-/// Weighted paths that an integrator can make, and the second moment of a sample of them.
+/// Weighted paths that an integrator can sample, and the second moment of a sample of them.
 struct ReachSums {
     double radiance = 0.0;
     SecondMoment second_moment;  ///< estimated from all paths
@@ -78,12 +80,12 @@ struct ReachSums {
     ReachSums& operator+=(const ReachSums& other);
 };
 
-/// What the paths of bdpt of one length say about the other integrators in one tile.
+/// Sums over the paths of bdpt of one length that test the other integrators in one tile.
 struct LengthSums {
-    ReachSums all;          ///< vcm can make them
-    ReachSums from_camera;  ///< pt, nee and mis can make them
-    ReachSums from_light;   ///< lt can make them
-    /// Of a sample of the integrators themselves, estimated from the paths of bdpt.
+    ReachSums all;          ///< vcm can sample them
+    ReachSums from_camera;  ///< pt, nee and mis can sample them
+    ReachSums from_light;   ///< lt can sample them
+    /// Second moment of a sample of each integrator itself, estimated from the paths of bdpt.
     SecondMoment pt;
     SecondMoment nee;
     SecondMoment mis;
@@ -92,20 +94,20 @@ struct LengthSums {
     LengthSums& operator+=(const LengthSums& other);
 };
 
-/// How many samples strategies of bdpt take for each camera path.
+/// Numbers of samples that strategies of bdpt take per camera path.
 struct SampleCounts {
     double light_paths = 1.0;
-    int light_samples = 1;  ///< at each of its vertices
+    int light_samples = 1;  ///< at each vertex of the camera path
 };
 
-/// Sums over the paths that bdpt found in some samples. Not for several threads at once.
+/// Sums over the paths that bdpt found in some samples. Not thread-safe.
 class PathSums {
 public:
     PathSums(const TileGrid& grid, int max_depth, SampleCounts counts = {},
              Measure measure = Measure::mean);
 
-    /// Those with more than `max_depth` edges or values that are not finite are ignored. Knows its
-    /// shares; weighed by the power heuristic.
+    /// Adds a path, which has its shares and is weighted by the power heuristic. Paths with more
+    /// than `max_depth` edges and values that are not finite are ignored.
     void add(const PathContribution& path);
 
     [[nodiscard]] const TileGrid& grid() const { return grid_; }
@@ -118,8 +120,9 @@ public:
         return lengths_[tile * static_cast<std::size_t>(row_.max_depth()) +
                         static_cast<std::size_t>(edges - 1)];
     }
-    /// In the whole image, for paths of `edges` edges: how much the estimate `expected` of the
-    /// strategy with `u` light vertices owes to paths that the one with `finder` has found.
+    /// Returns, for the whole image and paths of `edges` edges, the part of the estimate `expected`
+    /// of the strategy with `u` light vertices that comes from paths found by the strategy with
+    /// `finder` light vertices.
     [[nodiscard]] double expected_from(int edges, std::size_t u, std::size_t finder) const
     {
         return finders_[row_.pair(edges, u, finder)];
@@ -128,21 +131,21 @@ public:
 
 private:
     void check_weight(const PathContribution& path, double definition);
-    /// What a path is to any strategy, by the balance and the power heuristic.
+    /// Values of a path for any strategy, by the balance and the power heuristic.
     struct PathValue {
-        double weighted;  // as it was found
-        double all;       // by the balance heuristic, the same whoever finds it
+        double weighted;  // MIS-weighted value, as found
+        double all;       // value by the balance heuristic, whichever strategy found it
         double squares;   // sum of squared shares
-        double moment;    // second moment of a sample of bdpt along this path, at most
+        double moment;    // upper bound of the second moment of a sample of bdpt along this path
         double largest;   // greatest such sample
     };
     void add_to_strategies(const PathContribution& path, const PathValue& measure,
                            std::size_t first);
     void add_to_length(LengthSums& sums, const PathContribution& path,
                        const PathValue& measure) const;
-    /// By roulette, of a path of so many edges that the strategy with `s` light vertices finds.
-    /// Light samples of one vertex depend on each other, so they count as one that is as great as
-    /// all.
+    /// Returns the greatest roulette weight of a path of `edges` edges that the strategy with `s`
+    /// light vertices finds. The light samples of one vertex are correlated, so they count as one
+    /// sample as great as all of them.
     [[nodiscard]] double max_weight(int edges, std::size_t s) const
     {
         const auto light = static_cast<int>(s);

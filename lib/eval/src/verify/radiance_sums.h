@@ -13,7 +13,7 @@
 namespace bdpt::eval {
 
 /// Sums of a measure over the weighted paths that an integrator found in some samples, by tile and
-/// length [nit]. Not for several threads at once.
+/// length [nit]. Not thread-safe.
 class RadianceSums {
 public:
     RadianceSums(const TileGrid& grid, int max_depth, Measure measure = Measure::mean)
@@ -24,7 +24,8 @@ public:
           seen_(sums_.size())
     {}
 
-    /// Longer ones and values that are not finite are ignored.
+    /// Adds a path. Paths with more than `max_depth` edges and values that are not finite are
+    /// ignored.
     void add(const PathContribution& path)
     {
         const int edges = edges_of(path);
@@ -37,12 +38,12 @@ public:
     }
 
     [[nodiscard]] double at(std::size_t tile, int edges) const { return sums_[index(tile, edges)]; }
-    /// Of single paths.
+    /// Returns the second moment of single paths.
     [[nodiscard]] const SecondMoment& seen(std::size_t tile, int edges) const
     {
         return seen_[index(tile, edges)];
     }
-    /// Over lengths from `shortest` to `longest`.
+    /// Returns the sum over lengths from `shortest` to `longest`.
     [[nodiscard]] double between(std::size_t tile, int shortest, int longest) const
     {
         double sum = 0.0;

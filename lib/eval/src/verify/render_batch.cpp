@@ -10,7 +10,7 @@
 namespace bdpt::eval {
 namespace {
 
-/// One for each integrator and batch, or they would trace the same camera paths.
+/// Returns a seed per integrator and batch, as otherwise all would trace the same camera paths.
 std::uint64_t seed_of(const VerifyOptions& options, IntegratorKind integrator, std::int64_t number)
 {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // spreads consecutive numbers
@@ -19,7 +19,7 @@ std::uint64_t seed_of(const VerifyOptions& options, IntegratorKind integrator, s
                                  static_cast<std::uint64_t>(integrator) + 1);
 }
 
-/// Paths of `shortest` to `longest` edges.
+/// Returns options for paths of `shortest` to `longest` edges.
 RenderOptions render_options(const VerifyOptions& options, IntegratorKind integrator,
                              std::int64_t number, int shortest, int longest)
 {
@@ -31,13 +31,13 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     result.transport.max_depth = longest;
     result.transport.rr_start = Roulette::start;
     result.transport.rr_survival = Roulette(options.max_depth).min_survival();
-    // Sobol points of one sequence depend on each other; those of other seeds do not.
+    // Sobol points of one sequence are correlated; those of different seeds are not.
     result.sampling.samples = {.begin = 0, .end = samples_of(integrator, shortest)};
     if (integrator != IntegratorKind::lt && integrator != IntegratorKind::pt) {
         result.sampling.light_samples = options.light_samples;
     }
     if (integrator == IntegratorKind::bdpt) {
-        // Its strategies are judged one by one, and s = 1 alone needs all of the sky.
+        // The strategies are tested one by one, and s = 1 alone needs the whole environment.
         result.sampling.environment = EnvironmentSampling::plain;
     }
     if (integrator == IntegratorKind::bdpt || integrator == IntegratorKind::vcm) {
@@ -51,7 +51,7 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     return result;
 }
 
-/// The mean channel of the tile's pixels, summed.
+/// Returns the sum over the tile's pixels of the mean channel.
 double sum_of_pixels(const Image& image, const PixelRect& tile)
 {
     double sum = 0.0;
@@ -66,7 +66,8 @@ double sum_of_pixels(const Image& image, const PixelRect& tile)
     return sum;
 }
 
-/// The sum of a tile's pixels in the film's image against what its paths add up to.
+/// Returns the difference of the sum of a tile's pixels in the film's image from the sum of its
+/// paths.
 double lost(const Image& image, const PixelRect& tile, double sum, double samples)
 {
     const double pixels = sum_of_pixels(image, tile);
@@ -87,7 +88,7 @@ ImageCheck check_image(const Film& film, const TileGrid& grid, const SumOfTile& 
     return check;
 }
 
-/// Sums of one batch by one measure, empty yet.
+/// Returns the sums of one batch by one measure, still empty.
 Batch empty_batch(const VerifyOptions& options, const TileGrid& grid, Measure measure)
 {
     Batch batch{.bdpt = PathSums(grid, options.max_depth,
@@ -111,12 +112,13 @@ void for_each_measure(Batch& batch, const Visit& visit)
     }
 }
 
-/// Paths that merge, beside all others, weighed so that `MergeSums` knows how often merging finds
-/// them.
+/// Renders paths by merging and all other techniques, weighted so that `MergeSums` knows how often
+/// merging finds them.
 void render_merges(const Scene& scene, const CameraDesc& camera, const VerifyOptions& options,
                    std::int64_t number, Batch& batch)
 {
-    constexpr std::uint64_t other_numbers = 0x6d65726765;  // than those of the image of vcm
+    constexpr std::uint64_t other_numbers =
+        0x6d65726765;  // distinct from those of the image of vcm
     RenderOptions balanced =
         render_options(options, IntegratorKind::vcm, number, 1, options.max_depth);
     balanced.transport.heuristic = Heuristic::balance;
@@ -158,7 +160,7 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
         to_sums.on_path = [&](const PathContribution& path) {
             for_each_measure(batch, [&](Batch& sums) { sums.others[i].add(path); });
         };
-        // Lengths that take the same number of samples are rendered together.
+        // Path lengths with the same number of samples are rendered together.
         int shortest = 1;
         while (shortest <= longest) {
             int last = shortest;

@@ -9,17 +9,17 @@
 
 namespace bdpt::eval {
 
-/// Russian roulette as `verify` renders with it. No density includes it: survivors are rarer, and
-/// each counts for more, than the shares of a path say. So survival has a lower limit by which no
-/// contribution is more than `max_roulette_weight` times as great as without roulette, however dark
+/// Russian roulette as configured by `verify`. Densities do not include it: survivors are rarer,
+/// and each counts for more, than the shares of a path imply. So survival has a lower limit that
+/// keeps each contribution at most `max_roulette_weight` times that without roulette, however dark
 /// the scene is.
 class Roulette {
 public:
-    /// Edges after which it may end a walk, as in any render that does not say otherwise.
+    /// Edges after which roulette may end a walk, the default of renders.
     static constexpr int start = 3;
     static constexpr double max_roulette_weight = 4.0;
 
-    /// For paths of up to `max_depth` edges.
+    /// Computes the weights for paths of up to `max_depth` edges.
     explicit Roulette(int max_depth) : weights_(static_cast<std::size_t>(max_depth + 2), 1.0)
     {
         if (max_depth > start) {
@@ -31,11 +31,11 @@ public:
         }
     }
 
-    /// For `TransportOptions::rr_survival`.
+    /// Returns the value of `TransportOptions::rr_survival`.
     [[nodiscard]] float min_survival() const { return static_cast<float>(min_survival_); }
 
-    /// The greatest factor that roulette puts on what `strategy` finds; 1 where it ends no walk.
-    /// Paths of up to `max_depth` edges only.
+    /// Returns the greatest factor that roulette applies to contributions of `strategy`; 1 where it
+    /// ends no walk. For paths of up to `max_depth` edges.
     [[nodiscard]] double max_weight(Strategy strategy) const
     {
         return weights_[static_cast<std::size_t>(strategy.s)] *
@@ -43,8 +43,8 @@ public:
     }
 
 private:
-    double min_survival_ = 1.0;    // of each edge
-    std::vector<double> weights_;  // of a subpath, by its number of vertices
+    double min_survival_ = 1.0;    // per edge
+    std::vector<double> weights_;  // maximum weight of a subpath, by its number of vertices
 };
 
 }  // namespace bdpt::eval

@@ -7,11 +7,11 @@
 
 namespace bdpt::eval {
 
-/// Sum of squares of samples, seen or expected, that is told apart by their size, in steps of a
-/// factor of 4.
+/// Sum of squares of observed or expected samples, binned by their size in steps of a factor of 4.
 class SecondMoment {
 public:
-    /// `moment`: what samples of `size` add to the second moment; both are at least 0.
+    /// Adds `moment`, the contribution of samples of `size` to the second moment; both are at least
+    /// 0.
     void add(double size, double moment)
     {
         if (moment > 0.0) {
@@ -25,7 +25,8 @@ public:
         }
         return *this;
     }
-    /// Of samples of this size and more; of some that are smaller, too, by a factor of 4 at most.
+    /// Returns the second moment of samples of at least this size; includes some that are smaller
+    /// by a factor of up to 4.
     [[nodiscard]] double above(double size) const
     {
         double sum = 0.0;
@@ -36,10 +37,10 @@ public:
     }
 
 private:
-    static constexpr double most = 1e150;  // beyond any scene; sums of it are finite
+    static constexpr double most = 1e150;  // greater than in any scene; sums of it are finite
     static constexpr int bins = 48;
 
-    /// From 4^-24 to 4^23 nit.
+    /// Returns the bin of a size from 4^-24 to 4^23 nit.
     static std::size_t bin(double size)
     {
         int exponent = 0;

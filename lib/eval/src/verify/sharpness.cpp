@@ -6,9 +6,10 @@
 namespace bdpt::eval {
 namespace {
 
-/// What can hide behind the noise if strategy v of paths of `edges` edges is wrong by a factor 1 +
-/// c, as a fraction of the image. That moves what is expected of each strategy u by c times what
-/// of it v has found, but for v itself, of whose difference c times what the others found remains.
+/// Returns the error of the image, as a fraction, that the noise can hide if strategy v of paths of
+/// `edges` edges is wrong by a factor 1 + c. Such an error moves the expected value of each
+/// strategy u by c times its part that v found; the difference of v itself keeps c times the part
+/// that the others found.
 double detectable_by_strategies(const Evidence& evidence, const VerifyReport& report,
                                 const StrategyFinding& v, double distance)
 {
@@ -30,7 +31,7 @@ double detectable_by_strategies(const Evidence& evidence, const VerifyReport& re
             }
         }
         moved /= evidence.bdpt_samples_in(evidence.whole());
-        // Without an error there was no test: u has found nothing that differs.
+        // An error of 0 means there was no test: u found nothing that differs.
         if (moved > 0.0 && test.error > 0.0) {
             least = std::min(least, distance * test.error / moved);
         }
@@ -38,8 +39,8 @@ double detectable_by_strategies(const Evidence& evidence, const VerifyReport& re
     return least * brought / report.radiance;
 }
 
-/// The same for the light that no other strategy of bdpt makes, and as what pt, nee and mis say of
-/// paths of this length.
+/// Returns the same bound for the light that no other strategy of bdpt finds, by the tests of pt,
+/// nee and mis for paths of this length.
 double detectable_by_integrators(const VerifyReport& report, int edges)
 {
     double least = std::numeric_limits<double>::infinity();
@@ -63,7 +64,7 @@ double find_detectable(const Evidence& evidence, VerifyReport& report, double di
         const int edges = finding.strategy.s + finding.strategy.t - 1;
         const std::size_t index = evidence.row().index(finding.strategy);
         const StrategySums& sums = evidence.strategy(evidence.whole(), index).sums;
-        // What only this strategy can make is all at stake, unless path tracers check it.
+        // All of the light that only this strategy finds is at stake, unless path tracers check it.
         const double alone =
             (sums.solitary - sums.unchecked) / evidence.bdpt_samples_in(evidence.whole());
         const double by_strategies = std::max(
@@ -81,7 +82,8 @@ double find_detectable_of_merging(const Evidence& evidence, const VerifyReport& 
     double least = std::numeric_limits<double>::infinity();
     for (const MergeFinding& finding : report.merges) {
         const MergeSumsOfLength& sums = evidence.merges(finding.edges).sums;
-        // Too much by c moves what is found by c, and what is expected by c times its own part.
+        // An excess of c moves the found value by c, and the expected one by c times the merged
+        // part of it.
         const double moved =
             (sums.expected - sums.by_merges) /
             evidence.samples_in(evidence.whole(), IntegratorKind::vcm, finding.edges);

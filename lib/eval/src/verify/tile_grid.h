@@ -9,10 +9,10 @@
 
 namespace bdpt::eval {
 
-/// An image cut into `grid` x `grid` tiles of about equal size.
+/// An image divided into `grid` x `grid` tiles of about equal size.
 class TileGrid {
 public:
-    /// `grid` is at most the lesser side.
+    /// `grid` is at most the shorter side.
     TileGrid(int width, int height, int grid) : width_(width), height_(height), grid_(grid)
     {
         for (int row = 0; row < grid; ++row) {
@@ -25,7 +25,7 @@ public:
         }
     }
 
-    /// In rows.
+    /// Returns the tiles, row by row.
     [[nodiscard]] const std::vector<PixelRect>& tiles() const { return tiles_; }
     [[nodiscard]] std::size_t size() const { return tiles_.size(); }
     [[nodiscard]] double pixels() const
@@ -38,7 +38,7 @@ public:
                static_cast<double>(tiles_[tile].height());
     }
 
-    /// The tile of the pixel that holds `raster`, which is in the image.
+    /// Returns the tile of the pixel that holds `raster`, which is in the image.
     [[nodiscard]] std::size_t tile_at(Vec2 raster) const
     {
         return static_cast<std::size_t>(place(raster.y, height_) * grid_ + place(raster.x, width_));

@@ -68,7 +68,7 @@ MergeFinding describe_merges(const Evidence& evidence, int edges)
             .channels = {}};
 }
 
-/// All findings by one measure.
+/// Returns all findings by one measure.
 VerifyReport describe(const Evidence& evidence, int max_depth)
 {
     VerifyReport report;
@@ -88,7 +88,7 @@ VerifyReport describe(const Evidence& evidence, int max_depth)
     return report;
 }
 
-/// Calls `visit` for the comparison of the whole image of each finding, by its place.
+/// Calls `visit` for the comparison of the whole image of each finding, with its index.
 template <typename Visit>
 void for_each_whole(VerifyReport& report, const Visit& visit)
 {
@@ -172,7 +172,8 @@ bool has_failed(const VerifyReport& report)
            std::any_of(report.merges.begin(), report.merges.end(), merging_fails);
 }
 
-/// Weighted paths that only one strategy, and no integrator from the camera, can make.
+/// Returns the weighted paths that only one strategy, and no integrator from the camera, can
+/// sample.
 double unchecked(const Evidence& evidence, int max_depth)
 {
     double sum = 0.0;
@@ -220,7 +221,7 @@ VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)
         report.unchecked = unchecked(evidence, options.max_depth) / samples / report.radiance;
         double worst = find_detectable(evidence, report, distance);
         for (std::size_t i = 0; i < channels.size(); ++i) {
-            // Errors of a channel are told as a fraction of the image, or of the channel if that is
+            // Errors of a channel are fractions of the image, or of the channel if that is
             // brighter.
             channels[i].radiance = std::max(channels[i].radiance, report.radiance);
             worst = std::max(worst, find_detectable(evidence.channels()[i], channels[i], distance));

@@ -7,11 +7,11 @@
 
 namespace bdpt::eval {
 
-/// All tests of what has been gathered, and the verdict; but for the time it took. Needs two
-/// batches.
+/// Performs all tests on the evidence and returns the report with the verdict, except for its time.
+/// Needs two batches.
 [[nodiscard]] VerifyReport judge(const Evidence& evidence, const VerifyOptions& options);
 
-/// Would errors that are as small as `options` ask for have been found?
+/// Tests whether errors as small as `options` ask for would have been found.
 [[nodiscard]] bool is_sharp(const VerifyReport& report, const VerifyOptions& options);
 
 }  // namespace bdpt::eval

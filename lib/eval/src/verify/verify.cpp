@@ -34,7 +34,7 @@ void require(bool holds, const char* what)
 
 void check_options(const VerifyOptions& options)
 {
-    constexpr int longest = 64;  // [edges]: sums grow with the square
+    constexpr int longest = 64;  // [edges]: the number of sums grows quadratically
     constexpr int widest = 4096;
     require(options.width >= 1 && options.width <= widest && options.height >= 1 &&
                 options.height <= widest,
@@ -75,15 +75,15 @@ VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOp
     const TileGrid grid(options.width, options.height, options.grid);
     Evidence evidence(grid, options.max_depth, count_of_others(options));
     const int threads = limit_threads(options.threads).allowed;
-    // More threads than cores are allowed only while somebody asks for them.
+    // More threads than cores are allowed only on request.
     const tbb::global_control allowance(
         tbb::global_control::max_allowed_parallelism,
         std::max(static_cast<std::size_t>(threads),
                  tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
     tbb::task_arena arena(threads);
 
-    // Sharpness is looked at each time that the number of batches has grown by a quarter, and what
-    // it asks is how much noise there is, not how much difference: p-values know of one look only.
+    // Sharpness is checked each time the number of batches has grown by a quarter. The check looks
+    // at the noise, not at the difference, as p-values hold for a single look only.
     std::int64_t next_look = 32;
     double detectable = 1.0;
     while (evidence.batches() < options.max_batches) {

@@ -27,7 +27,7 @@ ordered_json to_json(const MeanComparison& test, const VerifyReport& report)
             {"failed", fails(test, report)}};
 }
 
-/// By name; empty without.
+/// Returns the channels by name; empty if there are none.
 ordered_json channels_json(const std::vector<MeanComparison>& channels, const VerifyReport& report)
 {
     constexpr std::array names{"red", "green", "blue"};
@@ -39,7 +39,7 @@ ordered_json channels_json(const std::vector<MeanComparison>& channels, const Ve
     return object;
 }
 
-/// `finding` has a comparison of the whole image, one for each channel, and one for each tile.
+/// Adds the tests of `finding`: a comparison of the whole image, one per channel, and one per tile.
 template <typename Finding>
 void add_tests(ordered_json& object, const Finding& finding, const VerifyReport& report)
 {

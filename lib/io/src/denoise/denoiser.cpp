@@ -15,7 +15,7 @@ static_assert(sizeof(Rgb) == 3 * sizeof(float), "the library reads pixels as thr
 
 using Handle = OidnFunctions::Handle;
 
-/// A filter of the library while it is set up and run.
+/// A filter of the library, set up and run.
 class Filter {
 public:
     Filter(const OidnFunctions& oidn, Handle device, int width, int height)
@@ -29,7 +29,7 @@ public:
     Filter& operator=(const Filter&) = delete;
     ~Filter() { oidn_.oidnReleaseFilter(filter_); }
 
-    /// The library reads and writes in place; what it is only to read it leaves as it is.
+    /// Sets an input. The library accesses it in place, and does not change inputs.
     void set(const char* name, const float* values)
     {
         oidn_.oidnSetSharedFilterImage(filter_, name, const_cast<float*>(values),
@@ -82,7 +82,7 @@ struct Denoiser::Library {
         if (threads > 0) {
             oidn.oidnSetDeviceInt(device, "numThreads", threads);
         }
-        // Else it would bind our threads to processors.
+        // Otherwise the library would bind our threads to processors.
         oidn.oidnSetDeviceInt(device, "setAffinity", 0);
         oidn.oidnCommitDevice(device);
         const char* message = nullptr;
@@ -99,7 +99,7 @@ struct Denoiser::Library {
     Library& operator=(const Library&) = delete;
     ~Library() { oidn.oidnReleaseDevice(device); }
 
-    /// A layer without noise.
+    /// Denoises a layer.
     [[nodiscard]] std::vector<float> filtered(const char* name, const Layer& layer) const
     {
         std::vector<float> output(layer.values.size());

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* library_name = "libOpenImageDenoise.so.2";
 
-/// The library of the Python package pyoidn, where this code is in a package beside it.
+/// Returns the library of the Python package pyoidn, if this code is in a package beside it.
 std::optional<fs::path> library_of_environment()
 {
 #ifdef BDPT_IN_PYTHON_PACKAGE
@@ -38,7 +38,7 @@ std::string file_to_open(const std::optional<fs::path>& library)
         return near ? near->string() : library_name;
     }
     const fs::path file = fs::is_directory(*library, error) ? *library / library_name : *library;
-    // A name without a slash would be looked for in the folders of the system.
+    // A name without a slash would be searched in the system's folders.
     return fs::absolute(file, error).string();
 }
 
@@ -58,7 +58,7 @@ void find(void* module, const std::string& file, const char* name, Function*& fu
 OidnFunctions open_oidn(const std::optional<fs::path>& library)
 {
     const std::string file = file_to_open(library);
-    // It stays: its threads may outlive all that we know of.
+    // The library stays open: its threads may outlive our objects.
     void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (module == nullptr) {
         throw Error(

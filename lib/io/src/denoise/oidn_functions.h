@@ -7,7 +7,7 @@
 
 namespace bdpt::io {
 
-/// What we call of the C interface of Open Image Denoise 2, by the names of its documentation.
+/// The used part of the C interface of Open Image Denoise 2, by the names of its documentation.
 /// Handles are opaque pointers, enumerators plain numbers.
 struct OidnFunctions {
     using Handle = void*;
@@ -31,7 +31,7 @@ struct OidnFunctions {
     static constexpr int no_error = 0;
 };
 
-/// Opens the library and finds its functions; it stays open. Throws `Error` (unsupported) as
+/// Opens the library and resolves its functions; it stays open. Throws `Error` (unsupported) as
 /// `Denoiser` does.
 [[nodiscard]] OidnFunctions open_oidn(const std::optional<std::filesystem::path>& library);
 

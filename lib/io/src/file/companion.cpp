@@ -12,15 +12,15 @@ namespace bdpt::io {
 
 namespace {
 
-/// The library that holds this code, or the program that it is linked into.
+/// Returns the library that contains this code, or the program that it is linked into.
 std::filesystem::path own_file()
 {
     Dl_info info{};
     link_map* loaded = nullptr;
     const bool known = dladdr1(reinterpret_cast<const void*>(&own_file), &info,
                                reinterpret_cast<void**>(&loaded), RTLD_DL_LINKMAP) != 0;
-    // The loader has no name for the program itself, and the word that the program was called by
-    // could name any file of the current folder.
+    // The loader has no name for the program itself, and the name that the program was called by
+    // could denote any file in the current folder.
     const bool is_library = known && loaded != nullptr && loaded->l_name[0] != '\0';
     return is_library ? loaded->l_name : "/proc/self/exe";
 }
@@ -38,7 +38,7 @@ std::filesystem::path companion_file(std::string_view name)
     std::error_code error;
     const std::filesystem::path here = own_folder();
     std::string tried;
-    for (const char* folder : {BDPT_COMPANION_FOLDERS}) {  // the most likely place first
+    for (const char* folder : {BDPT_COMPANION_FOLDERS}) {  // the most likely folder first
         const std::filesystem::path file = here / folder / name;
         if (here.is_absolute() && std::filesystem::exists(file, error)) {
             return file;

@@ -9,19 +9,21 @@
 
 namespace bdpt::io {
 
-/// What the decoded vertices, triangles, key frames, light profiles and instances of one file cost,
-/// and all that it takes together. An accessor counts each time it is used: a few bytes of JSON may
-/// name one of gigabytes a thousand times.
+/// Budget of the decoded vertices, triangles, key frames, light profiles and instances of one file,
+/// and of all its memory. An accessor counts each time it is used: a few bytes of JSON may name one
+/// of gigabytes a thousand times.
 class DataBudget {
 public:
-    /// `memory` is for all that the file takes; null: one of `ReadLimits::memory_bytes` alone.
+    /// `memory` is the budget for everything in the file; null: a budget of
+    /// `ReadLimits::memory_bytes`.
     explicit DataBudget(const ReadLimits& limits, std::shared_ptr<MemoryBudget> memory = nullptr);
 
-    /// Takes `count` elements of `size` bytes. `place` is the JSON pointer to what needs them.
-    /// Throws `Error` (invalid_input) that names place, need and limit when there is no more.
+    /// Charges `count` elements of `size` bytes. `place` is the JSON pointer to their user. Throws
+    /// `Error` (invalid_input) that names place, need and limit if the budget is exceeded.
     void spend(const std::string& place, std::uint64_t count, std::uint64_t size);
 
-    /// For what is no vertex, key frame, light profile or instance.
+    /// Returns the budget for everything other than vertices, key frames, light profiles and
+    /// instances.
     [[nodiscard]] MemoryBudget& memory() { return *memory_; }
     [[nodiscard]] const MemoryBudget& memory() const { return *memory_; }
 

@@ -41,14 +41,14 @@ constexpr Kind binary_kinds[] = {
     {"\xfe\xff"sv, "text in UTF-16, where glTF asks for UTF-8"},
 };
 
-/// By the first bytes that are no white space.
+/// By the first bytes that are not white space.
 constexpr Kind text_kinds[] = {
     {"<!doctype html"sv, "an HTML page"}, {"<html"sv, "an HTML page"}, {"<?xml"sv, "an XML file"},
     {"<"sv, "an HTML or XML file"},       {"#usda"sv, "a USD file"},   {"ply\n"sv, "a PLY file"},
     {"ply\r\n"sv, "a PLY file"},          {"solid "sv, "an STL file"},
 };
 
-/// By the ends of their names: formats of models whose first bytes tell little.
+/// By file extension: model formats whose first bytes tell little.
 constexpr Kind models[] = {
     {".obj"sv, "a Wavefront OBJ file"}, {".stl"sv, "an STL file"},
     {".ply"sv, "a PLY file"},           {".fbx"sv, "an FBX file"},

@@ -9,12 +9,12 @@
 
 namespace bdpt::io {
 
-/// What a file is that was expected to be JSON and is not, with its article ("a PNG image", "an
-/// empty file"), by its first bytes; none if it may be JSON or is nothing known.
+/// Names the kind of a file that should be JSON but is not, with an article ("a PNG image", "an
+/// empty file"), by its first bytes; none if it may be JSON or is of no known kind.
 [[nodiscard]] std::optional<std::string_view> other_kind(ByteView file);
 
-/// The same of a file that was expected to be glTF, also by the end of its name ("an STL file"),
-/// and what to do with models of other formats.
+/// Names the kind of a file that should be glTF but is not, also by its extension ("an STL file"),
+/// and what to do with models of other formats; none if unknown.
 [[nodiscard]] std::optional<std::string> kind_instead_of_gltf(ByteView bytes,
                                                               const std::filesystem::path& file);
 

@@ -16,33 +16,33 @@ namespace bdpt::io {
 
 using Json = nlohmann::json;
 
-/// Reads one JSON text. Throws `Error` (invalid_input) when it is malformed, names a key twice in
-/// one object, or is longer, deeper or richer than the limits allow.
+/// Parses one JSON text. Throws `Error` (invalid_input) if it is malformed, names a key twice in
+/// one object, or is longer, deeper or larger than the limits allow.
 [[nodiscard]] Json parse_json(ByteView text, const ReadLimits& limits);
 
-/// A value in a JSON document that knows where it stands. Refers to its parent and to the document,
-/// which must outlive it.
+/// A value in a JSON document with its place. Refers to its parent and to the document, which must
+/// outlive it.
 class JsonPlace {
 public:
     explicit JsonPlace(const Json& root) : value_(&root) {}
 
     [[nodiscard]] const Json& value() const { return *value_; }
-    /// The value as a JSON pointer [RFC 6901]; empty for the root.
+    /// Returns the place as a JSON pointer [RFC 6901]; empty for the root.
     [[nodiscard]] std::string pointer() const;
 
     [[nodiscard]] bool has(std::string_view key) const;
-    /// `key` must be there.
+    /// Returns member `key`, which must exist.
     [[nodiscard]] JsonPlace member(std::string_view key) const&;
     JsonPlace member(std::string_view key) const&& = delete;  // would outlive its parent
-    /// `index` must be in range.
+    /// Returns element `index`, which must be in range.
     [[nodiscard]] JsonPlace element(std::size_t index) const&;
     JsonPlace element(std::size_t index) const&& = delete;
-    /// Number of elements; 0 if this is no array.
+    /// Returns the number of elements; 0 if this is no array.
     [[nodiscard]] std::size_t size() const { return value_->is_array() ? value_->size() : 0; }
 
-    /// The integer, which must not be negative. Throws `Error` (invalid_input).
+    /// Returns the integer, which must not be negative. Throws `Error` (invalid_input).
     [[nodiscard]] std::uint64_t as_unsigned() const;
-    /// The integer in member `key`, or `fallback` where there is none.
+    /// Returns the integer in member `key`, or `fallback` if there is none.
     [[nodiscard]] std::uint64_t unsigned_or(std::string_view key, std::uint64_t fallback) const;
 
     /// Throws `Error` whose message is the pointer and `what`.
@@ -60,7 +60,7 @@ private:
     const Json* value_ = nullptr;
 };
 
-/// The value in a few characters, for messages.
+/// Returns the value in a few characters, for messages.
 [[nodiscard]] std::string brief(const Json& value);
 
 }  // namespace bdpt::io

@@ -13,8 +13,8 @@ namespace bdpt::io {
 
 namespace {
 
-/// What the parser found, in one printable line: of "[json.exception...] parse error at line 1,
-/// column 3: syntax error while parsing value - unexpected ..." the place and what follows the
+/// Shortens the parser's message to one printable line: of "[json.exception...] parse error at line
+/// 1, column 3: syntax error while parsing value - unexpected ..." the place and the text after the
 /// dash.
 std::string explanation(std::string_view text)
 {
@@ -46,7 +46,7 @@ std::string explanation(std::string_view text)
                 "JSON: the key " + quote(key) + " stands twice in one object");
 }
 
-/// An object that is sorted by its keys.
+/// Adds a member to an object that is sorted by its keys.
 Json* add_member(Json& object, std::string& key)
 {
     const auto [slot, inserted] = object.emplace(key, nullptr);
@@ -56,8 +56,8 @@ Json* add_member(Json& object, std::string& key)
     return &*slot;
 }
 
-/// One that keeps their order, and would look through all of them for the new one: `check_members`
-/// does that for all at once.
+/// Adds a member to an object that keeps the order of its keys. It does not search them for the new
+/// one: `check_members` checks all at once.
 OrderedJson* add_member(OrderedJson& object, std::string& key)
 {
     return &object.get_ref<OrderedJson::object_t&>().emplace_back(std::move(key), nullptr).second;
@@ -79,8 +79,8 @@ void check_members(const OrderedJson& object)
     }
 }
 
-/// Builds the document from the parser's events and stops it at the limits. The parser itself is
-/// not recursive, so that depth costs no stack before it is refused.
+/// Builds the document from the parser's events and stops at the limits. The parser is not
+/// recursive, so depth takes no stack before it is refused.
 template <typename Document>
 class LimitedBuilder {
 public:

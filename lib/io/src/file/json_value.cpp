@@ -30,7 +30,7 @@ const OrderedJson& node(const std::shared_ptr<const void>& value)
     return *static_cast<const OrderedJson*>(value.get());
 }
 
-/// `value` in a document that `document` keeps alive.
+/// Returns `value`, in a document that `document` keeps alive.
 std::shared_ptr<const void> shared(const std::shared_ptr<const void>& document,
                                    const OrderedJson& value)
 {
@@ -42,7 +42,8 @@ std::shared_ptr<const void> parsed(ByteView text)
     return std::make_shared<const OrderedJson>(parse_ordered_json(text, limits()));
 }
 
-/// Does the JSON number fit, without a change of its value but rounding to a float?
+/// Tests whether the JSON number fits without a change of its value, apart from rounding to a
+/// float.
 template <typename Number>
 bool is_within(const OrderedJson& value, Number low, Number high)
 {

@@ -14,14 +14,14 @@ namespace bdpt::io {
 
 class Ktx2Decoder;  // image/ktx2_decoder.h
 
-/// What all steps of loading one file share.
+/// State shared by all steps of loading one file.
 struct LoadContext {
-    std::filesystem::path folder;  ///< that relative URIs start from
+    std::filesystem::path folder;  ///< base of relative URIs
     ReadLimits limits{};
-    std::shared_ptr<MemoryBudget> memory{};  ///< of the caller, if there is one
+    std::shared_ptr<MemoryBudget> memory{};  ///< budget of the caller, if any
     DataBudget budget{limits, memory};
     Warnings warnings{};
-    ImageCache* images = nullptr;  ///< of other loads, if there is one
+    ImageCache* images = nullptr;  ///< shared with other loads, if any
     Ktx2Decoder* ktx2 = nullptr;   ///< null: KTX2 images are not decoded
     bool ignore_required = false;  ///< `GltfOptions::ignore_required`
 

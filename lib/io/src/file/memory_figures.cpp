@@ -17,7 +17,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// Line `name` of /proc/self/status [bytes]; 0 where there is none. Allocates nothing.
+/// Returns line `name` of /proc/self/status [bytes]; 0 if there is none. Allocates nothing.
 std::uint64_t status_of(std::string_view name)
 {
     const int descriptor = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);

@@ -4,8 +4,8 @@
 
 namespace bdpt::io {
 
-/// For the message about an allocation that failed: how much memory this process had at most, and
-/// how much it may have by its limit (ulimit -v), else how much the machine has.
+/// Returns, for the message about a failed allocation, the peak memory of this process, and its
+/// limit (ulimit -v) or else the memory of the machine.
 [[nodiscard]] std::string memory_figures();
 
 }  // namespace bdpt::io

@@ -11,9 +11,9 @@
 
 namespace bdpt::io {
 
-/// What `read()` returns. Whatever it throws becomes an `Error` whose message begins with the name
-/// of the file: an `Error` keeps its code, std::bad_alloc is out_of_memory and gets figures, all
-/// else is internal.
+/// Returns what `read()` returns. All exceptions become an `Error` whose message begins with the
+/// name of the file: an `Error` keeps its code, std::bad_alloc is out_of_memory with figures, all
+/// others are internal.
 template <typename Read>
 [[nodiscard]] auto with_named_errors(const std::filesystem::path& file, const Read& read)
 {

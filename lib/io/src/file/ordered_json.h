@@ -10,14 +10,13 @@
 
 namespace bdpt::io {
 
-/// JSON whose objects keep the order of the text. Finding a key takes time in proportion to their
-/// number.
+/// JSON whose objects keep the order of the text. Finding a key takes time linear in their number.
 using OrderedJson = nlohmann::ordered_json;
 
-/// The same as `parse_json`.
+/// Parses one JSON text, as `parse_json` does.
 [[nodiscard]] OrderedJson parse_ordered_json(ByteView text, const ReadLimits& limits);
 
-/// The value in a few characters, for messages.
+/// Returns the value in a few characters, for messages.
 [[nodiscard]] std::string brief(const OrderedJson& value);
 
 }  // namespace bdpt::io

@@ -14,7 +14,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// A file that is read from its start.
+/// A file read from its start.
 class OpenFile {
 public:
     OpenFile(const std::filesystem::path& file, std::uint64_t limit)
@@ -46,7 +46,7 @@ public:
 
     [[nodiscard]] std::uint64_t size() const { return size_; }
 
-    /// The next `size` bytes.
+    /// Reads the next `size` bytes.
     [[nodiscard]] Bytes read(std::uint64_t size)
     {
         Bytes bytes(static_cast<std::size_t>(size));

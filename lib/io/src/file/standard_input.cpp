@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint64_t no_end = std::numeric_limits<std::uint64_t>::max();
 
-/// The next bytes, at most `block.size()`; 0 at the end.
+/// Reads the next bytes, at most `block.size()`; returns 0 at the end.
 std::size_t read_some(std::span<std::uint8_t> block)
 {
     ssize_t count = -1;
@@ -37,17 +37,18 @@ std::size_t read_some(std::span<std::uint8_t> block)
     return static_cast<std::size_t>(count);
 }
 
-/// All of it, or as much as is worth reading.
+/// Reads all bytes, or as many as are worth reading.
 Bytes read_all(std::uint64_t limit, const WorthReading& worth, const MemoryBudget* memory)
 {
-    constexpr std::size_t start_size = 4096;  // enough to know what it is
+    constexpr std::size_t start_size = 4096;  // enough to recognize its kind
     Bytes bytes;
     std::array<std::uint8_t, 65536> block{};
     std::uint64_t end = no_end;
     bool judged = !worth;
     for (std::size_t count = read_some(block); count > 0; count = read_some(block)) {
         if (memory != nullptr && bytes.size() + count > bytes.capacity()) {
-            memory->check("standard input", 3 * bytes.size());  // it moves to twice the room
+            memory->check("standard input",
+                          3 * bytes.size());  // growing copies it to twice the room
         }
         bytes.insert(bytes.end(), block.begin(),
                      block.begin() + static_cast<std::ptrdiff_t>(count));

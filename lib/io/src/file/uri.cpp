@@ -23,7 +23,7 @@ constexpr std::array<std::uint8_t, 256> base64_table = [] {
     for (std::size_t i = 0; i < digits.size(); ++i) {
         table[static_cast<unsigned char>(digits[i])] = static_cast<std::uint8_t>(i);
     }
-    // The alphabet for file names and URIs [RFC 4648, sec. 5]; some exporters take it.
+    // The alphabet for file names and URIs [RFC 4648, sec. 5], which some exporters use.
     table[static_cast<unsigned char>('-')] = 62;
     table[static_cast<unsigned char>('_')] = 63;
     return table;
@@ -80,7 +80,7 @@ bool has_scheme(std::string_view uri)
     });
 }
 
-/// Whether `file` lies below `folder`; both are canonical.
+/// Tests whether `file` lies below `folder`; both are canonical.
 bool is_below(const std::filesystem::path& file, const std::filesystem::path& folder)
 {
     const auto [end, _] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());

@@ -10,10 +10,11 @@ namespace bdpt::io {
 /// Collects warnings. Those of one kind are counted and become one line with the first place.
 class Warnings {
 public:
-    /// `kind` says what is odd and what is done about it; `place` where, and which value.
+    /// Adds a warning. `kind` says what is odd and what is done about it; `place` where, and which
+    /// value.
     void add(const std::string& kind, const std::string& place);
 
-    /// One line a kind, in the order of their first appearance.
+    /// Returns one line per kind, in the order of their first appearance.
     [[nodiscard]] std::vector<std::string> lines() const;
 
 private:
@@ -29,8 +30,8 @@ private:
     bool silent_ = false;
 };
 
-/// While it lives, warnings that are added are forgotten: those of work that is done again, as its
-/// first or last time says all.
+/// Discards warnings during its lifetime, for work that is repeated and warns the first or last
+/// time.
 class Silence {
 public:
     explicit Silence(Warnings& warnings) : warnings_(warnings), before_(warnings.silent_)

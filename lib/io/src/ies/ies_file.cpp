@@ -24,10 +24,10 @@ std::string_view trimmed(std::string_view text)
     return text.substr(0, text.find_last_not_of(blanks) + 1);
 }
 
-/// The lines of a text; each is taken off its front.
+/// Reader of the lines of a text, one after the other.
 struct IesLines {
     std::string_view rest;
-    std::size_t number = 0;  // of the line that was taken last
+    std::size_t number = 0;  // number of the last line taken
 
     std::string_view take()
     {
@@ -39,7 +39,7 @@ struct IesLines {
     }
 };
 
-/// What follows `TILT=`, in capitals; nothing in other lines.
+/// Returns the text after `TILT=`, in capitals; empty for other lines.
 std::string tilt_of(std::string_view line)
 {
     std::string text;
@@ -53,7 +53,8 @@ std::string tilt_of(std::string_view line)
     return after.starts_with('=') ? std::string(trimmed(after.substr(1))) : std::string();
 }
 
-/// Does the number after the ballast factor count? Later versions use its place otherwise.
+/// Tests whether the number after the ballast factor is the ballast-lamp factor; later versions use
+/// its place otherwise.
 bool has_ballast_lamp_factor(std::string_view first_line, const std::string& place,
                              Warnings& warnings)
 {
@@ -67,7 +68,7 @@ bool has_ballast_lamp_factor(std::string_view first_line, const std::string& pla
     return true;
 }
 
-/// Takes what describes lamps that burn tilted off the numbers.
+/// Skips the description of lamps that burn tilted.
 void skip_tilt(IesNumbers& numbers)
 {
     static_cast<void>(numbers.next("the lamp-to-luminaire geometry"));
@@ -79,7 +80,7 @@ void skip_tilt(IesNumbers& numbers)
 
 std::vector<double> read_angles(IesNumbers& numbers, std::string_view what, long count)
 {
-    constexpr double min_step = 2e-3;  // [degrees] no measurement is finer
+    constexpr double min_step = 2e-3;  // [degrees]; no measurement is finer
     std::vector<double> angles;
     for (long i = 0; i < count; ++i) {
         const double angle = numbers.next(fmt::format("{} angle {}", what, i));

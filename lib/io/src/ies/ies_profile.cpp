@@ -14,7 +14,7 @@ namespace bdpt::io {
 
 namespace {
 
-// Exporters write angles with a few decimals; less than the least step of angles.
+// Exporters write angles with a few decimals; less than the smallest step of angles.
 constexpr double tolerance = 1e-3;  // [degrees]
 
 bool is(double angle, double wanted)
@@ -22,7 +22,7 @@ bool is(double angle, double wanted)
     return std::abs(angle - wanted) <= tolerance;
 }
 
-/// The ends of a range of angles, if they are nearly right angles, are made right.
+/// Snaps the ends of a range of angles to right angles that they nearly equal.
 void snap_ends(std::vector<double>& angles)
 {
     for (double* end : {&angles.front(), &angles.back()}) {
@@ -44,7 +44,7 @@ struct Web {
                                                       angles.front(), angles.back()));
 }
 
-/// The angles and their mirror images beyond the last one.
+/// Adds the mirror images of the angles beyond the last one.
 void mirror_at_end(std::vector<double>& angles, std::vector<std::vector<float>>& values)
 {
     const double last = angles.back();
@@ -54,7 +54,7 @@ void mirror_at_end(std::vector<double>& angles, std::vector<std::vector<float>>&
     }
 }
 
-/// The angles and their mirror images below the first one.
+/// Adds the mirror images of the angles below the first one.
 void mirror_at_begin(std::vector<double>& angles, std::vector<std::vector<float>>& values)
 {
     std::vector<double> all;
@@ -69,7 +69,7 @@ void mirror_at_begin(std::vector<double>& angles, std::vector<std::vector<float>
     values = std::move(all_values);
 }
 
-/// Rows become columns.
+/// Swaps rows and columns.
 Web transposed(const Web& web)
 {
     Web result{web.across, web.along, {}};
@@ -82,7 +82,7 @@ Web transposed(const Web& web)
     return result;
 }
 
-/// As the file has it: along the horizontal angles.
+/// Returns the web as stored in the file: along the horizontal angles.
 Web web_of(const IesFile& file)
 {
     Web web{file.horizontal_angles, file.vertical_angles, {}};
@@ -99,7 +99,7 @@ float to_radians(double degrees)
     return static_cast<float>(degrees * radian);
 }
 
-/// `web` along azimuths and across polar angles.
+/// Converts `web`, along azimuths and across polar angles, to a profile.
 LightProfile to_profile(const Web& web)
 {
     LightProfile profile;
@@ -115,7 +115,7 @@ LightProfile to_profile(const Web& web)
     return profile;
 }
 
-/// Type C: the nadir is -z, and horizontal angles turn from +x to +y, as those of a profile do.
+/// Converts type C: the nadir is -z, and horizontal angles turn from +x to +y, as in a profile.
 IesProfile from_type_c(Web web, const std::string& place, Warnings& warnings)
 {
     if (web.across.front() < 0.0 || web.across.back() > 180.0) {
@@ -144,7 +144,8 @@ IesProfile from_type_c(Web web, const std::string& place, Warnings& warnings)
     return {to_profile(web)};
 }
 
-/// Within a quarter of a turn to all sides; what begins at 0 is half of what is symmetric.
+/// Checks that angles stay within a quarter of a turn to all sides, and mirrors a range that begins
+/// at 0, which is half of a symmetric one.
 void complete(std::string_view what, std::vector<double>& angles,
               std::vector<std::vector<float>>& values)
 {
@@ -156,8 +157,8 @@ void complete(std::string_view what, std::vector<double>& angles,
     }
 }
 
-/// Type B: planes through a common horizontal axis. Angles of planes turn from -z to +x, those
-/// within them point to -y: they grow clockwise, as seen from above.
+/// Converts type B: planes through a common horizontal axis. Angles of planes turn from -z to +x,
+/// angles within planes point to -y: they grow clockwise, as seen from above.
 IesProfile from_type_b(Web web)
 {
     complete("horizontal", web.along, web.values);
@@ -169,7 +170,7 @@ IesProfile from_type_b(Web web)
     return {to_profile(planes), Mat3(Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0, -1, 0))};
 }
 
-/// Type A: planes through a common vertical axis, +x. Angles of planes turn from -z to -y.
+/// Converts type A: planes through a common vertical axis, +x. Angles of planes turn from -z to -y.
 IesProfile from_type_a(Web web)
 {
     complete("horizontal", web.along, web.values);

@@ -9,15 +9,15 @@
 
 namespace bdpt::io {
 
-/// A light profile and how its axes lie in a luminaire that points down -z [EXT_lights_ies,
+/// A light profile and the rotation of its axes in a luminaire that points down -z [EXT_lights_ies,
 /// "Coordinate System Mapping"].
 struct IesProfile {
     LightProfile profile;
     Mat3 node_from_profile{1.0f};  ///< rotation
 };
 
-/// Completes what symmetry leaves out of a file. Throws `Error` (invalid_input) for angles that its
-/// photometry does not have.
+/// Converts a file to a profile, completing it by its symmetry. Throws `Error` (invalid_input) for
+/// angles that its photometry does not have.
 [[nodiscard]] IesProfile make_profile(const IesFile& file, const std::string& place,
                                       Warnings& warnings);
 

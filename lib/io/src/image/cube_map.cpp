@@ -11,7 +11,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// Where a direction meets the cube: 0 to 1 from left to right and from top to bottom.
+/// Point of the cube in a direction: 0 to 1 from left to right and from top to bottom.
 struct FacePoint {
     std::size_t face = 0;
     float right = 0.0f;
@@ -33,7 +33,8 @@ FacePoint face_point(const Vec3& d)
     return d.z > 0.0f ? point(4, -d.x, -d.y, size.z) : point(5, d.x, -d.y, size.z);
 }
 
-/// Between the centres of the four texels around; beyond the outermost ones their values.
+/// Interpolates between the centres of the four surrounding texels; clamped beyond the outermost
+/// ones.
 Rgb bilinear(const Image& image, float u, float v)
 {
     const float x = std::clamp(u * static_cast<float>(image.width) - 0.5f, 0.0f,
@@ -83,7 +84,7 @@ Rgb CubeMap::lookup(const Vec3& direction) const
 
 Image to_equirectangular(const CubeMap& cube, int height)
 {
-    // Sixteen lookups a texel: close enough for the corners of faces, where texels look small.
+    // Sixteen lookups per texel: enough even at the corners of faces, where texels look small.
     constexpr int parts = 4;
     const int width = 2 * height;
     std::vector<CirclePoint> azimuths;

@@ -1,6 +1,6 @@
 #include "image/jpeg_image.h"
 
-#include <cstdio>  // for the header of libjpeg
+#include <cstdio>  // required by the header of libjpeg
 
 #include <jpeglib.h>
 
@@ -18,11 +18,11 @@ namespace {
 
 using Message = std::array<char, JMSG_LENGTH_MAX>;
 
-/// Encoders write some ten. Each costs the time of a whole image, whatever its size in the file.
+/// Encoders write about ten. Each costs the time of a whole image, whatever its size in the file.
 constexpr int max_scans = 500;
 
-/// Inks are stored as 255 minus their amount, as Adobe's programs do: what each leaves of the
-/// light.
+/// Converts inks to RGB. They are stored as 255 minus their amount, as by Adobe's programs: the
+/// fraction of light that each transmits.
 void cmyk_to_rgb(const std::uint8_t* cmyk, std::size_t pixels, std::uint8_t* rgb)
 {
     for (; pixels > 0; --pixels, cmyk += 4, rgb += 3) {
@@ -34,7 +34,7 @@ void cmyk_to_rgb(const std::uint8_t* cmyk, std::size_t pixels, std::uint8_t* rgb
 
 }  // namespace
 
-/// What libjpeg works on, and calls. It is C, so no exception may leave these.
+/// State and callbacks of libjpeg. It is C, so no exception may leave them.
 struct JpegImage::State {
     jpeg_decompress_struct codec{};
     jpeg_error_mgr errors{};
@@ -58,7 +58,7 @@ struct JpegImage::State {
         std::longjmp(jump, 1);
     }
 
-    /// Levels below 0 are damage, all others news for developers.
+    /// Levels below 0 are damage, all others messages for developers.
     static void note(j_common_ptr codec, int level)
     {
         State& state = of(codec);
@@ -77,8 +77,8 @@ struct JpegImage::State {
         }
     }
 
-    // libjpeg reports errors by longjmp, so nothing with a destructor lives in these. They return
-    // whether all went well.
+    // libjpeg reports errors by longjmp, so no object with a destructor lives in these functions.
+    // They return true on success.
 
     [[nodiscard]] bool read_header(ByteView bytes)
     {
@@ -102,7 +102,7 @@ struct JpegImage::State {
         return true;
     }
 
-    /// What libjpeg itself converts to; it does not turn inks into RGB.
+    /// Chooses a colour space that libjpeg itself converts to; it does not convert inks to RGB.
     void choose_colors()
     {
         switch (codec.jpeg_color_space) {
@@ -125,7 +125,7 @@ struct JpegImage::State {
     [[nodiscard]] bool is_cmyk() const { return codec.out_color_space == JCS_CMYK; }
     [[nodiscard]] bool is_grey() const { return codec.out_color_space == JCS_GRAYSCALE; }
 
-    /// `inks` is room for a row of them, if it is an image of inks.
+    /// Decodes all rows. `inks` is room for a row of inks, if the image has inks.
     [[nodiscard]] bool read_rows(std::uint8_t* values, std::uint8_t* inks)
     {
         if (setjmp(jump) != 0) {

@@ -19,23 +19,24 @@ namespace bdpt::io {
 
 namespace {
 
-/// What decoding may cost.
+/// Limits of decoding.
 struct DecodingLimits {
     std::uint64_t memory;   // [bytes]
-    std::uint64_t seconds;  // of a processor
+    std::uint64_t seconds;  // CPU time [s]
 };
 
 DecodingLimits decoding_limits(ByteView file, const Ktx2Header& header)
 {
-    // The file, its levels without supercompression, as RGBA, and what is written of them.
+    // The file, its levels without supercompression, as RGBA, and the output.
     constexpr std::uint64_t bytes_per_pixel = 16;
     constexpr std::uint64_t start_seconds = 10;
-    constexpr std::uint64_t pixels_per_second = 2'000'000;  // a tenth of what a slow machine does
+    constexpr std::uint64_t pixels_per_second =
+        2'000'000;  // a tenth of the speed of a slow machine
     return {.memory = 2 * file.size() + bytes_per_pixel * header.pixels,
             .seconds = start_seconds + header.pixels / pixels_per_second};
 }
 
-/// The message of the program without its name; empty where it did not come to writing one.
+/// Returns the program's message without its name; empty if it did not write one.
 std::string own_message(const ProcessEnd& end)
 {
     constexpr std::string_view own = "bdpt-read-ktx: ";
@@ -66,7 +67,7 @@ std::string own_message(const ProcessEnd& end)
                                     : message));
 }
 
-/// Whether the program has opened the library.
+/// Tests whether the program has opened the library.
 bool is_ready(ChildProcess& reader)
 {
     KtxReply reply{.start = {}};

@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// Numbers by their names in the specifications of KTX, Vulkan and the Khronos Data Ktx2Format.
+// Numbers by their names in the specifications of KTX, Vulkan and the Khronos Data Format.
 constexpr std::uint32_t no_supercompression = 0;
 constexpr std::uint32_t basis_lz = 1;
 constexpr std::uint32_t zstandard = 2;
@@ -60,7 +60,7 @@ public:
     }
     [[nodiscard]] std::uint64_t u64(std::size_t offset) const { return number(offset, 8); }
 
-    /// The bytes of a part that lies in the file; `what` it is.
+    /// Returns the bytes of a part of the file; `what` names the part.
     [[nodiscard]] ByteView part(const std::string& what, std::uint64_t offset,
                                 std::uint64_t length) const
     {
@@ -75,7 +75,7 @@ private:
     ByteView bytes_;
 };
 
-/// The fixed part of the header.
+/// Fixed part of the header.
 struct Ktx2Head {
     std::uint32_t format;
     std::uint32_t width;
@@ -128,20 +128,20 @@ void check_ktx2_shape(const Ktx2Head& head)
     }
 }
 
-/// What the pixels of a level are packed in.
+/// Packing of the pixels of a level.
 struct Ktx2Format {
     int channels;
     std::uint32_t block_side;   // [pixels]
     std::uint32_t block_bytes;  // 0: blocks differ in size
 };
 
-/// The first block of the data format descriptor, which describes the colours.
+/// First block of the data format descriptor, which describes the colours.
 class FormatDescriptor {
 public:
     FormatDescriptor(const Ktx2Reader& file, std::uint32_t offset, std::uint32_t length)
         : block_(file.part("the data format descriptor", offset, length))
     {
-        constexpr std::size_t total = 4;  // [bytes] of the length in front
+        constexpr std::size_t total = 4;  // [bytes] of the length field in front
         constexpr std::size_t vendor_and_type = 4;
         const std::size_t size = length < total + head + sample ? 0 : block_.number(10, 2);
         if (size < head + sample || size > length - total || (size - head) % sample != 0 ||
@@ -202,7 +202,7 @@ Ktx2Format format_of_uastc(const Ktx2Head& head, const FormatDescriptor& descrip
     return {.channels = channel == rgba ? 4 : 3, .block_side = 4, .block_bytes = 16};
 }
 
-/// Channels of VK_FORMAT_R8G8B8_UNORM, R8G8B8_SRGB, R8G8B8A8_UNORM and R8G8B8A8_SRGB.
+/// Returns the channels of VK_FORMAT_R8G8B8_UNORM, R8G8B8_SRGB, R8G8B8A8_UNORM and R8G8B8A8_SRGB.
 std::optional<std::uint32_t> plain_channels(std::uint32_t format)
 {
     switch (format) {
@@ -238,7 +238,7 @@ Ktx2Format ktx2_format_of(const Ktx2Head& head, const FormatDescriptor& descript
     return {.channels = static_cast<int>(*channels), .block_side = 1, .block_bytes = *channels};
 }
 
-/// Checks where levels lie and how large they are. The pixels of all together.
+/// Checks offsets and sizes of the levels, and returns the number of pixels of all levels.
 std::uint64_t check_ktx2_levels(const Ktx2Reader& file, const Ktx2Head& head,
                                 const Ktx2Format& format)
 {
@@ -278,7 +278,7 @@ void check_global_data(const Ktx2Reader& file, const Ktx2Head& head)
     }
 }
 
-/// Adds what the values of `wanted` keys are, where they are something else.
+/// Adds a remark for each key of `wanted` that has another value.
 void check_ktx2_metadata(ByteView bytes, std::vector<std::string>& remarks)
 {
     constexpr std::array wanted{std::pair{"KTXswizzle"sv, "rgba"sv},

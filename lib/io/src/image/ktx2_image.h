@@ -11,19 +11,19 @@ namespace bdpt::io {
 /// A KTX2 file in memory whose header has been checked.
 class Ktx2Image {
 public:
-    /// `bytes` and `decoder` must stay as long as the image; null: there is no decoder. Throws
-    /// std::runtime_error when the header is broken, or nothing decodes the image.
+    /// `bytes` and `decoder` must outlive the image; null: there is no decoder. Throws
+    /// std::runtime_error if the header is broken, or nothing decodes the image.
     Ktx2Image(ByteView bytes, Ktx2Decoder* decoder);
 
     [[nodiscard]] const Ktx2Header& header() const { return header_; }
     [[nodiscard]] int width() const { return header_.width; }
     [[nodiscard]] int height() const { return header_.height; }
-    /// 3: RGB, 4: RGBA.
+    /// Returns 3: RGB, or 4: RGBA.
     [[nodiscard]] int channels() const { return header_.channels; }
     [[nodiscard]] static constexpr int value_bytes() { return 1; }
 
-    /// Decodes all pixels, top row first, into room for width * height * channels values. Throws
-    /// what `Ktx2Decoder::decode` throws.
+    /// Decodes all pixels, top row first, into room for width * height * channels values. Throws as
+    /// `Ktx2Decoder::decode`.
     void read(std::uint8_t* values);
 
 private:

@@ -13,14 +13,14 @@
 
 namespace bdpt::io {
 
-/// What libpng's callbacks work on. They are called from C, so no exception may leave them.
+/// State of libpng's callbacks. They are called from C, so no exception may leave them.
 struct PngImage::State {
-    ByteView rest;  // of the file
+    ByteView rest;  // rest of the file
     std::array<char, 200> message{};
     png_structp png = nullptr;
     png_infop info = nullptr;
 
-    /// The file is told to callbacks by its state.
+    /// Callbacks find the file by its state.
     static void read(png_structp png, png_bytep target, png_size_t size)
     {
         auto& state = *static_cast<State*>(png_get_io_ptr(png));
@@ -42,8 +42,8 @@ struct PngImage::State {
 
     static void ignore(png_structp, png_const_charp) {}
 
-    // libpng reports errors by longjmp, so nothing with a destructor lives in these. They return
-    // whether all went well.
+    // libpng reports errors by longjmp, so no object with a destructor lives in these functions.
+    // They return true on success.
 
     [[nodiscard]] bool read_header()
     {

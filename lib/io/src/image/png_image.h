@@ -8,23 +8,23 @@
 
 namespace bdpt::io {
 
-/// A PNG file in memory whose header has been read. By libpng.
+/// A PNG file in memory whose header has been read. Decoded by libpng.
 class PngImage {
 public:
-    /// `bytes` must stay as long as the image. Throws std::runtime_error when the header is
-    /// broken.
+    /// `bytes` must outlive the image. Throws std::runtime_error if the header is broken.
     explicit PngImage(ByteView bytes);
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
-    /// 1: grey, 2: grey and alpha, 3: RGB, 4: RGBA. Palettes and a transparent colour are resolved.
+    /// Returns 1: grey, 2: grey and alpha, 3: RGB, 4: RGBA. Palettes and a transparent colour are
+    /// resolved.
     [[nodiscard]] int channels() const { return channels_; }
-    /// 1 or 2; fewer bits are scaled to 8.
+    /// Returns 1 or 2; fewer bits are scaled to 8.
     [[nodiscard]] int value_bytes() const { return value_bytes_; }
 
     /// Decodes all pixels, top row first, into room for width * height * channels values, integers
-    /// in the order of this machine; once. Colours are not converted, alpha is not multiplied in.
-    /// Throws std::runtime_error when the file is broken.
+    /// in native byte order; called once. Colours are not converted, alpha is not premultiplied.
+    /// Throws std::runtime_error if the file is broken.
     void read(std::uint8_t* values);
 
 private:

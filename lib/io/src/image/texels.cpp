@@ -39,7 +39,7 @@ ImageFile open(ByteView bytes, Ktx2Decoder* ktx2)
     throw std::runtime_error("neither PNG, JPEG, WebP nor KTX2");
 }
 
-/// The image without its texels.
+/// Returns the image without its texels.
 TexelImage layout_of(const ImageFile& file)
 {
     return std::visit(

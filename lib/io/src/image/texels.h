@@ -16,32 +16,32 @@
 
 namespace bdpt::io {
 
-/// What has been decoded of an image.
+/// A decoded image.
 struct DecodedImage {
     TexelImage image{};
-    std::string damage{};  ///< what is wrong with the file, though it could be decoded; or empty
-    /// What the file should not have been, though all of it could be decoded.
+    std::string damage{};  ///< damage of a file that could be decoded anyway; or empty
+    /// Violations of the format in a file that could be decoded completely.
     std::vector<std::string> remarks{};
-    ColorEncoding encoding = ColorEncoding::unknown;  ///< as the file says
+    ColorEncoding encoding = ColorEncoding::unknown;  ///< as stated in the file
 };
 
-/// A PNG, JPEG, WebP or KTX2 image, told apart by its first bytes, whose size is known and within
+/// A PNG, JPEG, WebP or KTX2 image, recognized by its first bytes, whose size is known and within
 /// the limits, and which has not been decoded.
 class EncodedImage {
 public:
-    /// `bytes` and `ktx2` must stay as long as the image; null: KTX2 is not decoded. Throws `Error`
-    /// (invalid_input) when it is too large, std::runtime_error when it is no such image or broken,
-    /// so that the caller may go on without it.
+    /// `bytes` and `ktx2` must outlive the image; null: KTX2 is not decoded. Throws `Error`
+    /// (invalid_input) if it is too large, std::runtime_error if it is no such image or broken, so
+    /// that the caller may go on without it.
     EncodedImage(ByteView bytes, const ReadLimits& limits, Ktx2Decoder* ktx2 = nullptr);
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
-    /// Of the texels. It takes up to three times that while it is decoded.
+    /// Returns the size of the texels. Decoding takes up to three times as much.
     [[nodiscard]] std::uint64_t decoded_bytes() const { return decoded_bytes_; }
 
-    /// Texels as they are stored: 8 or 16 bits, one to four channels. Colours are not converted and
-    /// alpha is not multiplied in. Throws std::runtime_error when the image is broken. May be
-    /// called on another thread, once.
+    /// Decodes texels as stored: 8 or 16 bits, one to four channels. Colours are not converted and
+    /// alpha is not premultiplied. Throws std::runtime_error if the image is broken. May be called
+    /// on another thread, once.
     [[nodiscard]] DecodedImage decode() &&;
 
 private:
@@ -51,7 +51,7 @@ private:
     std::uint64_t decoded_bytes_ = 0;
 };
 
-/// Decodes an image; throws what `EncodedImage` throws.
+/// Decodes an image; throws as `EncodedImage`.
 [[nodiscard]] DecodedImage decode_texels(ByteView bytes, const ReadLimits& limits);
 
 }  // namespace bdpt::io

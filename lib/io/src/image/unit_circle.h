@@ -10,13 +10,13 @@ struct CirclePoint {
     double cos = 1.0;
 };
 
-/// The point at this part of a turn, to the last digits. The sine of the C library may differ
-/// between machines.
+/// Returns the point at a fraction of a turn, accurate to the last digits and equal on all
+/// machines, unlike the sine of the C library.
 [[nodiscard]] inline CirclePoint circle_point(double turns)
 {
     const double quadrant = std::floor(4.0 * turns + 0.5);
     const double x = (turns - 0.25 * quadrant) * 6.283185307179586;
-    // Taylor series on |x| <= pi/4, from their ends.
+    // Taylor series on |x| <= pi/4, evaluated from the last term.
     const double x2 = x * x;
     double s = 1.0;
     double c = 1.0;

@@ -22,7 +22,7 @@ struct WebpImage::State {
 
 namespace {
 
-/// That all of the file is there has been checked before.
+/// Describes an error. Truncation has been excluded before.
 const char* describe(VP8StatusCode status)
 {
     switch (status) {

@@ -8,22 +8,22 @@
 namespace bdpt::io {
 
 /// A WebP file in memory whose header has been read [RFC 9649]: lossy or lossless, with or without
-/// alpha. Of an animation the first frame counts. By libwebp.
+/// alpha. Of an animation only the first frame is read. Decoded by libwebp.
 class WebpImage {
 public:
-    /// `bytes` must stay as long as the image. Throws std::runtime_error when the header is broken,
-    /// or the file ends too early.
+    /// `bytes` must outlive the image. Throws std::runtime_error if the header is broken, or the
+    /// file is truncated.
     explicit WebpImage(ByteView bytes);
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
-    /// 3: RGB, 4: RGBA.
+    /// Returns 3: RGB, or 4: RGBA.
     [[nodiscard]] int channels() const { return channels_; }
     [[nodiscard]] static constexpr int value_bytes() { return 1; }
 
     /// Decodes all pixels, top row first, into room for width * height * channels values, which are
-    /// all 0; once. Alpha is not multiplied in. What a frame of an animation leaves free stays 0.
-    /// Throws std::runtime_error when the file is broken.
+    /// all 0; called once. Alpha is not premultiplied. Pixels outside the frame of an animation
+    /// stay 0. Throws std::runtime_error if the file is broken.
     void read(std::uint8_t* values);
 
 private:

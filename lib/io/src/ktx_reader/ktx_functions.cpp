@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of packages, and of those who build the library without a version.
+/// Names of the library in packages, and in builds without a version.
 constexpr const char* library_names[] = {"libktx.so.4", "libktx.so"};
 
 std::vector<std::string> files_to_try(const std::string& library)
@@ -22,7 +22,7 @@ std::vector<std::string> files_to_try(const std::string& library)
         return {library_names[0], library_names[1]};
     }
     std::error_code error;
-    // A name without a slash would be looked for in the folders of the system.
+    // A name without a slash would be searched in the system's folders.
     const fs::path path = fs::absolute(library, error);
     if (!fs::is_directory(path, error)) {
         return {path.string()};
@@ -48,7 +48,7 @@ KtxFunctions open_ktx(const std::string& library)
     for (const std::string& file : files_to_try(library)) {
         void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
         if (module == nullptr) {
-            reason = reason.empty() ? dlerror() : reason;  // that of the likely name
+            reason = reason.empty() ? dlerror() : reason;  // the error of the likelier name
             continue;
         }
         KtxFunctions functions{};

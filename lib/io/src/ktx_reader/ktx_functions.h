@@ -21,7 +21,7 @@ struct Texture {
     TextureFunctions* functions;
 };
 
-/// What we call of the C interface of libktx 4, by the names of its documentation. Errors and
+/// The used part of the C interface of libktx 4, by the names of its documentation. Errors and
 /// formats are plain numbers.
 struct KtxFunctions {
     int (*ktxTexture2_CreateFromMemory)(const std::uint8_t* bytes, std::size_t size,
@@ -38,8 +38,8 @@ struct KtxFunctions {
     static constexpr int out_of_memory = 13;
 };
 
-/// Opens the library, a file or a folder with libktx.so.4 or libktx.so, and finds its functions; an
-/// empty name: what the system finds. Throws `Error` (unsupported).
+/// Opens the library, a file or a folder with libktx.so.4 or libktx.so, and resolves its functions;
+/// an empty name: the library that the system finds. Throws `Error` (unsupported).
 [[nodiscard]] KtxFunctions open_ktx(const std::string& library);
 
 }  // namespace bdpt::ktx

@@ -1,6 +1,5 @@
-// bdpt-read-ktx: decodes a KTX2 image for the library, which starts it (image/ktx_reply.h says
-// how). libktx may crash or ask for all memory on broken files: that ends this process and no
-// other.
+// bdpt-read-ktx: decodes a KTX2 image for the library, which starts it (see image/ktx_reply.h).
+// libktx may crash or request all memory on broken files, which ends only this process.
 
 #include <bdpt/error.h>
 
@@ -25,7 +24,7 @@
 namespace bdpt::ktx {
 namespace {
 
-/// What the header of the image says.
+/// Size according to the header of the image.
 struct Size {
     std::size_t width = 0;
     std::size_t height = 0;
@@ -34,7 +33,7 @@ struct Size {
     [[nodiscard]] std::size_t pixels() const { return width * height; }
 };
 
-/// The file on the standard input.
+/// Returns the file on the standard input.
 std::span<const std::uint8_t> input()
 {
     struct stat info {};
@@ -59,7 +58,7 @@ void check(const KtxFunctions& ktx, int error)
     }
 }
 
-/// The values of pixels, `stride` of each, of which the first `channels` count.
+/// Writes the first `channels` of the `stride` values of each pixel.
 void write_pixels(std::span<const std::uint8_t> values, std::size_t stride, std::size_t channels)
 {
     if (stride == channels) {
@@ -147,6 +146,6 @@ int main(int count, char** words)
 {
     const int code = bdpt::ktx::run({words, static_cast<std::size_t>(count)});
     std::fflush(stderr);
-    // Nothing that libktx or a broken file left behind is cleaned up.
+    // No clean-up of what libktx or a broken file left behind.
     _exit(code);
 }

@@ -56,8 +56,8 @@ __attribute__((visibility("default"))) BdptImage* bdpt_oiio_open(
     char* message, std::size_t message_size)
 {
     try {
-        // Whoever calls decodes several images at once; a pool of threads would outlive that.
-        // Once, as OpenImageIO must not be told so by two threads at the same time.
+        // The caller decodes several images at once; a pool of threads would outlive it. Set once,
+        // as OpenImageIO must not be configured by two threads at the same time.
         [[maybe_unused]] static const bool is_told = OIIO::attribute("threads", 1);
         auto image = std::make_unique<BdptImage>(bytes, size);
         image->input = OIIO::ImageInput::create(format);

@@ -7,7 +7,7 @@
 namespace bdpt::io {
 namespace {
 
-/// Without scale, which cameras ignore.
+/// Removes the scale, which cameras ignore.
 Mat4 rigid(const Mat4& world_from_camera)
 {
     Mat4 result = world_from_camera;
@@ -29,18 +29,18 @@ Mat4 camera_from_world(const CameraDesc& camera)
 Mat4 ndc_from_world(const CameraDesc& camera, float aspect)
 {
     if (camera.projection == Projection::orthographic) {
-        // x' = x / width + 0.5, y' = -y / height + 0.5; the depth [m] is left as it is.
+        // x' = x / width + 0.5, y' = -y / height + 0.5; the depth [m] is unchanged.
         const float height = camera.vertical_extent;
         const Mat4 projection(Vec4(1.0f / (aspect * height), 0.0f, 0.0f, 0.0f),
                               Vec4(0.0f, -1.0f / height, 0.0f, 0.0f), Vec4(0.0f, 0.0f, 1.0f, 0.0f),
                               Vec4(0.5f, 0.5f, 0.0f, 1.0f));
         return projection * camera_from_world(camera);
     }
-    // The depth that is left over goes from 0 here to 1 at infinity.
+    // The remaining depth goes from 0 here to 1 at infinity.
     constexpr float near_plane = 0.01f;
     const float half_height = std::tan(0.5f * camera.vertical_fov);
     const float half_width = aspect * half_height;
-    // x' = (0.5 x / half_width + 0.5 z) / z, y' = (-0.5 y / half_height + 0.5 z) / z; columns.
+    // Columns of x' = (0.5 x / half_width + 0.5 z) / z, y' = (-0.5 y / half_height + 0.5 z) / z.
     const Mat4 projection(Vec4(0.5f / half_width, 0.0f, 0.0f, 0.0f),
                           Vec4(0.0f, -0.5f / half_height, 0.0f, 0.0f), Vec4(0.5f, 0.5f, 1.0f, 1.0f),
                           Vec4(0.0f, 0.0f, -near_plane, 0.0f));

@@ -8,8 +8,8 @@
 
 namespace bdpt::io {
 
-/// Throws `Error` (usage) when an image that is to be written has no pixels, or has not
-/// `width` * `height` of them.
+/// Throws `Error` (usage) if an image to be written has no pixels, or does not have `width` *
+/// `height` of them.
 inline void check_pixels(const std::filesystem::path& file, int width, int height,
                          std::size_t pixels)
 {

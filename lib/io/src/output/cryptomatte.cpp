@@ -10,7 +10,7 @@
 namespace bdpt::io {
 namespace {
 
-/// {"lamp":"4090f8a4",...}
+/// Returns {"lamp":"4090f8a4",...}
 std::string manifest_text(const IdManifest& manifest)
 {
     using Json = nlohmann::json;

@@ -70,7 +70,7 @@ TexelImage to_display(const Image& image, std::span<const float> coverage,
 {
     check(image, coverage, options);
     const double gain = std::exp2(double{options.exposure});
-    // The pixel on a screen, if `alpha` of it is covered by what has its colour.
+    // Returns the display pixel, if `alpha` of it is covered with its colour.
     const auto shown = [&](Rgb pixel, float alpha) {
         constexpr double brightest = 1e30;  // white at any exposure, and a float
         for (int channel = 0; channel < 3; ++channel) {

@@ -28,14 +28,14 @@ namespace {
 
 constexpr float max_half = 65504.0f;
 
-/// The crop in the whole image; Imath's boxes hold their upper corner.
+/// Returns the crop in the whole image; Imath's boxes include their upper corner.
 Imath::Box2i data_window(const Image& image, const ExrPlacement& placement)
 {
     return {{placement.x, placement.y},
             {placement.x + image.width - 1, placement.y + image.height - 1}};
 }
 
-/// One channel of a file: where its values lie in memory.
+/// One channel of a file: the layout of its values in memory.
 struct Channel {
     std::string name;
     Imf::PixelType type;
@@ -43,12 +43,13 @@ struct Channel {
     std::size_t pixel_stride;  // [bytes]
 };
 
-/// What is written: the channels, and the halves that some of them point to.
+/// The channels to write, and the halves that some of them point to.
 class Content {
 public:
     explicit Content(Imf::PixelType main_type) : main_type_(main_type) {}
 
-    /// Refers to `values`: a float a pixel for each of `names`, which are letters.
+    /// Adds a channel for each of `names`, which are letters. Refers to `values`: one float per
+    /// pixel and channel.
     void add(const std::string& layer, const std::string& names, const float* values,
              std::size_t pixels)
     {

@@ -5,8 +5,8 @@
 
 namespace bdpt::io {
 
-/// What the header of every OpenEXR file of ours says about its image. `aspect`: width over height
-/// of the whole image.
+/// Adds the metadata common to all our OpenEXR files. `aspect`: width over height of the whole
+/// image.
 void add_exr_metadata(Imf::Header& header, const ImageMetadata& metadata, float aspect);
 
 }  // namespace bdpt::io

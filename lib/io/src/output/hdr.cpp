@@ -25,14 +25,15 @@ RgbePixel rgbe_of(const Rgb& color)
     std::array<float, 3> values{};
     float most = 0.0f;
     for (int c = 0; c < 3; ++c) {
-        const float value = color[c] > 0.0f ? std::min(color[c], largest) : 0.0f;  // NaN, too
+        const float value =
+            color[c] > 0.0f ? std::min(color[c], largest) : 0.0f;  // NaN becomes 0, too
         values[static_cast<std::size_t>(c)] = value;
         most = std::max(most, value);
     }
     int exponent = 0;
     std::frexp(most, &exponent);
     if (std::lround(std::ldexp(most, 8 - exponent)) > 255) {
-        ++exponent;  // it is rounded up to 256
+        ++exponent;  // rounded up to 256
     }
     if (!(most > 0.0f) || exponent < -127) {
         return {};
@@ -46,7 +47,7 @@ RgbePixel rgbe_of(const Rgb& color)
 }
 
 /// Appends one component of all pixels of a line: runs of 3 to 127 as 128 + count and the byte,
-/// others as their count, of 1 to 128, and themselves.
+/// others as their count, of 1 to 128, and their bytes.
 void append_component(const std::vector<RgbePixel>& line, std::size_t component, std::string& bytes)
 {
     const auto value = [&](std::size_t x) { return static_cast<char>(line[x][component]); };

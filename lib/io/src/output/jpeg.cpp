@@ -1,6 +1,6 @@
 #include <bdpt/io/picture.h>
 
-#include <cstdio>  // for the header of libjpeg
+#include <cstdio>  // required by the header of libjpeg
 
 #include <jpeglib.h>
 
@@ -24,7 +24,7 @@
 namespace bdpt::io {
 namespace {
 
-/// What libjpeg works on, and calls. It is C, so no exception may leave these.
+/// State and callbacks of libjpeg. It is C, so no exception may leave them.
 struct JpegEncoder {
     jpeg_compress_struct codec{};
     jpeg_error_mgr errors{};
@@ -51,8 +51,8 @@ struct JpegEncoder {
 
     static void ignore(j_common_ptr) {}
 
-    /// libjpeg reports errors by longjmp, so nothing with a destructor lives in here. Returns
-    /// whether all went well.
+    /// libjpeg reports errors by longjmp, so no object with a destructor lives in this function.
+    /// Returns true on success.
     [[nodiscard]] bool encode(const TexelImage& image, std::span<const std::string> comments)
     {
         constexpr int quality = 95;
@@ -71,7 +71,7 @@ struct JpegEncoder {
         codec.in_color_space = image.channels == 1 ? JCS_GRAYSCALE : JCS_RGB;
         jpeg_set_defaults(&codec);
         jpeg_set_quality(&codec, quality, TRUE);
-        codec.comp_info[0].h_samp_factor = 1;  // edges of saturated colours stay sharp
+        codec.comp_info[0].h_samp_factor = 1;  // keeps edges of saturated colours sharp
         codec.comp_info[0].v_samp_factor = 1;
         jpeg_start_compress(&codec, TRUE);
         for (const std::string& comment : comments) {
@@ -81,7 +81,7 @@ struct JpegEncoder {
         const std::size_t stride =
             static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
         while (codec.next_scanline < codec.image_height) {
-            // It is not written to, whatever its type says.
+            // libjpeg does not write to the row, whatever the type says.
             auto* row = const_cast<JSAMPLE*>(image.bytes.data() + codec.next_scanline * stride);
             jpeg_write_scanlines(&codec, &row, 1);
         }
@@ -90,7 +90,7 @@ struct JpegEncoder {
     }
 };
 
-/// "name: value", but for what does not fit into a comment.
+/// Returns "name: value" texts, without those that do not fit into a comment.
 std::vector<std::string> comments_of(const PngOptions& options)
 {
     constexpr std::size_t longest = 65533;

@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// So that the new name survives a power cut too. File systems that cannot do it need not.
+/// Syncs the folder, so that the new name survives a power failure. File systems without this are
+/// accepted.
 void sync_folder(const fs::path& target)
 {
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
@@ -121,7 +122,7 @@ void OutputFile::send()
         }
         done += length;
     }
-    // Some file systems tell only now that a disk is full.
+    // Some file systems report a full disk only now.
     if (::close(std::exchange(stream_, -1)) != 0) {
         refuse_output(name_, error_text(errno));
     }
@@ -153,7 +154,7 @@ void OutputFile::commit()
         send();
         return;
     }
-    // EINVAL: a file system that has nothing to bring to a disk.
+    // EINVAL: a file system without a disk to sync.
     if (::fsync(descriptor_) != 0 && errno != EINVAL) {
         refuse_output(name_, error_text(errno));
     }

@@ -22,7 +22,7 @@ fs::path folder_of(const fs::path& file)
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// The descriptor of this process that `file` names, as /dev/fd/N and /dev/stdout do.
+/// Returns the descriptor of this process that `file` names, such as /dev/fd/N and /dev/stdout.
 std::optional<int> own_descriptor(const fs::path& file)
 {
     const std::string name = file.filename().string();
@@ -41,7 +41,7 @@ std::optional<int> own_descriptor(const fs::path& file)
     return !missing && lists_descriptors ? std::optional(std::stoi(name)) : std::nullopt;
 }
 
-/// A copy of `descriptor`, if something can be written there.
+/// Returns a copy of `descriptor`, if it is writable.
 int writable_copy(const fs::path& name, int descriptor)
 {
     const int flags = ::fcntl(descriptor, F_GETFL);
@@ -61,10 +61,10 @@ int writable_copy(const fs::path& name, int descriptor)
     return copy;
 }
 
-/// A device is opened at once: only then is it known to be no terminal.
+/// Opens a device. This is done at once, as only then it is known not to be a terminal.
 int open_device(const fs::path& name, const fs::path& path)
 {
-    // A serial line would wait for somebody at the other end.
+    // A serial line would wait for the other end.
     const int device = ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (device < 0) {
         refuse_output(name, error_text(errno));
@@ -77,7 +77,7 @@ int open_device(const fs::path& name, const fs::path& path)
     return device;
 }
 
-/// Of something at `path` that is no regular file.
+/// Returns the target for a path that is no regular file.
 OutputTarget special_target(const fs::path& name, const fs::path& path, mode_t mode)
 {
     if (S_ISDIR(mode)) {

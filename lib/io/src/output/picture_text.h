@@ -8,7 +8,7 @@
 
 namespace bdpt::io {
 
-/// What files of images for screens say about them: names and values.
+/// Returns the text entries of image files for screens: names and values.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> picture_text(
     const PngOptions& options);
 

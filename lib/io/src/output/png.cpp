@@ -27,7 +27,7 @@ namespace {
 
 using Text = std::vector<std::pair<std::string, std::string>>;
 
-/// Uncompressed UTF-8 entries that point into `text`.
+/// Returns uncompressed UTF-8 entries that point into `text`.
 std::vector<png_text> to_png_text(Text& text)
 {
     std::vector<png_text> result;
@@ -42,7 +42,7 @@ std::vector<png_text> to_png_text(Text& text)
     return result;
 }
 
-/// What libpng's callbacks work on. They are called from C, so no exception may leave them.
+/// State of libpng's callbacks. They are called from C, so no exception may leave them.
 struct Sink {
     std::vector<char> bytes;
     std::string error;
@@ -77,12 +77,12 @@ void flush(png_structp) {}
 
 void ignore_warning(png_structp, png_const_charp) {}
 
-/// What is written; it belongs to someone else.
+/// Pixels to write; a view.
 struct Pixels {
     int width;
     int height;
     int channels;  // 1 to 4
-    int bits;      // 8 or 16, of each channel
+    int bits;      // per channel, 8 or 16
     std::span<const std::uint8_t> bytes;
 
     [[nodiscard]] std::size_t pixel_size() const
@@ -91,8 +91,8 @@ struct Pixels {
     }
 };
 
-/// libpng reports errors by longjmp, so nothing with a destructor lives in here. Returns whether
-/// all went well.
+/// libpng reports errors by longjmp, so no object with a destructor lives in this function. Returns
+/// true on success.
 bool encode(png_structp png, png_infop info, const Pixels& pixels,
             const std::vector<png_text>& text)
 {
@@ -122,7 +122,7 @@ bool encode(png_structp png, png_infop info, const Pixels& pixels,
 void write_pixels(const std::filesystem::path& file, const Pixels& pixels,
                   const PngOptions& options)
 {
-    // Part of a pixel is as wrong as one too many.
+    // A partial pixel is as wrong as one too many.
     const std::size_t size = pixels.pixel_size();
     const bool whole = pixels.bytes.size() % size == 0;
     check_pixels(file, pixels.width, pixels.height, whole ? pixels.bytes.size() / size : 0);
@@ -151,7 +151,7 @@ void write_pixels(const std::filesystem::path& file, const Pixels& pixels,
     output.commit();
 }
 
-/// Four bytes of a PNG chunk's header as a number.
+/// Returns four bytes of a PNG chunk's header as a number.
 std::uint32_t chunk_number(std::string_view bytes)
 {
     std::uint32_t number = 0;
@@ -165,11 +165,11 @@ std::uint32_t chunk_number(std::string_view bytes)
 
 bool is_png_of_bdpt(const std::filesystem::path& file)
 {
-    // `write_png` writes the entry "Software" first, after chunks of few bytes.
+    // `write_png` writes the entry "Software" first, after short chunks.
     constexpr std::size_t enough = 1024;
     constexpr std::size_t signature = 8;
     constexpr std::size_t head = 8;      // of a chunk: its size and its type
-    constexpr std::size_t checksum = 4;  // behind it
+    constexpr std::size_t checksum = 4;  // behind the data of a chunk
     std::string start(enough, '\0');
     std::ifstream stream(file, std::ios::binary);
     stream.read(start.data(), static_cast<std::streamsize>(start.size()));

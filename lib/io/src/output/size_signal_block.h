@@ -7,9 +7,9 @@
 
 namespace bdpt::io {
 
-/// While it lives, a write beyond the process' limit of file sizes (ulimit -f) fails with EFBIG
-/// instead of ending the process. Of the calling thread only, so that the host's handling of the
-/// signal stays as it is.
+/// During its lifetime, a write beyond the process's limit of file sizes (ulimit -f) fails with
+/// EFBIG instead of ending the process. Affects the calling thread only, so the host's handling of
+/// the signal stays as it is.
 class SizeSignalBlock {
 public:
     SizeSignalBlock()

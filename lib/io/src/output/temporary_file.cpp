@@ -25,7 +25,7 @@ std::string host_name()
     return result;
 }
 
-/// As far as the process may: only root can give files away.
+/// Sets owner and mode as far as the process may: only root can give files away.
 void give_access(int descriptor, const FileAccess& access)
 {
     constexpr mode_t everything = 0777;
@@ -33,7 +33,7 @@ void give_access(int descriptor, const FileAccess& access)
     mode_t mode = access.mode & everything;
     if (::fchown(descriptor, access.owner, access.group) != 0 &&
         ::fchown(descriptor, static_cast<uid_t>(-1), access.group) != 0) {
-        // Another group may do no more than everybody.
+        // Another group gets no more rights than everybody.
         mode &= ~group_part | (mode & 0007U) << 3U;
     }
     ::fchmod(descriptor, mode);
@@ -62,7 +62,7 @@ std::filesystem::path temporary_name(const std::filesystem::path& target)
     std::string name = target.filename().string();
     std::size_t size = longest - std::min(longest, tail.size() + number_length);
     if (size < name.size()) {
-        // Some file systems take whole characters of UTF-8 alone.
+        // Some file systems accept only whole characters of UTF-8.
         while (size > 0 && (static_cast<unsigned char>(name[size]) & 0xc0U) == 0x80U) {
             --size;
         }
@@ -75,7 +75,8 @@ TemporaryFile create_temporary(const std::filesystem::path& name,
                                const std::optional<FileAccess>& access)
 {
     constexpr int flags = O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC;
-    // Less the umask, as for any new file; and nobody reads what will be more private.
+    // Less the umask, as for any new file; a file that will be more private is not readable
+    // meanwhile.
     const mode_t mode = access ? S_IRUSR | S_IWUSR : 0666;
     constexpr int max_writers = 1000;
     TemporaryFile result{.path = name};

@@ -8,13 +8,13 @@
 
 namespace bdpt::io {
 
-/// Host, process number and 16 random digits. They tell this process from all others that may write
-/// to the same folder. Its number does not: processes of two containers, or of two machines, may
-/// have the same.
+/// Returns host, process number and 16 random digits, which distinguish this process from all
+/// others that may write to the same folder. The number alone does not: processes in two
+/// containers, or on two machines, may share it.
 [[nodiscard]] const std::string& process_name();
 
-/// Where the file `target` grows: beside it, called after it and the process. A name that would be
-/// too long for the file system loses the end of what it has of `target`.
+/// Returns the path at which the file `target` grows: in its folder, named after it and the
+/// process. In a name too long for the file system the part from `target` is truncated.
 [[nodiscard]] std::filesystem::path temporary_name(const std::filesystem::path& target);
 
 struct TemporaryFile {
@@ -22,9 +22,9 @@ struct TemporaryFile {
     std::filesystem::path path;
 };
 
-/// A new file, called `name`, for those who may use the file that it will replace, if there is one.
-/// If `name` is taken, as by another `OutputFile` of this process for the same target, it gets a
-/// number.
+/// Creates a new file, called `name`, with the access rights of the file that it will replace, if
+/// any. If `name` is taken, as by another `OutputFile` of this process for the same target, a
+/// number is appended.
 [[nodiscard]] TemporaryFile create_temporary(const std::filesystem::path& name,
                                              const std::optional<FileAccess>& access);
 

@@ -8,10 +8,10 @@
 namespace bdpt::io {
 namespace {
 
-/// Without what is no colour; NaN, too, becomes 0.
+/// Makes a colour finite and non-negative; NaN becomes 0.
 Rgb sound(Rgb color)
 {
-    // Far above where any curve ends; keeps its squares finite.
+    // Far above the end of any curve; keeps squares finite.
     constexpr float brightest = 1e6f;
     for (int channel = 0; channel < 3; ++channel) {
         color[channel] = color[channel] > 0.0f ? std::min(color[channel], brightest) : 0.0f;
@@ -24,13 +24,13 @@ float largest(Rgb color)
     return std::max(color.r, std::max(color.g, color.b));
 }
 
-/// Narkowicz' fit of the ACES reference transform; reaches 1 at about 7.2.
+/// Evaluates Narkowicz' fit of the ACES reference transform; reaches 1 at about 7.2.
 float film_curve(float x)
 {
     return std::min(1.0f, (x * (2.51f * x + 0.03f)) / (x * (2.43f * x + 0.59f) + 0.14f));
 }
 
-/// Wrensch's fit of the contrast curve of AgX, from [0, 1].
+/// Evaluates Wrensch's fit of the contrast curve of AgX, from [0, 1].
 Rgb agx_curve(Rgb x)
 {
     constexpr float coefficients[]{15.5f, -40.14f, 31.96f, -6.868f, 0.4298f, 0.1191f, -0.00232f};
@@ -52,7 +52,7 @@ std::string_view tone_curve_name(ToneCurve curve)
 
 Rgb filmic(Rgb scene_linear)
 {
-    // How fast colours fade above 1, where film loses them too.
+    // Rate at which colours above 1 fade to white, as film loses them, too.
     constexpr float fade = 0.15f;
 
     const Rgb color = sound(scene_linear);
@@ -68,13 +68,13 @@ Rgb filmic(Rgb scene_linear)
 
 Rgb pbr_neutral(Rgb scene_linear)
 {
-    constexpr float fresnel = 0.04f;  // what a dielectric of index 1.5 reflects
+    constexpr float fresnel = 0.04f;  // reflectance of a dielectric of index 1.5
     constexpr float start = 0.8f - fresnel;
     constexpr float room = 1.0f - start;
     constexpr float fade = 0.15f;
 
     Rgb color = sound(scene_linear);
-    // Dark colours keep a little of what would be taken off, as they must not become negative.
+    // Dark colours lose less than the full offset, as they must not become negative.
     const float least = std::min(color.r, std::min(color.g, color.b));
     color -= least < 2.0f * fresnel ? least - least * least / (4.0f * fresnel) : fresnel;
     const float peak = largest(color);
@@ -88,12 +88,12 @@ Rgb pbr_neutral(Rgb scene_linear)
 
 Rgb agx(Rgb scene_linear)
 {
-    // In columns.
+    // Columns.
     const Mat3 rec2020_from_rec709(0.6274f, 0.0691f, 0.0164f, 0.3293f, 0.9195f, 0.0880f, 0.0433f,
                                    0.0113f, 0.8956f);
     const Mat3 rec709_from_rec2020(1.6605f, -0.1246f, -0.0182f, -0.5876f, 1.1329f, -0.1006f,
                                    -0.0728f, -0.0083f, 1.1187f);
-    // Primaries move inwards, so that bright colours fade, and back.
+    // Primaries are moved inwards, so that bright colours fade, and back.
     const Mat3 inset(0.856627153f, 0.137318973f, 0.111898213f, 0.0951212405f, 0.761241991f,
                      0.0767994186f, 0.0482516061f, 0.101439036f, 0.811302368f);
     const Mat3 outset(1.12710058f, -0.141329763f, -0.141329763f, -0.110606643f, 1.15782370f,
@@ -105,7 +105,7 @@ Rgb agx(Rgb scene_linear)
     const Rgb color = inset * (rec2020_from_rec709 * sound(scene_linear));
     const Rgb stops = log2(max(color, Rgb(1e-10f)));
     const Rgb range = clamp((stops - darkest) / (brightest - darkest), 0.0f, 1.0f);
-    // The curve ends in values encoded with a power of 2.2.
+    // The curve's output is encoded with a power of 2.2.
     const Rgb linear = pow(max(outset * agx_curve(range), Rgb(0.0f)), Rgb(2.2f));
     return clamp(rec709_from_rec2020 * linear, 0.0f, 1.0f);
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double middle_grey = 0.18;
 
-/// log2 of the luminance of each pixel that shows something, sorted.
+/// Returns log2 of the luminance of each pixel that is neither black nor invalid, sorted.
 std::vector<double> log_luminances(const Image& image)
 {
     std::vector<double> result;
@@ -53,8 +53,8 @@ float automatic_exposure(const Image& image)
     const double brightest = *(end - 1);
     const double average = std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin);
     const double range = brightest - darkest;
-    // 1 for an image that is bright but for a few shadows, as one against the sky is. The reverse
-    // would darken images with a few highlights, and is left out.
+    // 1 for an image that is bright but for a few shadows, such as one against the sky. The
+    // opposite case would darken images with a few highlights, and is left out.
     const double skew = range > 0.0 ? (2.0 * average - darkest - brightest) / range : 0.0;
     const double key = middle_grey * std::exp2(std::max(0.0, skew));
     return static_cast<float>(std::log2(key) - average);

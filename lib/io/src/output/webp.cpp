@@ -13,7 +13,7 @@
 namespace bdpt::io {
 namespace {
 
-/// What libwebp works on.
+/// State of libwebp.
 struct WebpEncoder {
     WebPPicture picture{};
     WebPMemoryWriter bytes{};
@@ -27,7 +27,7 @@ struct WebpEncoder {
         WebPMemoryWriterClear(&bytes);
     }
 
-    /// Whether all went well; else `picture` has the error.
+    /// Returns true on success; else `picture` has the error.
     [[nodiscard]] bool encode(const TexelImage& image)
     {
         constexpr float quality = 95.0f;
@@ -37,7 +37,7 @@ struct WebpEncoder {
             picture.error_code = VP8_ENC_ERROR_INVALID_CONFIGURATION;
             return false;
         }
-        config.use_sharp_yuv = 1;  // edges of saturated colours stay sharp
+        config.use_sharp_yuv = 1;  // keeps edges of saturated colours sharp
         config.exact = 1;
         picture.use_argb = 1;
         picture.width = image.width;

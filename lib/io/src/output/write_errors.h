@@ -8,8 +8,8 @@
 
 namespace bdpt::io {
 
-/// Calls `write()`, which writes `file`. What a library throws becomes an `Error` (output) that
-/// names the file; an `Error` and std::bad_alloc stay.
+/// Calls `write()`, which writes `file`. Exceptions of libraries become an `Error` (output) that
+/// names the file; an `Error` and std::bad_alloc are passed on.
 template <typename Write>
 void with_write_errors(const std::filesystem::path& file, const Write& write)
 {

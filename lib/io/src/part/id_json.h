@@ -7,15 +7,15 @@
 
 namespace bdpt::io {
 
-// What a part says about its ids: [{"ranks": 3, "names": [["lamp", 1083263012], ...]}, ...], for
-// each kind. An id stands beside its name, as JSON changes names that are no UTF-8.
+// JSON of a part's ids: [{"ranks": 3, "names": [["lamp", 1083263012], ...]}, ...], for each kind.
+// Ids are stored beside their names, as JSON changes names that are not UTF-8.
 
 [[nodiscard]] nlohmann::ordered_json ids_to_json(const IdNames& names, const IdRanks& ranks);
 
-/// Throws what `JsonValue` does, also for ids that no name has.
+/// Parses names. Throws as `JsonValue` does, also for ids that no name has.
 [[nodiscard]] IdNames names_from_json(const JsonValue& json);
 
-/// Throws what `JsonValue` does.
+/// Parses ranks. Throws as `JsonValue` does.
 [[nodiscard]] IdRanks ranks_from_json(const JsonValue& json);
 
 }  // namespace bdpt::io

@@ -14,7 +14,8 @@
 
 namespace bdpt::io {
 
-// Fields of a `CameraDesc` to JSON and back: numbers, enumerators, texts and matrices.
+// Conversion of the fields of a `CameraDesc` to JSON and back: numbers, enumerators, texts and
+// matrices.
 
 template <typename T>
 concept JsonScalar = std::is_arithmetic_v<T> || std::is_same_v<T, std::string>;

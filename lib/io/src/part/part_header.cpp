@@ -22,8 +22,8 @@ using nlohmann::ordered_json;
 
 constexpr int format = 1;
 constexpr int max_side = 1 << 16;       // [pixels]
-constexpr int max_vertices = 4096 + 1;  // of a strategy, from one side
-constexpr double max_seconds = 1e12;    // that a render took, by all machines together
+constexpr int max_vertices = 4096 + 1;  // maximum of a strategy, on one side
+constexpr double max_seconds = 1e12;    // render time, summed over all machines
 
 SampleSet read_samples(const JsonValue& json)
 {
@@ -86,7 +86,8 @@ AovSet read_aovs(const JsonValue& json)
     return aovs;
 }
 
-/// No pixel has more ids than there are names, or samples; kinds that were not asked for have none.
+/// Checks the numbers of ids: no pixel has more than there are names, or samples; kinds that were
+/// not requested have none.
 void check_ids(const PartHeader& header, const JsonValue& json)
 {
     for (std::size_t kind = 0; kind < id_kinds.size(); ++kind) {
@@ -279,7 +280,7 @@ std::string to_text(const PartHeader& header)
     if (asks_for_ids(header.aovs)) {
         json["ids"] = ids_to_json(header.names, header.ranks);
     }
-    // Names differ; to look for each of them would take the square of their number.
+    // Names are unique; a search for each would take quadratic time.
     auto& identity = json["identity"].get_ref<ordered_json::object_t&>();
     for (const auto& [name, value] : header.identity.components) {
         identity.emplace_back(name, value);

@@ -13,15 +13,15 @@
 
 namespace bdpt::io {
 
-/// All that a part file holds but its sums: its JSON.
+/// The contents of a part file except its sums: its JSON.
 struct PartHeader {
     Identity identity;
     SampleSet samples;
     FilmLayout layout;
     AovSet aovs;
     PixelCounts counts = PixelCounts::equal;
-    IdNames names;    ///< of the AOVs that are images of ids
-    IdRanks ranks{};  ///< that the file has planes for
+    IdNames names;    ///< names in the AOVs that are images of ids
+    IdRanks ranks{};  ///< ranks that the file has planes for
     std::vector<Strategy> strategies;
     FilmTotals totals;
     RenderStats stats;
@@ -33,10 +33,10 @@ struct PartHeader {
 
 [[nodiscard]] std::string to_text(const PartHeader& header);
 
-/// Throws `Error` (invalid_input) for what no part has.
+/// Parses a header. Throws `Error` (invalid_input) for anything that no part has.
 [[nodiscard]] PartHeader parse_part_header(std::string_view text);
 
-/// A part without samples that has films for what `header` describes.
+/// Creates a part without samples that has films as `header` describes.
 [[nodiscard]] RenderPart make_part(const PartHeader& header);
 
 }  // namespace bdpt::io

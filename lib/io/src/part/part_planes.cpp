@@ -6,10 +6,10 @@
 namespace bdpt::io {
 namespace {
 
-constexpr int words_of_sum = 4;  // of 32 bits
+constexpr int words_of_sum = 4;  // 32-bit words
 static_assert(sizeof(ExactSum::Words) == words_of_sum * sizeof(std::uint32_t));
 
-/// "object.0", ..., a plane for each rank of each kind.
+/// Returns "object.0", ..., a plane for each rank of each kind.
 std::vector<std::string> id_planes(const IdRanks& ranks)
 {
     std::vector<std::string> names;
@@ -22,7 +22,7 @@ std::vector<std::string> id_planes(const IdRanks& ranks)
     return names;
 }
 
-/// Where in memory the 32 bits with that rank are, the lowest being 0.
+/// Returns the position in memory of the 32 bits of that rank, 0 being the lowest.
 std::size_t place_of(int rank)
 {
     constexpr bool little = std::endian::native == std::endian::little;

@@ -12,21 +12,21 @@
 
 namespace bdpt::io {
 
-/// The sums of all films of a part, a row of all planes at a time, and how OpenEXR sees that row:
-/// each sum as four channels of 32 bits, "half0.R.0" (the lowest) to "half0.R.3".
+/// The sums of all films of a part, one row of all planes at a time, and the view of OpenEXR on
+/// that row: each sum as four channels of 32 bits, "half0.R.0" (the lowest) to "half0.R.3".
 class PlaneRow {
 public:
-    /// `part` has the films; `ranks`: of ids that there are planes for.
+    /// `part` has the films; `ranks`: ranks of ids that there are planes for.
     PlaneRow(const RenderPart& part, const IdRanks& ranks);
 
-    /// Names of channels.
+    /// Returns the names of the channels.
     [[nodiscard]] std::vector<std::string> channels() const;
-    /// Refers to this object.
+    /// Returns a frame buffer that refers to this object.
     [[nodiscard]] Imf::FrameBuffer frame_buffer();
-    /// Row `row`, counted from the top of the region, of the films.
+    /// Copies row `row` of the films, counted from the top of the region.
     void take(const RenderPart& part, int row);
-    /// The planes are those of `samples` samples. Throws `Error` (invalid_input) for ids that no
-    /// film has.
+    /// Adds the row to the films of `part`; the planes hold `samples` samples. Throws `Error`
+    /// (invalid_input) for ids that no film has.
     void add_to(RenderPart& part, int row, std::int64_t samples) const;
 
 private:
@@ -40,7 +40,7 @@ private:
     std::vector<std::string> strategies_;
     std::vector<std::string> ids_;
     IdRanks ranks_;
-    std::vector<ExactSum::Words> words_;  // a row of a plane after the other
+    std::vector<ExactSum::Words> words_;  // one row of each plane after the other
 };
 
 }  // namespace bdpt::io

@@ -35,7 +35,7 @@ namespace {
 
 constexpr std::uint64_t max_header_bytes = 64 << 20;
 constexpr int max_image_side = 1 << 16;  // [pixels]
-/// No line of zeros is smaller than that; what claims to be would only take our memory.
+/// No line of zeros compresses better; a file that claims so would only take our memory.
 constexpr std::uint64_t max_compression = 1100;
 
 /// Lets OpenEXR read a sealed file.
@@ -61,7 +61,7 @@ private:
     std::uint64_t position_ = 0;
 };
 
-/// Before OpenEXR asks for memory by it.
+/// Checks the header before OpenEXR allocates memory by it.
 void check_file_header(const SealedFile& file)
 {
     Bytes bytes(static_cast<std::size_t>(std::min(file.size(), max_header_bytes)));
@@ -93,7 +93,7 @@ PartHeader read_header(const Imf::MultiPartInputFile& exr)
     return parse_part_header(text->value());
 }
 
-/// That the planes of the file are those that the header tells of.
+/// Checks that the planes of the file are those of the header.
 void check_planes(const Imf::Header& exr, const PartHeader& header, const SealedFile& file)
 {
     const PixelRect& r = header.layout.region;
@@ -109,7 +109,7 @@ void check_planes(const Imf::Header& exr, const PartHeader& header, const Sealed
         }
         ++channels;
     }
-    // Before the names of all channels that there should be take memory.
+    // Before the names of all expected channels take memory.
     if (std::accumulate(header.ranks.begin(), header.ranks.end(), header.strategies.size()) >
         channels) {
         fail("its sums have channels that no part has");
@@ -135,7 +135,7 @@ void check_planes(const Imf::Header& exr, const PartHeader& header, const Sealed
     }
 }
 
-/// What the films take, and the image that they are developed to.
+/// Charges the memory of the films, and of the image that they are developed to.
 void spend_films(MemoryBudget& memory, const Imf::Header& exr, const PixelRect& region)
 {
     std::uint64_t pixel = sizeof(Rgb);
@@ -173,7 +173,7 @@ void merge_header(RenderPart& part, const PartHeader& header)
     part.cpu_seconds += header.cpu_seconds;
 }
 
-/// What `read` makes of the open file. All that goes wrong is an `Error` that names the file.
+/// Returns what `read` makes of the open file. Failures become an `Error` that names the file.
 template <typename Read>
 auto with_part_file(const std::filesystem::path& path, const Read& read)
 {

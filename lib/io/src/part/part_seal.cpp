@@ -23,7 +23,7 @@ constexpr std::size_t block_size = std::size_t{1} << 20;
 
 using Seal = std::array<char, seal_size>;
 
-/// Little-endian.
+/// Writes a number in little-endian order.
 void put(Seal& seal, std::size_t place, std::uint64_t number)
 {
     for (std::size_t i = 0; i < 8; ++i) {

@@ -9,24 +9,24 @@
 
 namespace bdpt::io {
 
-// A part file ends with a seal, behind what OpenEXR looks at: 16 letters, the length of what is
-// before it, and the hash of that. So a file that was cut off, or of which a single bit has
-// changed, is found out before any of it is believed.
+// A part file ends with a seal, behind the data of OpenEXR: 16 letters, the length of what is
+// before it, and the hash of that. So a file that is truncated, or of which a single bit has
+// changed, is detected before any of it is used.
 
-/// An open part file, whose seal holds.
+/// An open part file with a valid seal.
 class SealedFile {
 public:
-    /// Throws `Error`: not_found, or invalid_input when the seal does not hold. Messages do not
-    /// name the file.
+    /// Opens and checks a file. Throws `Error`: not_found, or invalid_input if the seal is not
+    /// valid. Messages do not name the file.
     explicit SealedFile(const std::filesystem::path& file);
     ~SealedFile();
     SealedFile(const SealedFile&) = delete;
     SealedFile& operator=(const SealedFile&) = delete;
 
-    /// Without the seal.
+    /// Returns the size without the seal.
     [[nodiscard]] std::uint64_t size() const { return size_; }
     [[nodiscard]] const ContentHash& hash() const { return hash_; }
-    /// Throws `Error` (invalid_input) beyond the end.
+    /// Reads bytes. Throws `Error` (invalid_input) beyond the end.
     void read(std::uint64_t position, std::span<char> bytes) const;
 
 private:
@@ -37,7 +37,7 @@ private:
     ContentHash hash_;
 };
 
-/// Ends `file`, which has `size` bytes, with its seal.
+/// Appends the seal to `file`, which has `size` bytes.
 void seal(OutputFile& file, std::uint64_t size);
 
 }  // namespace bdpt::io

@@ -57,7 +57,7 @@ Imf::Header image_header(const RenderPart& part, const PartNotes& notes)
 Imf::Header sums_header(const RenderPart& part, const PartNotes& notes, const PlaneRow& row)
 {
     Imf::Header header = make_header(part.film.layout(), "sums");
-    // Of single lines: memory does not grow with the number of channels times that of lines.
+    // Single-line blocks: memory does not grow with channels times lines.
     header.compression() = Imf::ZIPS_COMPRESSION;
     for (const std::string& channel : row.channels()) {
         header.channels().insert(channel, Imf::Channel(Imf::UINT));
@@ -93,7 +93,8 @@ void write_sums(Imf::MultiPartOutputFile& file, const RenderPart& part, PlaneRow
     }
 }
 
-/// Whether the file there is ahead of `part`. Throws `Error` (output) when it is of another render.
+/// Tests whether the existing file is ahead of `part`. Throws `Error` (output) if it belongs to
+/// another render.
 bool is_ahead(const std::filesystem::path& file, const RenderPart& part)
 {
     std::optional<PartInfo> there;

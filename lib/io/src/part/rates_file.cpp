@@ -12,7 +12,7 @@
 namespace bdpt::io {
 namespace {
 
-/// The exponent of the rate `value`; one more than the greatest if it is none.
+/// Returns the exponent of the rate `value`; one more than the greatest if it is invalid.
 std::int8_t exponent_of(Rgb value)
 {
     int exponent = SampleRates::min_exponent;

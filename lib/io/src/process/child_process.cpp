@@ -34,7 +34,7 @@ namespace {
                 fmt::format("{}: {}", what, reason));
 }
 
-/// `descriptor` under a number that no standard stream has.
+/// Moves `descriptor` to a number above those of the standard streams.
 int above_streams(int descriptor)
 {
     if (descriptor < 0 || descriptor > STDERR_FILENO) {
@@ -45,7 +45,7 @@ int above_streams(int descriptor)
     return other;
 }
 
-/// Where the standard streams of a new process go; it gets no other descriptor.
+/// Redirection of the standard streams of a new process, which gets no other descriptor.
 class Streams {
 public:
     /// `input` -1: there is none.
@@ -71,8 +71,8 @@ private:
     posix_spawn_file_actions_t actions_{};
 };
 
-/// A new process ends when nobody reads what it writes, and when its time is over, whatever this
-/// one does about such signals.
+/// Default signal actions for a new process: it ends when its output is not read, and when its time
+/// is over, whatever this process does about such signals.
 class Signals {
 public:
     Signals()
@@ -98,7 +98,7 @@ private:
     posix_spawnattr_t attributes_{};
 };
 
-/// The last line of what is in the file, or of its first bytes if they are many.
+/// Returns the last line of the file, or of its first bytes if it is long.
 std::string last_line(int file)
 {
     std::string text(16384, '\0');
@@ -110,7 +110,7 @@ std::string last_line(int file)
     return text.substr(text.rfind('\n') + 1);
 }
 
-/// A file in memory that holds `bytes`, and is read from its start; -1 if there are none.
+/// Creates a file in memory that holds `bytes`, to be read from its start; -1 if there are none.
 int file_of(std::span<const std::uint8_t> bytes)
 {
     if (bytes.empty()) {
@@ -196,13 +196,13 @@ std::size_t ChildProcess::read(void* bytes, std::size_t size)
 
 ProcessEnd ChildProcess::wait()
 {
-    output_.close();  // if it writes more than anybody reads, it ends
+    output_.close();  // so that the process ends if it writes more than is read
     int status = 0;
     pid_t ended = -1;
     do {
         ended = ::waitpid(id_, &status, 0);
     } while (ended < 0 && errno == EINTR);
-    const bool known = ended == id_;  // not where SIGCHLD is ignored
+    const bool known = ended == id_;  // false if SIGCHLD is ignored
     id_ = -1;
     ProcessEnd end{.message = last_line(errors_.number())};
     if (known && WIFEXITED(status)) {

@@ -11,7 +11,7 @@
 
 namespace bdpt::io {
 
-/// A descriptor of the system, closed with this object.
+/// A file descriptor, closed with this object.
 class Descriptor {
 public:
     explicit Descriptor(int number) : number_(number) {}
@@ -20,14 +20,14 @@ public:
     Descriptor& operator=(const Descriptor&) = delete;
 
     [[nodiscard]] int number() const { return number_; }
-    /// Closes what it has, and takes over `number`.
+    /// Closes its descriptor, and takes over `number`.
     void adopt(int number)
     {
         close();
         number_ = number;
     }
     void close();
-    /// Gives away what it has, without closing it.
+    /// Releases its descriptor without closing it.
     [[nodiscard]] int release()
     {
         const int number = number_;
@@ -39,19 +39,19 @@ private:
     int number_ = -1;
 };
 
-/// How a process ended.
+/// Exit status of a process.
 struct ProcessEnd {
-    int exit_code = -1;   ///< -1: by a signal, or nobody knows
-    int signal = 0;       ///< 0: by itself, or nobody knows
-    std::string message;  ///< the last line on its standard error
+    int exit_code = -1;   ///< -1: ended by a signal, or unknown
+    int signal = 0;       ///< 0: ended by itself, or unknown
+    std::string message;  ///< last line on its standard error
 };
 
-/// A program that writes what it has to say to its standard output, which is read here. It sees
-/// nothing that this process has open. What is still running when this object goes is killed.
+/// A program whose standard output is read by this process. It inherits no open descriptors. If
+/// still running, it is killed when this object is destroyed.
 class ChildProcess {
 public:
-    /// `input` is a file in memory on its standard input; without any the input is empty. Throws
-    /// `Error` when it cannot be started: out_of_memory where the system has no room for another
+    /// `input` is given to the program on its standard input, as a file in memory; empty: no input.
+    /// Throws `Error` if it cannot be started: out_of_memory if the system has no room for another
     /// process or for the input, else unsupported.
     ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                  std::span<const std::uint8_t> input = {});
@@ -59,16 +59,16 @@ public:
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// Reads `size` bytes, and waits for them. How many there were: less than that only where the
-    /// output ends.
+    /// Reads `size` bytes, waiting for them. Returns the number of bytes read: fewer only at the
+    /// end of the output.
     [[nodiscard]] std::size_t read(void* bytes, std::size_t size);
 
-    /// Waits for its end. What it writes from here on gets lost. Called once.
+    /// Waits for its end. Further output is lost. Called once.
     [[nodiscard]] ProcessEnd wait();
 
 private:
     pid_t id_ = -1;      // -1: there is nothing to wait for
-    Descriptor output_;  // read from
+    Descriptor output_;  // read end
     Descriptor errors_;  // a file in memory, so that nobody has to read while it is written
 };
 

@@ -38,7 +38,7 @@ void limit_process(const Allowance& allowance)
         signal(number, SIG_IGN);
     }
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_FSIZE, 1U << 20U);  // of messages
+    limit(RLIMIT_FSIZE, 1U << 20U);  // maximum size of messages
     allow(allowance);
 }
 

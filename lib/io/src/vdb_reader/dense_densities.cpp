@@ -22,10 +22,10 @@ namespace {
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
-/// Slices that are written at a time: leaves of a tree are that deep.
+/// Slices written at a time: the depth of the tree's leaves.
 constexpr int slab_depth = 8;
 
-/// Calls `visit` with the grid as what it is.
+/// Calls `visit` with the grid as its actual type.
 template <typename Visit>
 void with_values(const openvdb::GridBase& grid, const Visit& visit)
 {
@@ -72,7 +72,7 @@ io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t max_bytes)
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::int64_t low = box.min()[axis];
         const std::int64_t high = box.max()[axis];
-        sides[axis] = static_cast<std::uint64_t>(high - low + 3);  // one more on each end
+        sides[axis] = static_cast<std::uint64_t>(high - low + 3);  // one more on each side
         most /= sides[axis];
         fits = fits && sides[axis] <= longest && low > INT32_MIN && high < INT32_MAX;
         header.first[axis] = static_cast<std::int32_t>(low - 1);
@@ -83,7 +83,7 @@ io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t max_bytes)
              " voxels is too large: the limit is ", max_bytes, " bytes, at 4 for each voxel, and ",
              longest, " voxels along a side");
     }
-    // Of row vectors, row after row: of column vectors, column after column.
+    // Row-major for row vectors is column-major for column vectors.
     const openvdb::Mat4d matrix = grid.transform().baseMap()->getAffineMap()->getMat4();
     std::copy_n(matrix.asPointer(), header.world_from_index.size(),
                 header.world_from_index.begin());

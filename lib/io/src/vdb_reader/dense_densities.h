@@ -10,17 +10,17 @@
 
 namespace bdpt::vdb {
 
-/// Where the densities of `grid` lie: in the box of its active voxels, and one voxel around it.
+/// Returns the box of the densities of `grid`: that of its active voxels, extended by one voxel.
 /// Throws `Error` (invalid_input) if it has none, if its background is not 0, or if they take more
 /// than `max_bytes`.
 [[nodiscard]] io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t max_bytes);
 
-/// What all of them take, and what is in memory of them at a time [bytes].
+/// Returns the size of all densities, or of those that are in memory at a time [bytes].
 [[nodiscard]] std::uint64_t density_bytes(const io::VdbReply& header);
 [[nodiscard]] std::uint64_t slab_bytes(const io::VdbReply& header);
 
-/// Gives these densities to `write` in pieces, x fastest. Throws `Error` (invalid_input) before it
-/// gives one away that is negative, infinite or NaN.
+/// Passes these densities to `write` in pieces, x fastest. Throws `Error` (invalid_input) before it
+/// passes one that is negative, infinite or NaN.
 void write_densities(const openvdb::GridBase& grid, const io::VdbReply& header,
                      const std::function<void(std::span<const float>)>& write);
 

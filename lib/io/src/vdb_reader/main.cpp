@@ -1,6 +1,6 @@
-// bdpt-read-vdb: reads a grid of an OpenVDB file for the library, which starts it
-// (volume/vdb_reply.h says how). OpenVDB may crash, never end or ask for all memory on broken
-// files: that ends this process and no other.
+// bdpt-read-vdb: reads a grid of an OpenVDB file for the library, which starts it (see
+// volume/vdb_reply.h). OpenVDB may crash, never end or request all memory on broken files, which
+// ends only this process.
 
 #include <bdpt/error.h>
 
@@ -35,7 +35,7 @@ void read(const std::string& name, const std::string& wanted, std::uint64_t max_
     const openvdb::GridBase::Ptr grid = file.readGrid(chosen_grid(file, wanted));
     const io::VdbReply header = header_of(*grid, max_bytes);
     io::write_output(&header, sizeof(header));
-    // From here on the work is as large as the densities, which `header_of` has limited.
+    // From here on the work is proportional to the densities, which `header_of` has limited.
     constexpr std::uint64_t bytes_per_second = std::uint64_t{64} << 20U;
     allowance.memory += slab_bytes(header);
     allowance.seconds += density_bytes(header) / bytes_per_second;
@@ -61,14 +61,14 @@ int run(std::span<char*> words)
     const auto number = [&](std::size_t word) { return std::strtoull(words[word], nullptr, 10); };
     const io::Allowance allowance{.memory = number(4), .seconds = number(5)};
     io::limit_process(allowance);
-    // Threads would take address space, and change nothing: reading is not parallel.
+    // Threads would take address space without a benefit: reading is not parallel.
     const tbb::global_control serial(tbb::global_control::max_allowed_parallelism, 1);
     try {
         read(words[1], words[2], number(3), allowance);
         return 0;
     } catch (const Error& error) {
         return failed(error.code(), error.what());
-    } catch (const openvdb::LookupError& error) {  // a type of grid or transform
+    } catch (const openvdb::LookupError& error) {  // unknown type of grid or transform
         return failed(ErrorCode::unsupported, plain(error.what(), 200));
     } catch (const std::bad_alloc&) {
         return failed(ErrorCode::invalid_input, "broken, or too large: its tree takes more than " +

@@ -30,14 +30,14 @@ void check_version(std::istream& file)
     file.seekg(0);
 }
 
-/// Reads heads of grids, by what OpenVDB has for its own archives.
+/// Reads headers of grids, using OpenVDB's base class of archives.
 class Heads : private openvdb::io::Archive {
 public:
     void check(std::istream& file, std::int64_t size)
     {
         readHeader(file);
         if (!inputHasGridOffsets()) {
-            return;  // written to a pipe: nothing says where grids end
+            return;  // written to a pipe: the ends of grids are not recorded
         }
         setFormatVersion(file);
         setLibraryVersion(file);

@@ -25,20 +25,20 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// What reading a file may cost.
+/// Limits of reading a file.
 struct ReadingLimits {
-    std::uint64_t memory;   // of the tree that its grid becomes [bytes]
-    std::uint64_t seconds;  // of a processor
+    std::uint64_t memory;   // of the tree of its grid [bytes]
+    std::uint64_t seconds;  // CPU time [s]
 };
 
 ReadingLimits reading_limits(std::uint64_t file_bytes, const VolumeOptions& options)
 {
-    // Each node of a tree stores its masks unpacked: with all values packed away, a leaf of doubles
-    // grows 32 times, an inner node 33 times.
+    // Each node of a tree stores its masks uncompressed: if all values are compressed away, a leaf
+    // of doubles grows 32 times, an inner node 33 times.
     constexpr std::uint64_t max_growth = 40;
     constexpr std::uint64_t start_seconds = 10;
-    constexpr std::uint64_t bytes_per_second = 1'000'000;  // a tenth of what a slow machine reads
-    // A tree may be larger than the box that it becomes: its leaves are full, and may be doubles.
+    constexpr std::uint64_t bytes_per_second = 1'000'000;  // a tenth of the speed of a slow machine
+    // A tree may be larger than the resulting box: its leaves are full, and may be doubles.
     const std::uint64_t growth = std::min(max_growth, UINT64_MAX / (file_bytes + 1));
     const std::uint64_t left = options.memory ? options.memory->left() : UINT64_MAX;
     const ReadLimits& limits = options.limits;
@@ -72,13 +72,14 @@ std::filesystem::path find_reader()
     }
 }
 
-/// Libraries of OpenVDB start threads before anybody can ask them not to.
+/// Tests for a failure to start threads: libraries of OpenVDB start some before they can be told
+/// not to.
 bool lacks_threads(const ProcessEnd& end)
 {
     return end.message.find(std::generic_category().message(EAGAIN)) != std::string::npos;
 }
 
-/// What went wrong, where the reader ended before it had written everything.
+/// Throws the error of a reader that ended before it had written everything.
 [[noreturn]] void fail(const ProcessEnd& end, const ReadingLimits& limits)
 {
     if (end.signal == SIGXCPU) {
@@ -113,8 +114,8 @@ bool lacks_threads(const ProcessEnd& end)
                             end.exit_code, end.message.empty() ? "" : ": ", end.message));
 }
 
-/// The size of what follows the header [values], which is checked once more: it comes from where
-/// the file was.
+/// Returns the number of values after the header, which is checked once more, as it comes from the
+/// process that read the file.
 std::size_t checked_count(const VdbReply& header, const ReadLimits& limits)
 {
     std::uint64_t count = 1;

@@ -9,13 +9,13 @@
 
 namespace bdpt::io {
 
-/// A grid as it lies in a file.
+/// A grid as stored in a file.
 struct VdbGrid {
     VdbReply header;
     std::vector<float> density;  ///< >= 0, x fastest
 };
 
-/// Reads a grid of an OpenVDB file, by a process of its own. Throws `Error` as `load_volume` does,
+/// Reads a grid of an OpenVDB file, by a separate process. Throws `Error` as `load_volume` does,
 /// without the name of the file.
 [[nodiscard]] VdbGrid read_vdb(const std::filesystem::path& file, const VolumeOptions& options);
 

@@ -17,7 +17,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// From the axes of the file to those of scenes.
+/// Converts from the axes of the file to those of scenes.
 glm::dmat4 turned_up(UpAxis up)
 {
     glm::dmat4 turn(1.0);
@@ -28,8 +28,8 @@ glm::dmat4 turned_up(UpAxis up)
     return turn;
 }
 
-/// Voxel `first` becomes (0, 0, 0). Indices of OpenVDB are centres of voxels, ours their lower
-/// corners.
+/// Maps grid indices to the world, with voxel `first` at (0, 0, 0). Indices of OpenVDB are centres
+/// of voxels, ours their lower corners.
 Mat4 world_from_grid(const VdbReply& header, UpAxis up)
 {
     const glm::dvec3 first(header.first[0], header.first[1], header.first[2]);

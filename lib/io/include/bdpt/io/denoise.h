@@ -22,32 +22,31 @@
 
 namespace bdpt::io {
 
-/// The input of a denoiser.
+/// Input of a denoiser.
 struct NoisyImage {
     const Image& image;             ///< radiance [nit], not clamped; any exposure
-    const Layer* albedo = nullptr;  ///< of the same size, in [0, 1]
-    const Layer* normal = nullptr;  ///< of the same size, in [-1, 1]; only beside albedo
+    const Layer* albedo = nullptr;  ///< albedo layer of the same size, in [0, 1]
+    const Layer* normal = nullptr;  ///< normals of the same size, in [-1, 1]; require albedo
 };
 
 /// Intel Open Image Denoise 2 [Afra 2019, openimagedenoise.org], from a library that is opened at
-/// run time: nothing is linked, and programs that never denoise need none. Filters on the CPU.
+/// run time: it is not linked, and programs that never denoise do not need it. Filters on the CPU.
 class BDPT_EXPORT Denoiser {
 public:
-    /// Opens `library`, a file or a folder with libOpenImageDenoise.so.2, or without one what the
-    /// system finds by that name; in a Python wheel first that of the package pyoidn beside it.
-    /// `threads`: at most so many; 0: one for each processor. Throws `Error`: unsupported if there
-    /// is no library, or it is not version 2; internal if it fails.
+    /// Opens `library`: a file, or a folder with libOpenImageDenoise.so.2; by default the library
+    /// that the system finds by that name, but in a Python wheel first the one of the package
+    /// pyoidn beside it. `threads`: maximum number of threads; 0: one per processor. Throws
+    /// `Error`: unsupported if there is no library, or it is not version 2; internal if it fails.
     explicit Denoiser(const std::optional<std::filesystem::path>& library = {}, int threads = 0);
     Denoiser(Denoiser&&) noexcept;
     Denoiser& operator=(Denoiser&&) noexcept;
     ~Denoiser();
 
-    /// The version of the library: "2.5.1".
+    /// Returns the version of the library: "2.5.1".
     [[nodiscard]] const std::string& version() const;
-    /// `noisy` without noise, as high dynamic range. Albedo and normal are denoised first, as they
-    /// are noisy where lenses or motion blur. The result depends on the library and on this
-    /// machine. Throws `Error`: usage if sizes differ, internal (with the library's message) if it
-    /// fails.
+    /// Denoises `noisy` as high dynamic range. Albedo and normal are denoised first, as lenses and
+    /// motion blur make them noisy. The result depends on the library and on this machine. Throws
+    /// `Error`: usage if sizes differ, internal (with the library's message) if it fails.
     [[nodiscard]] Image denoise(const NoisyImage& noisy) const;
 
 private:

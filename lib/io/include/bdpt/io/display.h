@@ -27,26 +27,26 @@ namespace bdpt::io {
 /// An sRGB-encoded colour [IEC 61966-2-1]: red, green, blue.
 using SrgbColor = std::array<std::uint8_t, 3>;
 
-/// How an image becomes one for a screen.
+/// Options of the conversion of an image for a screen.
 struct DisplayOptions {
-    float exposure = 0.0f;  ///< [EV] pixels are multiplied by 2^exposure
+    float exposure = 0.0f;  ///< pixels are multiplied by 2^exposure [EV]
     ToneCurve curve = ToneCurve::filmic;
-    TexelType type = TexelType::unorm8;  ///< of the result: unorm8 or unorm16
-    /// The background where the image covers nothing; none: the result has alpha.
+    TexelType type = TexelType::unorm8;  ///< type of the result: unorm8 or unorm16
+    /// Background where the image covers nothing; none: the result has alpha.
     std::optional<SrgbColor> background{};
-    /// An image that is seen there instead, of the same size: display-linear, from black 0 to white
-    /// 1. Null: none.
+    /// Image shown instead of the background, of the same size: display-linear, from black 0 to
+    /// white 1. Null: none.
     const Image* backplate = nullptr;
-    /// The part of each pixel's coverage that is a black shadow behind the image; empty: none.
+    /// Fraction of each pixel's coverage that is a black shadow behind the image; empty: none.
     std::span<const float> shadow{};
 };
 
-/// Tone-mapped, sRGB-encoded pixels. `coverage`, in [0, 1], is the alpha of each pixel, by which
-/// its colour has been multiplied; empty: all are opaque. Colours are divided by it, less the
-/// shadow, before they are tone-mapped. The result has three channels, composed over background or
-/// backplate in display-linear light, or four: straight alpha. Throws `Error` (usage) when
-/// `coverage` has not one value a pixel, or `shadow` neither none nor one, `backplate` another
-/// size, or the type is another.
+/// Returns tone-mapped, sRGB-encoded pixels. `coverage`, in [0, 1], is the alpha of each pixel, by
+/// which its colour is premultiplied; empty: all pixels are opaque. Colours are divided by the
+/// coverage less the shadow before they are tone-mapped. The result has three channels, composed
+/// over background or backplate in display-linear light, or four with straight alpha. Throws
+/// `Error` (usage) if `coverage` does not have one value per pixel, `shadow` has neither none nor
+/// one per pixel, `backplate` has another size, or the type is another.
 [[nodiscard]] BDPT_EXPORT TexelImage to_display(const Image& image, std::span<const float> coverage,
                                                 const DisplayOptions& options);
 

@@ -29,16 +29,16 @@ struct LoadedEnvironment {
     std::vector<std::string> warnings;  ///< one line each, without the file's name
 };
 
-/// Reads an equirectangular image in OpenEXR, Radiance HDR, TIFF, PNG, JPEG or WebP format; which
-/// of these it is, its first bytes say; "-" is the standard input. Colours of the last three are
-/// taken as sRGB-encoded, so that white is 1 nit. Other pixels are taken as linear Rec. 709 [nit];
-/// negative, infinite and NaN ones become 0, with a warning. TIFF images are of floats; they are
-/// read by OpenImageIO, which is opened for the first of them. What the environment takes until it
-/// lights a scene is taken from `memory`, if there is one.
+/// Reads an equirectangular image in OpenEXR, Radiance HDR, TIFF, PNG, JPEG or WebP format, as its
+/// first bytes tell; "-" is the standard input. Colours of the last three are taken as
+/// sRGB-encoded, with white as 1 nit. Other pixels are taken as linear Rec. 709 [nit]; negative,
+/// infinite and NaN ones become 0, with a warning. TIFF images are of floats; OpenImageIO reads
+/// them, and is opened for the first one. The environment's memory is taken from `memory`, if
+/// given, until it lights a scene.
 ///
 /// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable),
 /// invalid_input (broken, or over a limit), unsupported (another format or kind of pixels; TIFF
-/// where there is no OpenImageIO).
+/// without OpenImageIO).
 [[nodiscard]] BDPT_EXPORT LoadedEnvironment load_environment(const std::filesystem::path& file,
                                                              const ReadLimits& limits = {},
                                                              MemoryBudget* memory = nullptr);

@@ -27,19 +27,19 @@
 
 namespace bdpt::io {
 
-/// How a channel of an EXR file is stored.
+/// Type of the channels of an EXR file.
 enum class ExrChannelType : std::uint8_t {
     half_float,    ///< 16 bits: 11 bits of precision, at most 65504
-    single_float,  ///< 32 bits: as it was computed
+    single_float,  ///< 32 bits: as computed
 };
 
-/// In which order the pixels of an EXR file are stored.
+/// Storage order of the pixels of an EXR file.
 enum class ExrStorage : std::uint8_t {
     scanlines,
-    tiles,  ///< of 64 x 64 pixels, one level: for viewers and compositors that read parts
+    tiles,  ///< 64 x 64 pixels, one level: for viewers and compositors that read parts
 };
 
-/// Where a cropped image lies in the whole image [pixels].
+/// Position of a cropped image in the whole image [pixels].
 struct ExrPlacement {
     int x = 0;
     int y = 0;
@@ -47,33 +47,33 @@ struct ExrPlacement {
     int full_height = 0;
 };
 
-/// How an EXR file is written, and what it says about the image.
+/// Options of an EXR file, and its metadata.
 struct ExrOptions {
-    ExrChannelType type = ExrChannelType::single_float;  ///< of the main layer; others have floats
+    ExrChannelType type =
+        ExrChannelType::single_float;  ///< type of the main layer; others have floats
     ImageMetadata metadata;
     ExrStorage storage = ExrStorage::scanlines;
     std::optional<ExrPlacement> placement{};  ///< none: it is not cropped
-    /// Written as metadata of Cryptomatte, if their layers are among those of the file.
+    /// Manifests written as Cryptomatte metadata, if their layers are among those of the file.
     std::vector<IdManifest> manifests{};
 };
 
-/// The values that could not be written unchanged.
+/// Counts of values that could not be written unchanged.
 struct ExrReport {
-    /// Pixels with a channel beyond what a half holds; it was stored as 65504.
+    /// Pixels with a channel beyond the range of half, which was stored as 65504.
     std::size_t clamped_pixels = 0;
 };
 
 /// Writes channels R, G, B (linear Rec. 709 [nit]) with ZIP compression, atomically. The data
-/// window is the rendered part, the display window the whole image. Beside our own entries the
-/// header has those that other tools show: "renderTimeSeconds", "samplesPerPixel", "worldToCamera",
-/// "worldToNDC", of frames
-/// "imageCounter" and "framesPerSecond". Throws `Error` (output).
+/// window is the rendered part, the display window the whole image. The header has our own entries
+/// and those that other tools show: "renderTimeSeconds", "samplesPerPixel", "worldToCamera",
+/// "worldToNDC", and for frames "imageCounter" and "framesPerSecond". Throws `Error` (output).
 BDPT_EXPORT ExrReport write_exr(const std::filesystem::path& file, const Image& image,
                                 const ExrOptions& options);
 
-/// The same with more channels: "NAME.C" for each channel C of a layer, or just "C" for those of
-/// the main layer. Throws `Error` (usage) when a layer's size is not the image's or a channel comes
-/// twice.
+/// Writes an image with layers: "NAME.C" for each channel C of a layer, or just "C" for those of
+/// the main layer. Throws `Error` (output), and (usage) if a layer's size is not the image's or a
+/// channel comes twice.
 BDPT_EXPORT ExrReport write_exr(const std::filesystem::path& file, const Image& image,
                                 std::span<const Layer> layers, const ExrOptions& options);
 

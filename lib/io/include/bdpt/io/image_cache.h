@@ -22,19 +22,19 @@
 
 namespace bdpt::io {
 
-/// Decoded images of files, known by the bytes that they were decoded from: for those who load a
-/// file again and again, as for the frames of an animation. For one load at a time.
+/// Cache of decoded images, keyed by the hash of their encoded bytes, for callers that load a file
+/// repeatedly, as for the frames of an animation. Used by one load at a time.
 class BDPT_EXPORT ImageCache {
 public:
-    /// Keeps images of up to `max_bytes` in all: the first ones, as a file that is loaded again
-    /// asks for them in the same order.
+    /// Keeps images of up to `max_bytes` in total: the first ones, as repeated loads of a file
+    /// request them in the same order.
     explicit ImageCache(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
 
-    /// The image that was decoded from bytes of this hash; null if it was not kept.
+    /// Returns the image decoded from bytes of this hash; null if it was not kept.
     [[nodiscard]] const TexelImage* find(const ContentHash& encoded) const;
     /// Keeps a copy of `image`, if there is room.
     void keep(const ContentHash& encoded, const TexelImage& image);
-    /// The memory of the images [bytes].
+    /// Returns the memory of the images [bytes].
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
 private:

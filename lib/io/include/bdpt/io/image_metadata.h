@@ -26,16 +26,16 @@
 
 namespace bdpt::io {
 
-/// Which image of an animation one is.
+/// Number of a frame in an animation.
 struct FrameNumber {
     int number = 0;
-    double per_second = 0.0;  ///< frames a second, above 0; 0: unknown
+    double per_second = 0.0;  ///< frames per second, > 0; 0: unknown
 };
 
-/// How an image came about; written into its file.
+/// Provenance of an image; written into its file.
 struct ImageMetadata {
-    std::string version;     ///< of bdpt, e.g. "0.1.0"
-    std::string scene;       ///< the file that was rendered; UTF-8
+    std::string version;     ///< version of bdpt, e.g. "0.1.0"
+    std::string scene;       ///< the rendered file; UTF-8
     std::string settings;    ///< all options as one JSON object
     std::string integrator;  ///< "bdpt", "pt", "mis", "nee" or "lt"
     std::uint64_t seed = 0;
@@ -43,16 +43,16 @@ struct ImageMetadata {
     double render_seconds = 0.0;
     CameraDesc camera;
     std::chrono::system_clock::time_point created{};
-    std::optional<FrameNumber> frame{};  ///< none: it stands alone
-    std::string xmp{};  ///< what the scene says about itself, JSON-LD; empty: nothing
+    std::optional<FrameNumber> frame{};  ///< none: a single image
+    std::string xmp{};  ///< the scene's metadata about itself, JSON-LD; empty: none
 };
 
-/// The text entries that all formats share: "bdpt.version", "bdpt.scene", "bdpt.settings",
-/// "bdpt.integrator" and "bdpt.seed"; "bdpt.frame" and "bdpt.xmp" if there are any.
+/// Returns the text entries that all formats share: "bdpt.version", "bdpt.scene", "bdpt.settings",
+/// "bdpt.integrator" and "bdpt.seed"; "bdpt.frame" and "bdpt.xmp" if present.
 [[nodiscard]] BDPT_EXPORT std::vector<std::pair<std::string, std::string>> text_entries(
     const ImageMetadata& metadata);
 
-/// "bdpt VERSION".
+/// Returns "bdpt VERSION".
 [[nodiscard]] BDPT_EXPORT std::string software_name(const ImageMetadata& metadata);
 
 }  // namespace bdpt::io

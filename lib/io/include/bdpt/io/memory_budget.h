@@ -22,27 +22,27 @@
 
 namespace bdpt::io {
 
-/// How much memory may be taken, and where that number comes from.
+/// A memory limit and its source.
 struct MemoryLimit {
     std::uint64_t bytes = 0;
     std::string source;  ///< for people, such as "--max-memory"
-    /// Of what is refused: invalid_input where somebody chose the limit, out_of_memory where the
-    /// machine has no more.
+    /// Code of the error when memory is refused: invalid_input if somebody chose the limit,
+    /// out_of_memory if the machine has no more.
     ErrorCode code = ErrorCode::invalid_input;
 };
 
-/// What all that belongs to one scene or one render may take together: documents, buffers, images,
-/// meshes, instances, volumes, environments and films. Each asks before it takes; the numbers are
-/// estimates of what it costs until the end, with all that is built from it. For one thread.
+/// Shared memory budget of one scene or one render: documents, buffers, images, meshes, instances,
+/// volumes, environments and films. Each is charged before it is allocated; the numbers estimate
+/// its whole cost, with all that is built from it. For one thread.
 class BDPT_EXPORT MemoryBudget {
 public:
     explicit MemoryBudget(MemoryLimit limit) : limit_(std::move(limit)) {}
 
-    /// Takes `bytes` for `what`, which begins the message if there is no more ("the film of 16x16
-    /// pixels"). Throws `Error` (the code of the limit) that names what, how much, and the limit
-    /// with its source.
+    /// Charges `bytes` for `what`, which begins the message if the budget is exceeded ("the film of
+    /// 16x16 pixels"). Throws `Error` (with the code of the limit) that names what, how much, and
+    /// the limit with its source.
     void spend(std::string_view what, std::uint64_t bytes);
-    /// Throws as `spend` does, but takes nothing: for what is gone soon.
+    /// Throws as `spend` does, but charges nothing: for short-lived memory.
     void check(std::string_view what, std::uint64_t bytes) const;
 
     [[nodiscard]] const MemoryLimit& limit() const { return limit_; }

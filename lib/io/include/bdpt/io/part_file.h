@@ -29,55 +29,54 @@
 
 namespace bdpt::io {
 
-/// Notes of a part file for people and programs, beside the part itself.
+/// Notes in a part file for people and programs, beside the part itself.
 struct PartNotes {
-    /// Samples that its render was asked for, as far as that had an end.
+    /// Samples requested from its render, as far as that was limited.
     SampleSet goal;
-    ImageMetadata metadata;  ///< of images that are made of it
-    /// Words of a command that renders such samples, to which ranges and files are to be added;
-    /// may be empty.
+    ImageMetadata metadata;  ///< metadata of images made from the part
+    /// Words of a command that renders such samples, to which ranges and files are to be added; may
+    /// be empty.
     std::vector<std::string> command{};
 };
 
-/// The description in a part file.
+/// Description of a part file.
 struct PartInfo {
     std::filesystem::path file;
     Identity identity;
     SampleSet samples;
     PartNotes notes;
-    ContentHash hash;  ///< of the whole file
+    ContentHash hash;  ///< hash of the whole file
 };
 
-/// The treatment of an existing file of that name.
+/// Treatment of an existing file of that name.
 enum class OldPart : std::uint8_t {
-    /// Stays if it is of the same render, and has all samples of the new one and more: whoever
-    /// wrote it is ahead of us.
+    /// Keeps the file if it belongs to the same render and has all samples of the new one and more:
+    /// its writer is ahead of this process.
     keep_if_more,
     replace,
 };
 
-/// The outcome of writing the new part.
+/// Outcome of writing a part.
 enum class PartWrite : std::uint8_t {
     written,
-    kept,  ///< the file there is ahead, and stays
+    kept,  ///< the existing file is ahead and was kept
 };
 
-/// Writes `part` as an OpenEXR file of two parts, atomically: the image, which any viewer shows,
-/// and its sums, from which renders go on. Camera samples and splats are stored in one, which no
-/// image shows. Throws `Error`: output, also when the file there is a part of another render and
-/// `old` is not `replace`.
+/// Writes `part` as an OpenEXR file of two parts, atomically: the image, for any viewer, and its
+/// sums, from which renders continue. Camera samples and splats are stored in one. Throws `Error`:
+/// output, also if the existing file is a part of another render and `old` is not `replace`.
 BDPT_EXPORT PartWrite write_part(const std::filesystem::path& file, const RenderPart& part,
                                  const PartNotes& notes, OldPart old);
 
-/// Checks that all of a part file is as it was written and reads all but its sums. Throws `Error`:
-/// not_found; invalid_input for files that were cut off or changed, or that are something else.
+/// Checks that a part file is intact and reads all but its sums. Throws `Error`: not_found;
+/// invalid_input for files that are truncated, changed or something else.
 [[nodiscard]] BDPT_EXPORT PartInfo read_part_info(const std::filesystem::path& file);
 
-/// Merges the part in the file of `info` into `part`, which takes it as it is if it has no samples.
-/// A row at a time: there is no second film in memory. Throws `Error`: what `read_part_info` and
-/// `merge` do, and invalid_input when the file is not the one that it was when `info` was read.
-/// After a failure nothing in `part` is of use. The films of a part without samples are taken from
-/// `memory`, if there is one.
+/// Merges the part in the file of `info` into `part`, which takes it unchanged if it has no
+/// samples. Works row by row: there is no second film in memory. Throws `Error`: those of
+/// `read_part_info` and `merge`, and invalid_input if the file has changed since `info` was read.
+/// After a failure the contents of `part` are invalid. The films of a part without samples are
+/// taken from `memory`, if given.
 BDPT_EXPORT void merge_part(RenderPart& part, const PartInfo& info, MemoryBudget* memory = nullptr);
 
 }  // namespace bdpt::io

@@ -23,22 +23,22 @@
 namespace bdpt::io {
 
 // Images in other formats than OpenEXR and PNG. All are written atomically, and throw `Error`:
-// usage for an image without pixels, or with too few or too many, output when the file cannot be
+// usage for an image without pixels, or with too few or too many, output if the file cannot be
 // written.
 
-/// Writes a baseline JPEG file with full chroma, at a quality of 95 of 100, with the metadata as
+/// Writes a baseline JPEG file with full chroma at quality 95 of 100, with the metadata as
 /// comments. The image has 8 bits and 1 or 3 channels, grey or sRGB; usage for others.
 BDPT_EXPORT void write_jpeg(const std::filesystem::path& file, const TexelImage& image,
                             const PngOptions& options);
 
-/// Writes a WebP file, lossy at a quality of 95 of 100 but for alpha, without metadata. The image
-/// has 8 bits and 3 or 4 channels, sRGB and straight alpha, and at most 16383 pixels a side; usage
-/// for others.
+/// Writes a WebP file at quality 95 of 100, lossy except for alpha, without metadata. The image has
+/// 8 bits and 3 or 4 channels, sRGB and straight alpha, and at most 16383 pixels a side; usage for
+/// others.
 BDPT_EXPORT void write_webp(const std::filesystem::path& file, const TexelImage& image);
 
 /// Writes linear pixels as a run-length encoded Radiance HDR file [Ward, "The RADIANCE Picture File
-/// Format"], with the metadata as comments. Values get 8 bits and a common exponent; what is
-/// negative or NaN becomes 0.
+/// Format"], with the metadata as comments. Values get 8 bits and a shared exponent; negative ones
+/// and NaN become 0.
 BDPT_EXPORT void write_hdr(const std::filesystem::path& file, const Image& image,
                            const ImageMetadata& metadata);
 

@@ -21,13 +21,13 @@
 namespace bdpt::io {
 
 /// Writes rates as an OpenEXR image of halves, which hold them exactly: R, G and B are the samples
-/// that the pixel takes in a round, 0.25 to 4. Atomically. Throws `Error` (output).
+/// that the pixel takes in a round, 0.25 to 4. Written atomically. Throws `Error` (output).
 BDPT_EXPORT void write_rates(const std::filesystem::path& file, const SampleRates& rates,
                              const ImageMetadata& metadata);
 
-/// Reads what `write_rates` writes, whoever made the file. Throws `Error`, whose message starts
-/// with the file's path: what `read_image` throws, and invalid_input for a cropped image and for
-/// pixels that are no power of two from 1/4 to 4.
+/// Reads a file in the format of `write_rates`, whoever made it. Throws `Error`, whose message
+/// starts with the file's path: those of `read_image`, and invalid_input for a cropped image and
+/// for pixels that are no power of two from 1/4 to 4.
 [[nodiscard]] BDPT_EXPORT SampleRates read_rates(const std::filesystem::path& file);
 
 }  // namespace bdpt::io

@@ -20,30 +20,30 @@
 #include <utility>
 #include <vector>
 
-/// Files: glTF to `SceneDesc`, images to and from EXR, PNG and Radiance HDR.
+/// Input and output: glTF to `SceneDesc`, images to and from EXR, PNG and Radiance HDR.
 namespace bdpt::io {
 
 /// The layer to read from an image file, and the limits.
 struct ImageOptions {
-    /// "albedo" reads albedo.R, albedo.G, albedo.B; X, Y, Z serve as well, and a single channel
-    /// gives grey. None: the image itself, or else the first layer that has colours.
+    /// Name of the layer: "albedo" reads albedo.R, albedo.G, albedo.B; X, Y, Z serve as well, and a
+    /// single channel gives grey. None: the image itself, or else the first layer that has colours.
     std::optional<std::string> layer{};
     ReadLimits limits{};
 };
 
 /// The result of `read_image`.
 struct LoadedImage {
-    Image image;       ///< the whole image, black where the file has no data
-    PixelRect filled;  ///< where it has data: all of it, or the part that was rendered
+    Image image;       ///< whole image, black where the file has no data
+    PixelRect filled;  ///< region with data: all of it, or the part that was rendered
     std::vector<std::string> warnings;  ///< one line each, without the file's name
     /// Names and values of texts and numbers in the header of an OpenEXR file.
     std::vector<std::pair<std::string, std::string>> attributes{};
 };
 
 /// Reads linear pixels from an OpenEXR (of halves or floats; the first part) or Radiance HDR file,
-/// or from a PNG, JPEG or WebP file, whose colours are taken as sRGB-encoded; which of these it is,
-/// its first bytes say; "-" is the standard input. Values are what the file has, also when they are
-/// negative, infinite or NaN. Alpha is ignored: colours are taken as they are.
+/// or from a PNG, JPEG or WebP file, whose colours are taken as sRGB-encoded. The first bytes tell
+/// the format; "-" is the standard input. Values are returned as stored, also negative, infinite or
+/// NaN ones. Alpha is ignored: colours are taken as they are.
 ///
 /// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable; no
 /// such layer), invalid_input (broken, or over a limit), unsupported (another format).

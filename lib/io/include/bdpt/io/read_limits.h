@@ -15,31 +15,32 @@
 
 namespace bdpt::io {
 
-/// What a file may ask of us. A file beyond a limit is refused (`ErrorCode::invalid_input`) before
-/// the memory or the time is spent. The defaults let every sensible scene pass.
+/// Limits on the resources that a file may take. A file beyond a limit is refused
+/// (`ErrorCode::invalid_input`) before the memory or the time is spent. The defaults let every
+/// sensible scene pass.
 struct ReadLimits {
-    std::uint64_t file_bytes = std::uint64_t{4} << 30;    ///< of one file
-    std::uint64_t buffer_bytes = std::uint64_t{8} << 30;  ///< of all glTF buffers together
-    std::uint64_t json_bytes = std::uint64_t{1} << 30;    ///< of the JSON text, data URIs included
+    std::uint64_t file_bytes = std::uint64_t{4} << 30;    ///< per file
+    std::uint64_t buffer_bytes = std::uint64_t{8} << 30;  ///< all glTF buffers together
+    std::uint64_t json_bytes = std::uint64_t{1} << 30;    ///< JSON text, data URIs included
     std::size_t json_depth = 64;                          ///< nested objects and arrays
     std::size_t json_values = 50'000'000;  ///< objects, arrays, strings, numbers, ...
     std::size_t nodes = 1'000'000;
     std::size_t node_depth = 512;
     std::size_t instances = 10'000'000;
-    /// Of vertices, key frames, light profiles and instances, decoded; an accessor counts as often
-    /// as it is used.
+    /// Decoded vertices, key frames, light profiles and instances; an accessor counts as often as
+    /// it is used.
     std::uint64_t mesh_bytes = std::uint64_t{16} << 30;
-    std::uint64_t triangles = 500'000'000;                 ///< of all meshes, each mesh once
+    std::uint64_t triangles = 500'000'000;                 ///< all meshes, each mesh once
     int image_side = 16384;                                ///< [pixels]
-    std::uint64_t image_bytes = std::uint64_t{2} << 30;    ///< of one image, decoded
-    std::uint64_t texture_bytes = std::uint64_t{8} << 30;  ///< of all images together, decoded
-    std::uint64_t volume_bytes = std::uint64_t{4} << 30;   ///< of the densities of one volume
-    /// Time of a processor in which the largest volume has to be read; small files get less, as
-    /// broken ones may want all there is.
+    std::uint64_t image_bytes = std::uint64_t{2} << 30;    ///< per image, decoded
+    std::uint64_t texture_bytes = std::uint64_t{8} << 30;  ///< all images together, decoded
+    std::uint64_t volume_bytes = std::uint64_t{4} << 30;   ///< densities of one volume
+    /// CPU time for reading a volume of the greatest size; smaller files get less, as broken ones
+    /// may loop.
     std::uint64_t volume_seconds = 300;
-    /// Decoded over encoded size of compressed meshes; those below 64 MiB are not asked.
+    /// Decoded over encoded size of compressed meshes; meshes below 64 MiB are not checked.
     std::uint64_t compression_ratio = 1000;
-    /// Of buffers, vertices, images and what rays are traced with, together, as estimated while a
+    /// Estimated memory of buffers, vertices, images and acceleration structures together, while a
     /// scene is loaded.
     std::uint64_t memory_bytes = std::uint64_t{64} << 30;
 };

@@ -19,7 +19,7 @@
 
 namespace bdpt::io {
 
-/// How scene-linear colours, which have no upper limit, become those of a screen.
+/// Tone curve: maps scene-linear colours, which are unbounded, to display colours.
 enum class ToneCurve : std::uint8_t {
     filmic,       ///< the look of film: contrast, and highlights that fade to white
     pbr_neutral,  ///< keeps base colours under grey light: for products
@@ -27,30 +27,30 @@ enum class ToneCurve : std::uint8_t {
     none,         ///< clamps
 };
 
-/// All of them, in this order.
+/// All tone curves, in this order.
 inline constexpr std::array all_tone_curves{ToneCurve::filmic, ToneCurve::pbr_neutral,
                                             ToneCurve::agx, ToneCurve::none};
 
-/// "filmic", "pbr-neutral", "agx" or "none".
+/// Returns "filmic", "pbr-neutral", "agx" or "none".
 [[nodiscard]] BDPT_EXPORT std::string_view tone_curve_name(ToneCurve curve);
 
-// From scene-linear to display-linear Rec. 709 in [0, 1]. NaN and negative components count as 0,
-// those above 1e6 as 1e6.
+// Maps from scene-linear to display-linear Rec. 709 in [0, 1]. NaN and negative components count as
+// 0, those above 1e6 as 1e6.
 
-/// A filmic curve [Narkowicz 2016, ACES Filmic Tone Mapping Curve] on the largest component; hues
-/// stay, and bright ones fade to white.
+/// Applies a filmic curve [Narkowicz 2016, ACES Filmic Tone Mapping Curve] to the largest
+/// component; hues are kept, and bright ones fade to white.
 [[nodiscard]] BDPT_EXPORT Rgb filmic(Rgb scene_linear);
 
-/// Khronos PBR Neutral Tone Mapper [Khronos 2024, specification of that name]. A base colour of a
-/// dielectric in [0.04, 0.76] under light of 1 comes back as it was: the 0.04 that is reflected
-/// beside it is taken off. What is brighter is compressed, and fades to white.
+/// Applies the Khronos PBR Neutral Tone Mapper [Khronos 2024, specification of that name]. A
+/// dielectric's base colour in [0.04, 0.76] under light of 1 is reproduced: the 0.04 of specular
+/// reflection is subtracted. Brighter values are compressed and fade to white.
 [[nodiscard]] BDPT_EXPORT Rgb pbr_neutral(Rgb scene_linear);
 
-/// AgX [Sobotka 2022] with the polynomial that Wrensch [2023, Minimal AgX Implementation] fitted to
-/// its curve, on Rec. 2020 primaries, which is what viewers of glTF files have.
+/// Applies AgX [Sobotka 2022] with the polynomial that Wrensch [2023, Minimal AgX Implementation]
+/// fitted to its curve, on Rec. 2020 primaries, as in viewers of glTF files.
 [[nodiscard]] BDPT_EXPORT Rgb agx(Rgb scene_linear);
 
-/// The curve of that name.
+/// Applies the given curve.
 [[nodiscard]] BDPT_EXPORT Rgb apply(ToneCurve curve, Rgb scene_linear);
 
 }  // namespace bdpt::io

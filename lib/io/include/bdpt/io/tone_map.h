@@ -27,14 +27,14 @@ struct DisplayImage {
     std::vector<std::uint8_t> rgb;  ///< 3 * width * height
 };
 
-/// The exposure [EV] that brings the image's log-average luminance to a key: 0.18, or up to 0.36
-/// for an image that is bright but for a few shadows [after Reinhard 2002, Parameter Estimation
-/// for Photographic Tone Reproduction]. Black, NaN and infinite pixels do not count, nor do the
-/// brightest and darkest hundredth. Scaling all pixels by k lowers it by log2(k). 0 for a black
-/// image.
+/// Returns the exposure [EV] that maps the image's log-average luminance to a key: 0.18, or up to
+/// 0.36 for an image that is bright but for a few shadows [after Reinhard 2002, Parameter
+/// Estimation for Photographic Tone Reproduction]. Black, NaN and infinite pixels do not count, nor
+/// do the brightest and darkest hundredth. Scaling all pixels by k lowers the exposure by log2(k).
+/// Returns 0 for a black image.
 [[nodiscard]] BDPT_EXPORT float automatic_exposure(const Image& image);
 
-/// `linear` in [0, 1], else it is clamped; NaN gives 0. Rounds to the nearest.
+/// Encodes `linear`, clamped to [0, 1]; NaN gives 0. Rounds to nearest.
 [[nodiscard]] BDPT_EXPORT std::uint8_t encode_srgb(float linear);
 
 /// Multiplies each pixel by 2^exposure [EV], then applies the curve and `encode_srgb`.

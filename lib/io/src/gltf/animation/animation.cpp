@@ -19,11 +19,11 @@ namespace bdpt::io {
 
 namespace {
 
-/// What a channel of an animation moves.
+/// Target property of an animation channel.
 struct Path {
     std::string_view name;
     std::vector<double> tinygltf::Node::*member;
-    int type;  // of the values
+    int type;  // tinygltf type of the values
     std::size_t width;
     Quantity quantity;
 };
@@ -49,7 +49,7 @@ Interpolation interpolation_of(const tinygltf::AnimationSampler& sampler)
                                                   : Interpolation::linear;
 }
 
-/// Morph targets of the node's mesh: the most that one of its primitives has.
+/// Returns the number of morph targets of the node's mesh: the maximum over its primitives.
 std::size_t count_targets(const tinygltf::Model& model, const tinygltf::Node& node)
 {
     std::size_t count = 0;
@@ -78,7 +78,7 @@ std::vector<float> read_column(const tinygltf::Model& model, const std::string& 
     return values;
 }
 
-/// `place`: of the sampler.
+/// Reads the key frames of a sampler; `place` is the sampler's.
 KeyFrames read_key_frames(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler,
                           const std::string& place, const Path& path, std::size_t width,
                           LoadContext& context)
@@ -96,7 +96,7 @@ KeyFrames read_key_frames(const tinygltf::Model& model, const tinygltf::Animatio
                                 stop - frames.times.begin() + 1, *(stop + 1), *stop));
     }
     const std::string output = place + "/output";
-    // Integers are fractions, whether they say so or not [glTF 2.0, sec. 3.11].
+    // Integers are fractions, whether marked as normalized or not [glTF 2.0, sec. 3.11].
     frames.values =
         read_column(model, output, sampler.output, path.type, Integers::normalized, context);
     const std::size_t rows = frames.interpolation == Interpolation::cubic_spline ? 3 : 1;
@@ -108,7 +108,7 @@ KeyFrames read_key_frames(const tinygltf::Model& model, const tinygltf::Animatio
     return frames;
 }
 
-/// None where nothing is to be moved. `place`: of the animation.
+/// Reads a channel of the animation at `place`; returns none if it has no target.
 std::optional<AnimatedProperty> read_channel(const tinygltf::Model& model,
                                              const tinygltf::Animation& animation,
                                              std::size_t index, const std::string& place,
@@ -119,14 +119,14 @@ std::optional<AnimatedProperty> read_channel(const tinygltf::Model& model,
         return channel.target_path == known.name;
     });
     if (path == std::end(paths) || channel.target_node < 0) {
-        return std::nullopt;  // check_animations has warned of it, if it is worth that.
+        return std::nullopt;  // check_animations has warned of it if necessary.
     }
     const std::string target = fmt::format("{}/channels/{}/target", place, index);
     const auto number = static_cast<std::size_t>(channel.target_node);
     const tinygltf::Node& node = model.nodes[number];
     const bool weights = path->name == "weights";
     if (weights && node.mesh >= 0) {
-        // Each channel looks at all of them.
+        // Each channel visits all primitives.
         const auto& mesh = model.meshes[static_cast<std::size_t>(node.mesh)];
         context.budget.spend(target, mesh.primitives.size(), sizeof(double));
     }

@@ -13,14 +13,14 @@
 
 namespace bdpt::io {
 
-/// Which animations of a file play, by index; none: nodes rest as the file has them. `names` are
-/// those of all its animations. Throws `Error` (not_found, usage).
+/// Selects the animations of a file that play, by index; none: nodes rest as in the file. `names`
+/// are those of all its animations. Throws `Error` (not_found, usage).
 [[nodiscard]] std::vector<std::size_t> select_animations(const std::vector<std::string>& names,
                                                          const GltfOptions& options,
                                                          LoadContext& context);
 
-/// A property of a node, its translation, rotation, scale or weights of morph targets, and what
-/// moves it.
+/// An animated property of a node (translation, rotation, scale or weights of morph targets) with
+/// its key frames.
 struct AnimatedProperty {
     std::size_t node = 0;
     std::vector<double> tinygltf::Node::*member = nullptr;
@@ -28,12 +28,12 @@ struct AnimatedProperty {
     KeyFrames frames{};
 };
 
-/// All that an animation moves, which must be one that plays (build_model). Throws `Error`
-/// (invalid_input) for key frames that make no sense.
+/// Reads the properties that an animation moves; it must be one that plays (build_model). Throws
+/// `Error` (invalid_input) for invalid key frames.
 [[nodiscard]] std::vector<AnimatedProperty> read_animation(const tinygltf::Model& model,
                                                            std::size_t index, LoadContext& context);
 
-/// Puts the nodes where they are at a time [s]; where two properties are the same the last decides.
+/// Poses the nodes at a time [s]; if a property occurs twice, the last one wins.
 void pose(tinygltf::Model& model, std::span<const AnimatedProperty> properties, double time);
 
 }  // namespace bdpt::io

@@ -31,7 +31,7 @@ std::vector<V> read(const tinygltf::Model& model, const tinygltf::Value& attribu
                : std::vector<V>{};
 }
 
-/// The number of values that all attributes have.
+/// Returns the number of values that all attributes have.
 std::size_t count_values(const tinygltf::Model& model, const tinygltf::Value& attributes,
                          const std::string& place)
 {
@@ -84,7 +84,7 @@ std::vector<glm::dmat4> instance_transforms(const tinygltf::Model& model, std::s
             const glm::dvec4 xyzw(rotations[i]);
             const glm::dquat q(xyzw.w, xyzw.x, xyzw.y, xyzw.z);
             const double length = glm::length(q);
-            // Without a length it says nothing, as in a node.
+            // A zero quaternion is ignored, as in a node.
             transform = length == 0.0 ? transform : transform * glm::mat4_cast(q / length);
         }
         if (!scales.empty()) {

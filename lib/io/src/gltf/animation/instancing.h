@@ -10,9 +10,9 @@
 
 namespace bdpt::io {
 
-/// Where EXT_mesh_gpu_instancing places the mesh of a node, each in the node's space; once, where
-/// it is, without the extension. Throws `Error` (invalid_input), also for more than `most` places,
-/// before any is read.
+/// Returns the transforms of the instances of a node's mesh by EXT_mesh_gpu_instancing, in the
+/// node's space; the identity alone without the extension. Throws `Error` (invalid_input), also for
+/// more than `most` instances, before any is read.
 [[nodiscard]] std::vector<glm::dmat4> instance_transforms(const tinygltf::Model& model,
                                                           std::size_t node, std::size_t most,
                                                           LoadContext& context);

@@ -14,7 +14,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// Rows of values at a key frame.
+/// Kinds of rows of values at a key frame.
 enum class Row : std::uint8_t { in_tangent, value, out_tangent };
 
 Values row(const KeyFrames& frames, std::size_t key, Row which)
@@ -35,7 +35,7 @@ Values to_values(const glm::dquat& q)
     return {q.x, q.y, q.z, q.w};
 }
 
-/// The same direction with unit length; values of length 0 stay as they are.
+/// Normalizes a quaternion; one of length 0 stays as it is.
 Values normalized(const Values& xyzw)
 {
     const glm::dquat q = to_quaternion(xyzw);
@@ -52,8 +52,8 @@ Values linear(const Values& a, const Values& b, double u)
     return result;
 }
 
-/// Along the shorter great circle between unit quaternions, at constant speed. Halves the arc until
-/// `u` is met, for the sine and arccosine of the C library may differ between machines.
+/// Interpolates along the shorter great circle between unit quaternions, at constant speed. Bisects
+/// the arc down to `u`, as the sine and arccosine of the C library may differ between machines.
 Values slerp(Values a, Values b, double u)
 {
     if (std::inner_product(a.begin(), a.end(), b.begin(), 0.0) < 0.0) {
@@ -68,7 +68,8 @@ Values slerp(Values a, Values b, double u)
     return a;
 }
 
-/// Hermite's spline; tangents are per second, so they count times the seconds between the keys.
+/// Evaluates Hermite's spline; tangents are per second, so they are multiplied by the seconds
+/// between the keys.
 Values hermite(const KeyFrames& frames, std::size_t key, double u, double seconds)
 {
     const Values v0 = row(frames, key, Row::value);

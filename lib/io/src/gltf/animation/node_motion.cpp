@@ -11,9 +11,9 @@ namespace bdpt::io {
 
 namespace {
 
-/// What an animation may move.
+/// Nodes that an animation may move.
 struct Movable {
-    std::set<std::size_t> nodes;     ///< with all below them
+    std::set<std::size_t> nodes;     ///< including all below them
     std::set<std::size_t> weighted;  ///< nodes whose weights change
 };
 
@@ -51,7 +51,7 @@ Samples take_samples(tinygltf::Model& model, std::span<const AnimatedProperty> p
                      LoadContext& context)
 {
     Samples samples;
-    const Silence silence(context.warnings);  // The pose of the opening says all.
+    const Silence silence(context.warnings);  // The pose at the opening has given all warnings.
     for (std::size_t i = 0; i <= steps; ++i) {
         const double u = static_cast<double>(i) / static_cast<double>(steps);
         pose(model, properties, (1.0 - u) * open + u * close);
@@ -67,7 +67,7 @@ Samples take_samples(tinygltf::Model& model, std::span<const AnimatedProperty> p
     return samples;
 }
 
-/// Are straight lines between every second sample close to the others?
+/// Tests whether linear interpolation between every second sample is close to the others.
 bool weights_are_close(const std::vector<std::vector<double>>& weights)
 {
     for (std::size_t target = 0; target < weights.front().size(); ++target) {
@@ -95,7 +95,7 @@ bool samples_are_close(const Samples& samples)
                        [](const auto& node) { return weights_are_close(node.second); });
 }
 
-/// Every second value of nodes that move at all.
+/// Returns every second value of the nodes that move at all.
 template <typename T>
 std::map<std::size_t, std::vector<T>> every_second(
     const std::map<std::size_t, std::vector<T>>& samples)
@@ -129,7 +129,7 @@ NodeMotion::NodeMotion(tinygltf::Model& model, std::span<const AnimatedProperty>
         weights += model.nodes[node].weights.size();
     }
     for (std::size_t steps = 1; steps <= max_steps; steps *= 2) {
-        // Twice as many, to see whether lines are close halfway between two.
+        // Twice as many samples, to check the interpolation halfway between two steps.
         context.budget.spend("/animations", 2 * steps + 1,
                              movable.nodes.size() * sizeof(glm::dmat4) + weights * sizeof(double));
         const Samples samples =

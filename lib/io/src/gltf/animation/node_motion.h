@@ -14,23 +14,23 @@
 
 namespace bdpt::io {
 
-/// Where nodes are, and how much of their morph targets shows, at equally spaced times while the
-/// shutter is open: a power of two of steps, so many that straight lines from one to the next are
-/// close to all that moves (gltf/animation/steps.h), but at most 64.
+/// Transforms and morph-target weights of nodes at equally spaced times while the shutter is open.
+/// The number of steps is a power of two of up to 64, just large enough that linear interpolation
+/// is close to all that moves (gltf/animation/steps.h).
 class NodeMotion {
 public:
-    /// Nothing moves.
+    /// Creates a motion in which nothing moves.
     NodeMotion() = default;
-    /// Leaves the model in its pose at the opening. `open` and `close` [s] are times of the
-    /// animation. Throws `Error` (invalid_input).
+    /// Samples the animations. Leaves the model in its pose at the opening. `open` and `close` [s]
+    /// are times of the animation. Throws `Error` (invalid_input).
     NodeMotion(tinygltf::Model& model, std::span<const AnimatedProperty> properties, double open,
                double close, LoadContext& context);
 
-    /// After the opening; 0: nothing moves.
+    /// Returns the number of steps after the opening; 0: nothing moves.
     [[nodiscard]] std::size_t steps() const { return steps_; }
-    /// Node space to world space at `steps()` + 1 times; empty: the node stands still.
+    /// Returns node space to world space at `steps()` + 1 times; empty: the node stands still.
     [[nodiscard]] std::span<const glm::dmat4> world(std::size_t node) const;
-    /// Of morph targets, likewise.
+    /// Returns the weights of morph targets at `steps()` + 1 times; empty: they are constant.
     [[nodiscard]] std::span<const std::vector<double>> weights(std::size_t node) const;
 
 private:

@@ -11,13 +11,13 @@
 
 namespace bdpt::io {
 
-/// World transforms of all nodes, each worked out when it is first asked for.
+/// World transforms of all nodes, computed on demand.
 class NodeTransforms {
 public:
-    /// The arguments must outlive this. The nodes must be a forest (check_node_graph).
+    /// The arguments must outlive this object. The nodes must be a forest (check_node_graph).
     NodeTransforms(const tinygltf::Model& model, LoadContext& context);
 
-    /// Node space to world space. Throws `Error` (invalid_input) when it is not finite.
+    /// Returns node space to world space. Throws `Error` (invalid_input) if it is not finite.
     [[nodiscard]] const glm::dmat4& world(std::size_t node);
 
 private:

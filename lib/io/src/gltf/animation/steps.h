@@ -13,21 +13,22 @@
 
 namespace bdpt::io {
 
-// How far from a motion the straight lines between its steps may be.
+// Tolerances of linear interpolation between the steps of a motion.
 
-/// Of the size of what turns: a step of 3.6 degrees.
+/// Relative to the size of what turns: a step of 3.6 degrees.
 inline constexpr double turn_tolerance = 5e-4;
-/// Of the way that something goes while the shutter is open.
+/// Relative to the distance that an object moves while the shutter is open.
 inline constexpr double way_tolerance = 1.0 / 256.0;
 
-/// Is the line as near to what moves as one needs? `way`: the longest from the opening.
+/// Tests whether the interpolated point is close enough to the actual one. `way`: greatest distance
+/// from the opening.
 [[nodiscard]] inline bool is_close(const glm::dvec3& line, const glm::dvec3& actual, double way)
 {
     const double noise = 1e-9 * glm::length(actual);
     return glm::length(line - actual) <= way_tolerance * way + noise;
 }
 
-/// The same of transforms: of the place of their origin, and of their axes.
+/// Tests the same for transforms: for the position of their origin, and for their axes.
 [[nodiscard]] inline bool is_close(const glm::dmat4& line, const glm::dmat4& actual, double way)
 {
     double size = 0.0;
@@ -41,7 +42,7 @@ inline constexpr double way_tolerance = 1.0 / 256.0;
            glm::length(glm::dvec3(line[3]) - glm::dvec3(actual[3])) <= way_tolerance * way + noise;
 }
 
-/// Of a vector from the opening, or of the origin of a transform.
+/// Returns the distance between two points, or between the origins of two transforms.
 [[nodiscard]] inline double way_between(const glm::dvec3& a, const glm::dvec3& b)
 {
     return glm::length(b - a);
@@ -61,8 +62,8 @@ template <typename T>
     return way;
 }
 
-/// Are straight lines from every `stride`th of equally spaced values to the next close to those in
-/// between?
+/// Tests whether linear interpolation between every `stride`th of equally spaced values is close to
+/// the values in between.
 template <typename T>
 [[nodiscard]] bool are_close(std::span<const T> values, std::size_t stride)
 {
@@ -79,8 +80,8 @@ template <typename T>
     return true;
 }
 
-/// The fewest of values at 2^n + 1 equally spaced times that are close to all; only the first if
-/// they are all equal.
+/// Returns the fewest of the values, at 2^n + 1 equally spaced times, whose interpolation is close
+/// to all; only the first if all are equal.
 template <typename T>
 [[nodiscard]] std::vector<T> thinned(std::span<const T> values)
 {

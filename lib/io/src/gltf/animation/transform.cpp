@@ -27,7 +27,7 @@ glm::dmat4 from_matrix(const std::vector<double>& values, const std::string& pla
     return matrix;
 }
 
-/// Of x >= 0. That of the C library may differ between machines.
+/// Returns the cube root of x >= 0. The C library's may differ between machines.
 double cube_root(double x)
 {
     if (!(x > 0.0) || !std::isfinite(x)) {
@@ -37,7 +37,7 @@ double cube_root(double x)
     double rest = std::frexp(x, &exponent);
     const int third = exponent / 3;
     rest = std::ldexp(rest, exponent - 3 * third);  // in [1/8, 4)
-    // Newton's method: from 1.2 eight steps are enough for all of that range.
+    // Newton's method: from 1.2, eight steps suffice for the whole range.
     double root = 1.2;
     for (int step = 0; step < 8; ++step) {
         root = (2.0 * root + rest / (root * root)) / 3.0;
@@ -81,7 +81,7 @@ glm::dmat4 rotation(const std::vector<double>& xyzw, const std::string& place, L
 {
     const glm::dquat given(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
     const double length = glm::length(given);
-    // Single-precision values and a few digits of text are not worth a word.
+    // Deviations of single-precision values and a few digits of text are not reported.
     constexpr double tolerance = 1e-3;
     if (std::abs(length - 1.0) > tolerance) {
         context.warn(length > 0.0 ? "a rotation that is not of unit length is normalised"
@@ -95,7 +95,7 @@ Mat3 axes_of(const glm::dmat4& world_from_node)
 {
     const glm::dmat3 m(world_from_node);
     const glm::dvec3 z(-transform_direction(world_from_node, {0.0, 0.0, -1.0}));
-    // Where the transform leaves no x, any axis will do.
+    // If the transform maps x to zero or onto z, any axis will do.
     glm::dvec3 x = m[0] - glm::dot(m[0], z) * z;
     if (!(glm::length(x) > 1e-9 * glm::length(m[0])) || !std::isfinite(glm::length(x))) {
         const glm::dvec3 other = std::abs(z.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);

@@ -25,7 +25,7 @@ bool is_one_of(const Json& value, const std::string_view (&words)[n])
                        [&value](std::string_view word) { return value == word; });
 }
 
-/// Which meshes have morph targets.
+/// Returns which meshes have morph targets.
 std::vector<bool> find_morphing(const JsonPlace& root)
 {
     std::vector<bool> morphing;
@@ -42,7 +42,7 @@ std::vector<bool> find_morphing(const JsonPlace& root)
     return morphing;
 }
 
-/// Can the node have what is animated?
+/// Tests whether the node has the animated property.
 bool can_move(const Json& node, const Json& path, const std::vector<bool>& morphing)
 {
     if (path == "weights") {
@@ -74,7 +74,7 @@ void check_channel(const JsonPlace& root, const std::vector<bool>& morphing,
         return;
     }
     if (!target.has("node")) {
-        return;  // Some extension's business [glTF 2.0, sec. 5.6.1].
+        return;  // The target belongs to some extension [glTF 2.0, sec. 5.6.1].
     }
     const JsonPlace nodes = root.member("nodes");
     const auto node = static_cast<std::size_t>(target.member("node").as_unsigned());

@@ -9,7 +9,7 @@
 
 namespace bdpt::io {
 
-/// Where the chunks of a binary glTF file lie in it [glTF 2.0, sec. 4.4].
+/// Offsets of the chunks in a binary glTF file [glTF 2.0, sec. 4.4].
 struct GlbChunks {
     struct Range {
         std::size_t offset = 0;
@@ -19,16 +19,16 @@ struct GlbChunks {
     std::optional<Range> bin;
 };
 
-/// Whether a file is a binary glTF file, by its first bytes.
+/// Tests whether a file is binary glTF, by its first bytes.
 [[nodiscard]] bool is_glb(ByteView file);
 
-/// How much of a stream that starts like this is worth reading [bytes]: the length that a GLB file
-/// states and one byte more, `json_bytes` and one more of text, and just `start` of what is
-/// neither.
+/// Returns how much of a stream with this start is worth reading [bytes]: the length that a GLB
+/// file states and one byte more, `json_bytes` and one more of text, and just `start` for anything
+/// else.
 [[nodiscard]] std::uint64_t worth_reading(ByteView start, const ReadLimits& limits);
 
 /// Finds the chunks; both lie within the file. Throws `Error`: unsupported for another container
-/// version than 2, invalid_input for lengths that do not fit.
+/// version than 2, invalid_input for inconsistent lengths.
 [[nodiscard]] GlbChunks find_glb_chunks(ByteView file, LoadContext& context);
 
 }  // namespace bdpt::io

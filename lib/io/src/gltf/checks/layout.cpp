@@ -19,7 +19,7 @@ constexpr std::uint64_t unsigned_int = 5125;
 // checks in product().
 constexpr std::uint64_t max_bytes = std::uint64_t{1} << 56;
 
-/// count * size, or nothing where that is more than any machine has.
+/// Returns count * size; fails if that is more than any machine has.
 std::uint64_t product(const JsonPlace& place, std::uint64_t count, std::uint64_t size)
 {
     if (size != 0 && count > max_bytes / size) {
@@ -38,7 +38,8 @@ struct Span {
     std::uint64_t element_size = 0;
 };
 
-/// `place` is what the message is about, `view` the index of the bufferView.
+/// Checks that a run lies within a view. `place` is the subject of the message, `view` the index of
+/// the bufferView.
 void check_span(const JsonPlace& place, const JsonPlace& views, std::uint64_t view,
                 const Span& span)
 {

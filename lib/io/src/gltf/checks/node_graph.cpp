@@ -46,7 +46,8 @@ void check_node_graph(const JsonPlace& root, const ReadLimits& limits)
     }
     const std::vector<std::size_t> parents = find_parents(nodes);
 
-    // With one parent at most, what cannot be reached from a root is a cycle or hangs on one.
+    // With at most one parent each, nodes that cannot be reached from a root are in a cycle or
+    // below one.
     std::vector<std::size_t> level;
     for (std::size_t i = 0; i < parents.size(); ++i) {
         if (parents[i] == no_parent) {

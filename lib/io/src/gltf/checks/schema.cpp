@@ -16,7 +16,7 @@ namespace {
 
 using enum Kind;
 
-/// The array at a path without wildcards, or its absence: size 0.
+/// Returns the size of the array at a path without wildcards; 0 if there is none.
 std::size_t array_size(const JsonPlace& place, std::string_view path)
 {
     const std::size_t slash = path.find('/');
@@ -96,7 +96,7 @@ void check_value(const JsonPlace& place, const SchemaRule& rule, std::size_t tar
     }
 }
 
-/// Applies a rule to all places that the rest of its path leads to.
+/// Applies a rule to all places that match the rest of its path.
 void walk(const JsonPlace& place, std::string_view path, const SchemaRule& rule,
           std::size_t target_size)
 {
@@ -130,8 +130,8 @@ void walk(const JsonPlace& place, std::string_view path, const SchemaRule& rule,
     }
 }
 
-/// Texture references stand in many places of a material; all have a name that ends alike. Marks
-/// the textures that they lead to.
+/// Checks texture references, which occur in many places of a material, all in members whose names
+/// end in "Texture". Marks the textures that they use.
 void check_texture_references(const JsonPlace& place, std::vector<bool>& used)
 {
     constexpr SchemaRule transform_rules[] = {{"offset", numbers, "", 2},
@@ -143,7 +143,7 @@ void check_texture_references(const JsonPlace& place, std::vector<bool>& used)
     }
     for (const auto& item : place.value().items()) {
         if (item.key() == "extras") {
-            continue;  // the user's own
+            continue;  // user data
         }
         const JsonPlace member = place.member(item.key());
         if (!item.key().ends_with("Texture")) {
@@ -162,7 +162,7 @@ void check_texture_references(const JsonPlace& place, std::vector<bool>& used)
     }
 }
 
-/// What a texture refers to must be there, unless nothing refers to the texture.
+/// Checks that the references of used textures exist.
 void check_textures(const JsonPlace& root, const std::vector<bool>& used, LoadContext& context)
 {
     for (std::size_t i = 0; i < used.size(); ++i) {
@@ -181,7 +181,7 @@ void check_textures(const JsonPlace& root, const std::vector<bool>& used, LoadCo
     }
 }
 
-/// A value of several kinds must bring the member that its kind asks for.
+/// Checks that a value with a type has the member required by its type.
 void check_kinds(const JsonPlace& values, std::initializer_list<std::string_view> kinds)
 {
     for (std::size_t i = 0; i < values.size(); ++i) {

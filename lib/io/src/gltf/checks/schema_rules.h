@@ -20,8 +20,9 @@ enum class Kind : std::uint8_t {
     index
 };
 
-/// One property: its place, where * stands for all elements or members; its type; for `index` the
-/// array that it points into; for `numbers` how many (0: any). A `!` at the end: it must be there.
+/// Rule for one property: its path, where * stands for all elements or members; its type; for
+/// `index` the array that it indexes; for `numbers` their count (0: any). A `!` at the end marks a
+/// required property.
 struct SchemaRule {
     std::string_view path;
     Kind kind = Kind::object;
@@ -29,8 +30,8 @@ struct SchemaRule {
     std::size_t length = 0;
 };
 
-/// What textures refer to, from each of them. Files have textures that no material uses and whose
-/// images were taken away; no harm comes of these.
+/// Rules for the references of textures. Files have unused textures whose images were removed,
+/// which is harmless.
 inline constexpr std::array texture_rules{
     SchemaRule{"source", Kind::index, "images"},
     SchemaRule{"sampler", Kind::index, "samplers"},
@@ -44,7 +45,7 @@ inline constexpr std::array schema_rules{
     SchemaRule{"extensionsUsed", Kind::array},
     SchemaRule{"extensionsRequired", Kind::array},
     SchemaRule{"extensions", Kind::object},
-    // First of all, as indices are checked against their sizes.
+    // Arrays come first, as indices are checked against their sizes.
     SchemaRule{"scenes", Kind::array},
     SchemaRule{"nodes", Kind::array},
     SchemaRule{"meshes", Kind::array},
@@ -104,7 +105,7 @@ inline constexpr std::array schema_rules{
     SchemaRule{"skins/*/joints!", Kind::array},
     SchemaRule{"skins/*/joints/*", Kind::index, "nodes"},
     SchemaRule{"skins/*/inverseBindMatrices", Kind::index, "accessors"},
-    // What must be there is asked for when the animation plays.
+    // Required members are checked when the animation plays.
     SchemaRule{"animations/*", Kind::object},
     SchemaRule{"animations/*/channels", Kind::array},
     SchemaRule{"animations/*/channels/*", Kind::object},

@@ -9,7 +9,7 @@ namespace bdpt::io {
 void DecodedSize::add(const JsonPlace& place, std::uint64_t count, std::uint64_t size,
                       std::uint64_t encoded)
 {
-    // Small meshes of few different values are packed very tightly in good faith.
+    // Small meshes of few different values legitimately have a very high compression ratio.
     constexpr std::uint64_t harmless = std::uint64_t{64} << 20;
     if (size != 0 && count > left() / size) {
         const long double need = static_cast<long double>(count) * static_cast<long double>(size);

@@ -7,7 +7,7 @@
 
 namespace bdpt::io {
 
-/// Counts what compressed meshes of a file become, before memory is spent on it.
+/// Tracks the decoded size of compressed meshes of a file, before memory is allocated for it.
 class DecodedSize {
 public:
     explicit DecodedSize(LoadContext& context)
@@ -15,12 +15,11 @@ public:
     {}
 
     /// Counts `count` elements of `size` bytes that `encoded` bytes hold. Throws `Error`
-    /// (invalid_input) at `place` when that is more than the limits allow in all, or is packed more
-    /// tightly than they believe.
+    /// (invalid_input) at `place` if the total exceeds the limits, or the compression ratio does.
     void add(const JsonPlace& place, std::uint64_t count, std::uint64_t size,
              std::uint64_t encoded);
 
-    /// What may still be added [bytes].
+    /// Returns how much may still be added [bytes].
     [[nodiscard]] std::uint64_t left() const { return limits_.buffer_bytes - total_; }
 
 private:

@@ -1,4 +1,4 @@
-// Takes the place of draco_decoder.cpp in builds without Draco.
+// Replaces draco_decoder.cpp in builds without Draco.
 #include "gltf/compression/draco_decoder.h"
 
 #include <bdpt/error.h>

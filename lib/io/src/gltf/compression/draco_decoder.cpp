@@ -26,7 +26,7 @@ namespace {
     throw Error(code, "Draco: " + what);
 }
 
-/// The head of a Draco file: magic, version, kind of geometry, method, flags.
+/// Size of the header of a Draco file: magic, version, kind of geometry, method, flags.
 constexpr std::size_t head_size = 11;
 
 draco::DecoderBuffer to_buffer(ByteView data)
@@ -101,7 +101,7 @@ std::vector<std::uint32_t> read_faces(const draco::Mesh& mesh)
     return indices;
 }
 
-/// There may be more points than the head of the mesh says.
+/// Checks the size again, as there may be more points than the header of the mesh says.
 void check_size(const draco::Mesh& mesh, std::span<const DracoAttribute> attributes,
                 std::uint64_t most)
 {
@@ -184,7 +184,7 @@ DracoMesh decode_draco_mesh(ByteView data, std::span<const DracoAttribute> attri
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        // Broken data makes it ask for more memory than there is.
+        // Broken data makes the decoder request more memory than there is.
         fail("the data cannot be decoded: " + quote(error.what()));
     }
 }

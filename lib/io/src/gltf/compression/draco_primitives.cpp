@@ -56,7 +56,7 @@ private:
         const JsonPlace extensions = source.member("extensions");
         const JsonPlace packed = extensions.member(draco_extension);
         const std::vector<Wanted> wanted = find_wanted(source, packed);
-        // Primitives may share data; what they make of it depends on their accessors.
+        // Primitives may share data, but the decoded attributes depend on their accessors.
         std::string key = std::to_string(packed.member("bufferView").as_unsigned());
         for (const Wanted& one : wanted) {
             key += fmt::format(" {} {} {}", one.semantic, one.attribute.id, one.accessor.dump());
@@ -76,7 +76,7 @@ private:
         const JsonPlace attributes = source.member("attributes");
         for (const auto& item : ids.value().items()) {
             if (!attributes.has(item.key())) {
-                continue;  // Nobody asks for it.
+                continue;  // The attribute is not used.
             }
             const JsonPlace place = ids.member(item.key());
             const std::uint64_t id = place.as_unsigned();
@@ -94,7 +94,7 @@ private:
         return wanted;
     }
 
-    /// An object with "attributes" and "indices", as a primitive has them.
+    /// Returns an object with "attributes" and "indices", as in a primitive.
     [[nodiscard]] Json decode(const JsonPlace& packed, const std::vector<Wanted>& wanted)
     {
         const Json& view =
@@ -102,7 +102,7 @@ private:
         const ByteView buffer = buffers_[view["buffer"].get<std::size_t>()];
         const ByteView data =
             buffer.subspan(view.value("byteOffset", std::size_t{0}),
-                           view["byteLength"].get<std::size_t>());  // sound by check_layout
+                           view["byteLength"].get<std::size_t>());  // checked by check_layout
         std::vector<DracoAttribute> attributes;
         std::uint64_t point_bytes = 3 * sizeof(std::uint32_t);
         for (const Wanted& one : wanted) {
@@ -121,7 +121,7 @@ private:
             }
         } catch (const Error& error) {
             const std::string what = error.what();
-            // Limits know their place already.
+            // Errors about limits already name their place.
             if (what.starts_with("/")) {
                 throw;
             }
@@ -142,7 +142,7 @@ private:
         return plain;
     }
 
-    /// The index of a new accessor that is like `model`.
+    /// Adds an accessor like `model` and returns its index.
     [[nodiscard]] std::size_t add_accessor(Bytes bytes, const Json& model, std::size_t count)
     {
         Json& views = document_["bufferViews"];
@@ -164,7 +164,7 @@ private:
     std::map<std::string, Json> known_;
 };
 
-/// Without Draco: is there plain data beside the compressed one?
+/// Checks, in builds without Draco, that the primitive also has uncompressed data.
 void check_plain(const JsonPlace& root, const JsonPlace& primitive)
 {
     const JsonPlace attributes = primitive.member("attributes");

@@ -1,4 +1,4 @@
-// Takes the place of meshopt_decoder.cpp in builds without meshoptimizer.
+// Replaces meshopt_decoder.cpp in builds without meshoptimizer.
 #include "gltf/compression/meshopt_decoder.h"
 
 #include <bdpt/error.h>

@@ -38,7 +38,7 @@ void apply_filter(const MeshoptStream& stream, Bytes& decoded)
     }
 }
 
-/// Attributes of the version that came after 0; older libraries do not read it.
+/// Tests for attributes of the version after 0, which older libraries do not read.
 bool is_newer(const MeshoptStream& stream, ByteView data)
 {
     return stream.mode == MeshoptMode::attributes && !data.empty() && data[0] == 0xa1;

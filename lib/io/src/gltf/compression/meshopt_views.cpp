@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view extension_names[] = {"EXT_meshopt_compression",
                                                 "KHR_meshopt_compression"};
 
-/// The extension that compresses a view, if any.
+/// Returns the extension that compresses a view, if any.
 std::optional<std::string_view> compression_of(const JsonPlace& view)
 {
     if (!view.has("extensions")) {
@@ -86,7 +86,7 @@ bool stride_fits(const MeshoptStream& stream)
     }
 }
 
-/// What the decoder relies on.
+/// Reads the stream's properties and checks what the decoder relies on.
 MeshoptStream read_stream(const JsonPlace& packed)
 {
     MeshoptStream stream;

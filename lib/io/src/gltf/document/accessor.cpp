@@ -42,8 +42,8 @@ std::size_t element_size(const tinygltf::Accessor& accessor)
            component_size(static_cast<std::uint64_t>(accessor.componentType));
 }
 
-/// Calls visit(index, bytes) for each element that is stored: first the dense ones, then the sparse
-/// ones that replace some of them. Elements that are stored nowhere are zero.
+/// Calls visit(index, bytes) for each stored element: first the dense ones, then the sparse ones
+/// that replace some of them. Elements that are not stored are zero.
 template <typename Visit>
 void for_each_element(const tinygltf::Model& model, int accessor_index, const Visit& visit)
 {
@@ -99,7 +99,7 @@ float to_float(const unsigned char* bytes, bool normalized)
         if (!normalized) {
             return static_cast<float>(value);
         }
-        // In double: 32-bit integers do not fit in a float.
+        // In double, as 32-bit integers do not fit in a float.
         const double fraction =
             static_cast<double>(value) / static_cast<double>(std::numeric_limits<T>::max());
         return static_cast<float>(std::max(fraction, -1.0));
@@ -173,7 +173,7 @@ void check_type(const tinygltf::Model& model, int accessor, int type)
 template <typename V>
 std::vector<V> read_vectors(const tinygltf::Model& model, int accessor, Integers integers)
 {
-    // In tinygltf a type of vectors is the number of their components.
+    // In tinygltf the type of a vector is the number of its components.
     check_type(model, accessor, V::length());
     std::vector<V> values(model.accessors[static_cast<std::size_t>(accessor)].count, V(0.0f));
     read_floats(model, accessor, integers, static_cast<std::size_t>(V::length()),

@@ -53,7 +53,7 @@ constexpr std::array table{
     ExtensionSupport{"EXT_mesh_gpu_instancing", supported, ""},
     ExtensionSupport{"EXT_meshopt_compression", supported, "where meshoptimizer is installed"},
     ExtensionSupport{"EXT_texture_webp", supported, ""},
-    // Supported by doing nothing: they have no influence on an image.
+    // Supported without any code: they do not influence an image.
     ExtensionSupport{"FB_ngon_encoding", supported, "no influence on the image"},
     ExtensionSupport{"KHR_xmp", supported, "metadata of the file are written into images"},
     ExtensionSupport{"KHR_xmp_json_ld", supported, "metadata of the file are written into images"},
@@ -69,21 +69,21 @@ constexpr std::array table{
     ExtensionSupport{"EXT_texture_avif", ignored, "only fallback images are read"},
 };
 
-/// Does this build lack the library for an extension?
+/// Tests whether this build lacks the library for an extension.
 bool is_missing(std::string_view name)
 {
     return (name == "KHR_draco_mesh_compression" && !has_draco()) ||
            (name.ends_with("_meshopt_compression") && !has_meshopt());
 }
 
-/// Without what these add there is no sensible mesh.
+/// Tests for extensions without which there is no sensible mesh.
 bool is_about_meshes(std::string_view name)
 {
     return name == "KHR_draco_mesh_compression" || name.ends_with("_meshopt_compression") ||
            name == "KHR_mesh_quantization";
 }
 
-/// Why a file that requires an extension cannot be loaded as it is meant to be; none: it can.
+/// Returns why a file that requires an extension cannot be loaded as intended; none: it can.
 std::optional<std::string> obstacle_to(const ExtensionUse& use, LoadContext& context)
 {
     if (is_missing(use.name)) {

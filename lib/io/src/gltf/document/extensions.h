@@ -11,21 +11,22 @@
 
 namespace bdpt::io {
 
-/// What we make of one glTF extension.
+/// Our support of one glTF extension.
 struct ExtensionSupport {
     std::string_view name;
     ExtensionStatus status = ExtensionStatus::unknown;
-    std::string_view note;  ///< what is lost, in a few words
+    std::string_view note;  ///< the loss, in a few words
 };
 
-/// All extensions that we know. The loader and the reports both go by this table.
+/// Returns all extensions that we know. The loader and the reports both use this table.
 [[nodiscard]] std::span<const ExtensionSupport> known_extensions();
 
-/// The extensions that a document lists, whatever they are; what is no string is left out.
+/// Returns the extensions that a document lists, whatever they are; entries that are no strings are
+/// left out.
 [[nodiscard]] std::vector<ExtensionUse> list_extensions(const JsonPlace& root);
 
-/// The extensions that a document lists. Throws `Error` (unsupported) for a required one that is
-/// not supported; warns of used ones that are not.
+/// Returns the extensions that a document lists. Throws `Error` (unsupported) for a required one
+/// that is not supported; warns of used ones that are not.
 [[nodiscard]] std::vector<ExtensionUse> check_extensions(const JsonPlace& root,
                                                          LoadContext& context);
 

@@ -26,7 +26,7 @@ std::size_t section_size(const Json& document, const char* section)
     return found != document.end() && found->is_array() ? found->size() : 0;
 }
 
-/// The packet that the asset refers to; none where anything about it is odd.
+/// Returns the packet that the asset refers to; empty if anything about it is invalid.
 std::string find_xmp(const Json& document)
 {
     constexpr std::size_t longest = std::size_t{1} << 20;

@@ -6,7 +6,8 @@
 
 namespace bdpt::io {
 
-/// What a document says and holds; without the index of the loaded scene. It has an "asset".
+/// Collects the facts about a document, without the index of the loaded scene. The document has an
+/// "asset".
 [[nodiscard]] GltfFacts collect_facts(const CheckedGltf& checked);
 
 }  // namespace bdpt::io

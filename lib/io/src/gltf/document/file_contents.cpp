@@ -22,7 +22,7 @@ ContentHash hash_of(ByteView bytes)
     return hasher.hash();
 }
 
-/// It may be large, and the scene is in memory already.
+/// Hashes a file in blocks, as it may be large while the scene is in memory already.
 ContentHash hash_by_blocks(const std::filesystem::path& file, std::uint64_t limit)
 {
     ContentHasher hasher;
@@ -30,7 +30,7 @@ ContentHash hash_by_blocks(const std::filesystem::path& file, std::uint64_t limi
     return hasher.hash();
 }
 
-/// Adds the files that the elements of the list at `pointer` name.
+/// Adds the files named by the elements of the list at `pointer`.
 void add_uris(std::set<std::string>& uris, const Json& document, const char* pointer)
 {
     const Json::json_pointer place(pointer);
@@ -63,7 +63,7 @@ std::set<std::string> uris_of(ByteView file, LoadContext& context)
     return uris;
 }
 
-/// None for what the loader will refuse or do without.
+/// Hashes a file; none if the loader will refuse or ignore it.
 std::optional<ContentHash> hash_if_readable(const std::string& uri, const LoadContext& context)
 {
     try {

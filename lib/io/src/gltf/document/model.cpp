@@ -19,7 +19,8 @@ namespace bdpt::io {
 
 namespace {
 
-/// tinygltf holds integers within extensions as `int`; greater ones become floating point.
+/// Converts integers beyond `int` to floating point, as tinygltf holds integers within extensions
+/// as `int`.
 void widen_integers(Json& value)
 {
     if (value.is_structured()) {
@@ -48,7 +49,8 @@ void for_each(Json& document, const char* section, const Visit& visit)
     }
 }
 
-/// The images, which are taken away: tinygltf would decode the data in their URIs.
+/// Removes the images from the document, as tinygltf would decode the data in their URIs, and
+/// returns them.
 std::vector<tinygltf::Image> take_images(Json& document)
 {
     std::vector<tinygltf::Image> images;
@@ -74,8 +76,8 @@ void for_each_light(Json& document, const char* extension, const Visit& visit)
     }
 }
 
-// tinygltf leaves out what is empty within extensions, and the elements of an array after it move.
-// So each light has something, and of what is not read nothing.
+// tinygltf drops empty values within extensions, so that later elements of an array move. So each
+// light keeps a member, and members that are not read are dropped.
 
 Json reduced_profile(Json& light)
 {
@@ -85,7 +87,7 @@ Json reduced_profile(Json& light)
     return {{"uri", light.contains("uri") ? std::move(light["uri"]) : Json("")}};
 }
 
-/// Of an environment only the first level of its cube, if that has any side.
+/// Reduces an environment to the first level of its cube, if that has any side.
 Json reduced_environment(Json& light)
 {
     Json reduced{{"intensity", light.value("intensity", 1.0)}};
@@ -100,8 +102,8 @@ Json reduced_environment(Json& light)
     return reduced;
 }
 
-// tinygltf drops channels that lack something, and refuses the document for samplers that do. The
-// loader reads neither, so -1 stands in for what is missing.
+// tinygltf drops incomplete channels, and refuses the document for incomplete samplers. The loader
+// reads neither, so missing members become -1.
 
 Json reduced_channel(const Json& channel)
 {
@@ -127,7 +129,7 @@ Json reduced_sampler(const Json& sampler)
     return reduced;
 }
 
-/// Without extensions, which tinygltf would copy into each sampler.
+/// Drops extensions, which tinygltf would copy into each sampler.
 Json reduced_animation(Json& animation)
 {
     Json reduced = Json::object();
@@ -147,8 +149,9 @@ void simplify_animations(Json& document, std::span<const std::size_t> played)
     });
 }
 
-/// What tinygltf sees: buffers are named by their index and come from memory; what the loader does
-/// not read is taken away; what tinygltf insists on, but the loader does not need, is put in.
+/// Prepares the document for tinygltf: buffers are named by their index and come from memory;
+/// members that the loader does not read are removed; members that tinygltf requires, but the
+/// loader does not, are added.
 void simplify(Json& document)
 {
     std::size_t index = 0;
@@ -189,7 +192,7 @@ void simplify(Json& document)
                    [](Json& light) { light = reduced_environment(light); });
 }
 
-/// Gives tinygltf the buffers that have been read. Each is taken once.
+/// Passes the buffers that have been read to tinygltf. Each is taken once.
 tinygltf::FsCallbacks memory_files(std::vector<Bytes>& buffers)
 {
     tinygltf::FsCallbacks callbacks{};
@@ -197,7 +200,7 @@ tinygltf::FsCallbacks memory_files(std::vector<Bytes>& buffers)
     callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
     callbacks.ReadWholeFile = [](Bytes* bytes, std::string*, const std::string& path, void* user) {
         auto& all = *static_cast<std::vector<Bytes>*>(user);
-        // The names are those that simplify() gave.
+        // The names are those given by simplify().
         *bytes = std::move(all.at(std::stoul(path.substr(path.rfind('/') + 1))));
         return true;
     };

@@ -12,24 +12,25 @@
 
 namespace bdpt::io {
 
-/// Name under which the indices of a primitive stand among its attributes: tinygltf refuses some
-/// that are sound where they belong.
+/// Name of a primitive's indices among its attributes: tinygltf refuses some valid indices in their
+/// own member.
 inline constexpr const char* indices_attribute = "INDICES";
 
-/// Light `index` of an extension of the document, which must have it.
+/// Returns light `index` of an extension of the document, which must have it.
 [[nodiscard]] const tinygltf::Value& light_of(const tinygltf::Model& model, const char* extension,
                                               std::size_t index);
 
-/// The bytes of a file, of data, or, where there is no URI, of a view (-1: none). Throws `Error`:
-/// not_found for a file that is missing, invalid_input when it is larger than `limit` bytes, or
+/// Reads the bytes of a file or a data URI or, if `uri` is empty, of a view (-1: none). Throws
+/// `Error`: not_found for a missing file, invalid_input if it is larger than `limit` bytes, or
 /// neither is given.
 [[nodiscard]] Bytes read_source(const tinygltf::Model& model, const std::string& uri,
                                 int buffer_view, std::uint64_t limit, const LoadContext& context);
 
-/// A checked document as the structs of tinygltf, which have all that the loader reads. Images have
-/// their `uri` as the file has it, or their `bufferView`; nothing is decoded. Animations but those
-/// that are `played` are empty; check_animations must have seen these. See indices_attribute.
-/// Throws `Error` (invalid_input) for what the checks before let through and tinygltf does not.
+/// Converts a checked document to the structs of tinygltf, with all that the loader reads. Images
+/// have their `uri` as in the file, or their `bufferView`; nothing is decoded. Animations other
+/// than the `played` ones are empty; check_animations must have checked the played ones. See
+/// indices_attribute. Throws `Error` (invalid_input) for input that passes the checks but not
+/// tinygltf.
 [[nodiscard]] tinygltf::Model build_model(CheckedGltf checked, std::span<const std::size_t> played);
 
 }  // namespace bdpt::io

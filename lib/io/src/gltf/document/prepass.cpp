@@ -24,8 +24,8 @@ namespace bdpt::io {
 
 namespace {
 
-/// Major and minor must be what we know: 2.x, and a minimum of 2.0 at most [glTF 2.0, sec. 3.2].
-/// Comes first, as glTF 1.0 breaks about every rule of 2.0.
+/// Checks major and minor version: 2.x, and a minimum of 2.0 at most [glTF 2.0, sec. 3.2]. Called
+/// first, as glTF 1.0 breaks about every rule of 2.0.
 void check_version(const JsonPlace& root)
 {
     if (!root.has("asset")) {
@@ -49,8 +49,8 @@ void check_version(const JsonPlace& root)
     }
 }
 
-/// `length` bytes of what the URI names, and one more if there are more. Many buffers may share one
-/// large file.
+/// Reads `length` bytes of the buffer's URI, and one more if there are more. Many buffers may share
+/// one large file.
 Bytes read_buffer(const JsonPlace& buffer, std::uint64_t length, const LoadContext& context)
 {
     const JsonPlace place = buffer.member("uri");
@@ -70,7 +70,8 @@ Bytes read_buffer(const JsonPlace& buffer, std::uint64_t length, const LoadConte
     }
 }
 
-/// Buffer 0 of a binary file is its BIN chunk, unless it has a URI [glTF 2.0, sec. 4.4.3.3].
+/// Reads the buffers. Buffer 0 of a binary file is its BIN chunk, unless it has a URI [glTF 2.0,
+/// sec. 4.4.3.3].
 std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
                                 LoadContext& context)
 {
@@ -109,8 +110,8 @@ std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
 
 using Paths = std::vector<std::filesystem::path>;
 
-/// Adds the files of all images or light profiles, also of those that nothing uses: a document that
-/// points outside of its folder is refused as a whole.
+/// Adds the files of all images or light profiles, used or not: a document that points outside of
+/// its folder is refused as a whole.
 void add_checked_uris(Paths& files, const JsonPlace& holders, const std::filesystem::path& folder)
 {
     for (std::size_t i = 0; i < holders.size(); ++i) {
@@ -134,8 +135,8 @@ void add_checked_uris(Paths& files, const JsonPlace& holders, const std::filesys
     }
 }
 
-/// Adds the files of buffers. What cannot be read is refused when it is: fallback buffers never
-/// are.
+/// Adds the files of buffers. Unreadable ones are refused when they are read, which never happens
+/// to fallback buffers.
 void add_buffers(Paths& files, const JsonPlace& buffers, const std::filesystem::path& folder)
 {
     for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -193,7 +194,7 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& co
         result.document = parse_json(ByteView(bytes).subspan(chunks.json.offset, chunks.json.size),
                                      context.limits);
         if (chunks.bin) {
-            // In place: a scene's vertices should not be in memory twice.
+            // In place, so that a scene's vertices are not in memory twice.
             bytes.resize(chunks.bin->offset + chunks.bin->size);
             bytes.erase(bytes.begin(),
                         bytes.begin() + static_cast<std::ptrdiff_t>(chunks.bin->offset));
@@ -219,7 +220,7 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& co
     result.buffers = read_buffers(root, std::move(bin), context);
     decode_meshopt_views(result.document, result.buffers, context);
     decode_draco_primitives(result.document, result.buffers, context);
-    // What was decoded is trusted no more than what was read.
+    // Decoded data is checked like data from the file.
     const Silence silence(context.warnings);
     check_layout(JsonPlace(result.document), context);
     return result;

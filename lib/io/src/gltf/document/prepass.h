@@ -18,7 +18,7 @@ struct CheckedGltf {
     Json document;
     std::vector<Bytes> buffers;  ///< each at least as long as its `byteLength`
     std::vector<ExtensionUse> extensions;
-    std::vector<std::filesystem::path> files;  ///< that its URIs name, used or not
+    std::vector<std::filesystem::path> files;  ///< named by its URIs, used or not
 };
 
 /// Reads and checks a document and its buffers before any other code sees it. Throws `Error`; the

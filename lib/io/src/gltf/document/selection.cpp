@@ -15,7 +15,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// "the file has 2 scenes: 0 "day", 1 "night"".
+/// Returns a list such as "the file has 2 scenes: 0 "day", 1 "night"".
 std::string list(std::string_view what, const std::vector<std::string>& names)
 {
     constexpr std::size_t max_listed = 20;

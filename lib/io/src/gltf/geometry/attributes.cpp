@@ -10,10 +10,10 @@ namespace bdpt::io {
 
 namespace {
 
-// Squared length at which a direction is noise: quantised unit vectors are far above.
+// Squared length below which a direction is noise: quantised unit vectors are far above.
 constexpr float min_length_squared = 1e-12f;
 
-/// The unit vector, if there is one. In double, so that huge and tiny ones survive the square.
+/// Normalizes a vector, if possible. In double, so that huge and tiny ones survive the square.
 std::optional<Vec3> unit(Vec3 v)
 {
     const glm::dvec3 wide(v);
@@ -32,7 +32,7 @@ glm::dvec3 area_normal(const MeshDesc& mesh, const UVec3& triangle)
     return glm::cross(b - a, c - a);
 }
 
-/// Vertices without a usable normal get the mean normal of their triangles, weighted by area.
+/// Gives vertices without a usable normal the mean normal of their triangles, weighted by area.
 void replace_normals(MeshDesc& mesh, const std::vector<bool>& broken)
 {
     std::vector<glm::dvec3> sums(mesh.normals.size(), glm::dvec3(0.0));
@@ -76,7 +76,7 @@ void repair_normals(MeshDesc& mesh, const std::string& place, LoadContext& conte
 void repair_tangents(MeshDesc& mesh, const std::string& place, LoadContext& context)
 {
     if (mesh.normals.empty()) {
-        mesh.tangents.clear();  // They mean nothing without normals [glTF 2.0, sec. 3.7.2.1].
+        mesh.tangents.clear();  // Tangents mean nothing without normals [glTF 2.0, sec. 3.7.2.1].
         return;
     }
     for (Vec4& tangent : mesh.tangents) {

@@ -8,9 +8,9 @@
 
 namespace bdpt::io {
 
-/// Makes the attributes of a mesh what `MeshDesc` asks for: normals and tangents of unit length,
-/// handedness +1 or -1, colours in [0, 1], everything finite. Positions and triangles must be
-/// sound. Changes that a correct file would not need are warned of; `place` is a JSON pointer.
+/// Repairs the attributes of a mesh to the requirements of `MeshDesc`: normals and tangents of unit
+/// length, handedness +1 or -1, colours in [0, 1], everything finite. Positions and triangles must
+/// be valid. Warns of changes that a correct file would not need; `place` is a JSON pointer.
 void repair_attributes(MeshDesc& mesh, const std::string& place, LoadContext& context);
 
 }  // namespace bdpt::io

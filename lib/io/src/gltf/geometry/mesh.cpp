@@ -52,7 +52,8 @@ std::vector<std::uint32_t> read_checked_indices(const PrimitiveReader& primitive
     return indices;
 }
 
-/// COLOR_0 has three or four components; integers are fractions, whether they say so or not.
+/// Reads COLOR_0, which has three or four components; integers are fractions, whether marked as
+/// normalized or not.
 std::vector<Vec4> read_colors(const PrimitiveReader& primitive, std::size_t vertices,
                               LoadContext& context)
 {
@@ -75,7 +76,7 @@ std::vector<Vec4> read_colors(const PrimitiveReader& primitive, std::size_t vert
     return colors;
 }
 
-/// What reading all attributes takes, morph targets too.
+/// Charges the memory of all attributes, morph targets included.
 void spend(const PrimitiveReader& primitive, LoadContext& context)
 {
     constexpr std::uint64_t element_bytes = sizeof(Vec4);
@@ -91,8 +92,8 @@ void spend(const PrimitiveReader& primitive, LoadContext& context)
     }
 }
 
-/// They stay, since tracing leaves them out, but one should know of them: often they are what is
-/// left of a part that went wrong.
+/// Warns of triangles without area. They are kept, since tracing ignores them, but often indicate a
+/// defect of the model.
 void warn_of_no_area(const MeshDesc& mesh, PrimitiveId id, LoadContext& context)
 {
     const auto flat =
@@ -129,7 +130,7 @@ std::vector<UVec3> to_triangles(const std::vector<std::uint32_t>& indices, int m
     } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
         triangles.reserve(n - 2);
         for (std::size_t i = 0; i + 2 < n; ++i) {
-            // Every second triangle is turned over, so that all face the same way.
+            // Every second triangle is flipped, so that all have the same orientation.
             triangles.emplace_back(indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]);
         }
     } else if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {

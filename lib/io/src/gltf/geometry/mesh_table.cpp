@@ -16,8 +16,8 @@ namespace bdpt::io {
 
 namespace {
 
-/// Weights of the targets of `primitive`, without zeros at the end: the node's own, else the mesh's
-/// [glTF 2.0, sec. 3.7.2.2].
+/// Returns the weights of the targets of `primitive`, without zeros at the end: the node's own,
+/// else the mesh's [glTF 2.0, sec. 3.7.2.2].
 std::vector<double> morph_weights(const std::vector<double>& of_node, const tinygltf::Mesh& mesh,
                                   const tinygltf::Primitive& primitive)
 {
@@ -29,7 +29,7 @@ std::vector<double> morph_weights(const std::vector<double>& of_node, const tiny
     return weights;
 }
 
-/// Normals and tangents that cannot be repaired are left out, in some poses perhaps.
+/// Drops normals and tangents that are missing in some pose, where they could not be repaired.
 void drop_what_some_pose_lacks(MeshDesc& mesh)
 {
     const auto drop = [&mesh](auto& first, auto later) {
@@ -90,7 +90,7 @@ std::optional<MeshDesc> MeshTable::read(PrimitiveId id, const std::vector<Weight
     std::optional<MeshDesc> mesh = read_primitive(model_, id, deformation(0), context_);
     const bool deforms = weights.size() > 1 || joints.size() > 1;
     for (std::size_t step = 1; mesh && deforms && step <= motion_.steps(); ++step) {
-        const Silence silence(context_.warnings);  // The first pose has said it all.
+        const Silence silence(context_.warnings);  // The first pose has given all warnings.
         std::optional<MeshDesc> later = read_primitive(model_, id, deformation(step), context_);
         mesh->motion.push_back(
             {std::move(later->positions), std::move(later->normals), std::move(later->tangents)});

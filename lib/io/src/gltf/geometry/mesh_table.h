@@ -20,13 +20,13 @@
 
 namespace bdpt::io {
 
-/// A mesh as a node shows it.
+/// A mesh of a node.
 struct ShownMesh {
     MeshId mesh{};
-    bool in_world = false;  ///< skinned: where it is, no node moves it
+    bool in_world = false;  ///< skinned: already in world space, so no node transform applies
 };
 
-/// Reads primitives, each deformation of each only once.
+/// Reads primitives, and each deformation of a primitive only once.
 class MeshTable {
 public:
     /// The arguments must outlive the table. Meshes are added to `meshes`.
@@ -39,13 +39,14 @@ public:
           context_(context)
     {}
 
-    /// Primitive `primitive` of the mesh that `node` has, with the node's skin and weights of morph
-    /// targets; none if it has no triangles. If these move it has a motion of as many steps as the
-    /// nodes have. Throws `Error` (invalid_input).
+    /// Returns primitive `primitive` of the node's mesh, with the node's skin and weights of morph
+    /// targets; none if it has no triangles. If these move, the mesh has a motion of as many steps
+    /// as the nodes. Throws `Error` (invalid_input).
     [[nodiscard]] std::optional<ShownMesh> get(std::size_t node, std::size_t primitive);
 
-    /// A mesh in world space, for transforms that have no inverse; one for each time, or one for
-    /// all. None if nothing is left to see of it. Throws `Error` (invalid_input) over the limits.
+    /// Returns a mesh in world space, for transforms without an inverse; one transform per time, or
+    /// one for all. None if nothing visible is left. Throws `Error` (invalid_input) over the
+    /// limits.
     [[nodiscard]] std::optional<MeshId> flatten(MeshId mesh, PrimitiveId id,
                                                 std::span<const glm::dmat4> world_from_object);
 
@@ -53,12 +54,12 @@ private:
     using Weights = std::vector<double>;
     /// Mesh, primitive, skin (-1: none), weights of morph targets at one time or at each.
     using Key = std::tuple<std::size_t, std::size_t, int, std::vector<Weights>>;
-    /// The matrices of a skin at one time or at each.
+    /// Matrices of a skin at one time or at each.
     using Joints = std::vector<std::vector<glm::dmat4>>;
 
     [[nodiscard]] MeshId add(MeshDesc mesh, PrimitiveId id);
     [[nodiscard]] const Joints& joints(int skin);
-    /// `weights` and `joints` are for one time or for each; no joints: no skin.
+    /// Reads a primitive. `weights` and `joints` are for one time or for each; no joints: no skin.
     [[nodiscard]] std::optional<MeshDesc> read(PrimitiveId id, const std::vector<Weights>& weights,
                                                const Joints& joints);
 

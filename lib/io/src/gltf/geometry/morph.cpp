@@ -8,7 +8,8 @@ namespace bdpt::io {
 
 namespace {
 
-/// values += weight * displacements. There are none where the target does not move the attribute.
+/// Adds weight * displacements to the values. Displacements are empty if the target does not move
+/// the attribute.
 template <typename V>
 void add(std::vector<V>& values, const std::vector<V>& displacements, float weight)
 {
@@ -33,14 +34,14 @@ void apply_morph(MeshDesc& mesh, const PrimitiveReader& primitive, std::span<con
             return primitive.read_target<V>(t, semantic, vertices, context);
         };
         add(mesh.positions, read("POSITION", Vec3()), weight);
-        // What the mesh does not have by itself, a target cannot move.
+        // A target cannot move attributes that the mesh itself does not have.
         if (!mesh.normals.empty()) {
             add(mesh.normals, read("NORMAL", Vec3()), weight);
         }
         if (!mesh.tangents.empty()) {
             const std::vector<Vec3> moved = read("TANGENT", Vec3());
             for (std::size_t i = 0; i < moved.size(); ++i) {
-                mesh.tangents[i] += Vec4(weight * moved[i], 0.0f);  // the handedness stays
+                mesh.tangents[i] += Vec4(weight * moved[i], 0.0f);  // the handedness is kept
             }
         }
         constexpr const char* coordinates[] = {"TEXCOORD_0", "TEXCOORD_1"};

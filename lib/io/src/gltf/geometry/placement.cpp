@@ -50,7 +50,8 @@ std::optional<MeshDesc> place_mesh(const MeshDesc& mesh,
         result.motion.push_back(std::move(pose));
     }
     if (side < 0.0) {
-        // Corners run clockwise where the transform mirrors, and no instance says so here.
+        // A mirroring transform makes the corners clockwise; there is no instance to undo that
+        // here.
         for (UVec3& triangle : result.triangles) {
             std::swap(triangle.y, triangle.z);
         }

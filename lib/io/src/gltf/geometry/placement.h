@@ -9,9 +9,9 @@
 
 namespace bdpt::io {
 
-/// A mesh with a transform that has no inverse applied to its positions, which no instance can do;
-/// or several, one for each time, and then it deforms: they and the steps of a mesh that deforms
-/// are equally many. It gets face normals. None if no triangle with an area is ever left.
+/// Applies a transform without an inverse, which no instance can have, to the positions of a mesh;
+/// or several, one per time, which makes the mesh deform: as many as the steps of a mesh that
+/// already deforms. The result has face normals. Returns none if no triangle ever has an area.
 [[nodiscard]] std::optional<MeshDesc> place_mesh(const MeshDesc& mesh,
                                                  std::span<const glm::dmat4> world_from_object);
 

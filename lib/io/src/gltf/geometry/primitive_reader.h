@@ -16,7 +16,7 @@
 
 namespace bdpt::io {
 
-/// Reads attributes of one primitive and knows how to complain about it.
+/// Reads attributes of one primitive and reports its errors.
 class PrimitiveReader {
 public:
     /// The model must outlive the reader.
@@ -29,13 +29,13 @@ public:
     /// Throws `Error` (invalid_input) that names the member `where` of the primitive, and the mesh.
     [[noreturn]] void fail(std::string_view where, const std::string& what) const;
 
-    /// The attribute's accessor if it is there.
+    /// Returns the attribute's accessor, if any.
     [[nodiscard]] std::optional<int> attribute(const std::string& semantic) const
     {
         return find(source_->attributes, semantic);
     }
 
-    /// As many values as there are vertices; none if the attribute is not there.
+    /// Returns one value per vertex; empty if there is no such attribute.
     template <typename V>
     [[nodiscard]] std::vector<V> read(const std::string& semantic, std::size_t vertices,
                                       LoadContext& context,
@@ -45,7 +45,7 @@ public:
                             integers);
     }
 
-    /// The same from the morph target `target`, which must be one.
+    /// Reads an attribute likewise from the morph target `target`, which must exist.
     template <typename V>
     [[nodiscard]] std::vector<V> read_target(std::size_t target, const std::string& semantic,
                                              std::size_t vertices, LoadContext& context) const
@@ -85,7 +85,7 @@ private:
     const tinygltf::Model* model_;
     const tinygltf::Primitive* source_;
     PrimitiveId id_;
-    std::string name_;  // of the mesh
+    std::string name_;  // name of the mesh
 };
 
 }  // namespace bdpt::io

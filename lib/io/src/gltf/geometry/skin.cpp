@@ -21,13 +21,13 @@ namespace bdpt::io {
 
 namespace {
 
-/// The matrix that each vertex is moved by, in the making.
+/// The matrix that moves a vertex, while it is summed up.
 struct Blend {
     glm::dmat4 sum{0.0};
     double weight = 0.0;
 };
 
-/// Adds what set `n` of joints and weights says; false when there is no such set.
+/// Adds set `n` of joints and weights; returns false if there is no such set.
 bool add_set(std::vector<Blend>& blends, const PrimitiveReader& primitive, int n,
              std::span<const glm::dmat4> joints, LoadContext& context)
 {
@@ -50,7 +50,7 @@ bool add_set(std::vector<Blend>& blends, const PrimitiveReader& primitive, int n
                 continue;
             }
             if (weight == 0.0) {
-                continue;  // Exporters leave anything in the joint then.
+                continue;  // Exporters write arbitrary joints for a weight of 0.
             }
             const float joint = indices[i][c];
             if (!(joint >= 0.0f && joint < static_cast<float>(joints.size()))) {
@@ -71,7 +71,7 @@ std::vector<Blend> blend_joints(const PrimitiveReader& primitive, std::size_t ve
     std::vector<Blend> blends(vertices);
     for (int n = 0; add_set(blends, primitive, n, joints, context); ++n) {
     }
-    // Eight weights of 8 bits may be off by this in good faith.
+    // Eight weights of 8 bits may legitimately be off by this.
     constexpr double tolerance = 8.0 * 0.5 / 255.0;
     for (std::size_t i = 0; i < vertices; ++i) {
         Blend& blend = blends[i];
@@ -87,8 +87,8 @@ std::vector<Blend> blend_joints(const PrimitiveReader& primitive, std::size_t ve
     return blends;
 }
 
-/// Moves normals: the inverse transpose but for a positive factor, and there for singular matrices
-/// too.
+/// Returns the matrix for normals: the inverse transpose up to a positive factor, which also exists
+/// for singular matrices.
 glm::dmat3 normal_matrix(const glm::dmat3& m)
 {
     const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
@@ -96,7 +96,7 @@ glm::dmat3 normal_matrix(const glm::dmat3& m)
     return glm::determinant(m) < 0.0 ? -cofactors : cofactors;
 }
 
-/// The unit vector along `v`; zero where there is none.
+/// Normalizes `v`; zero if it has no direction.
 glm::dvec3 direction(const glm::dvec3& v)
 {
     const double length = glm::length(v);

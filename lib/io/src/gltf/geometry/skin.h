@@ -15,23 +15,24 @@
 
 namespace bdpt::io {
 
-/// World from bind pose for each joint of a skin, at a step of the motion: the joint's world
-/// transform times its inverse bind matrix [glTF 2.0, sec. 3.7.3]. Throws `Error` (invalid_input).
+/// Returns world from bind pose for each joint of a skin, at a step of the motion: the joint's
+/// world transform times its inverse bind matrix [glTF 2.0, sec. 3.7.3]. Throws `Error`
+/// (invalid_input).
 [[nodiscard]] std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, int skin,
                                                      NodeTransforms& transforms,
                                                      const NodeMotion& motion, std::size_t step,
                                                      LoadContext& context);
 
-/// Does any joint of the skin move?
+/// Tests whether any joint of the skin moves.
 [[nodiscard]] bool moves(const tinygltf::Skin& skin, const NodeMotion& motion);
 
-/// Moves a mesh to where its joints take it, which is world space; all sets JOINTS_n and WEIGHTS_n
-/// count. Weights are made to add up to one. Parts that the joints mirror keep their front. Does
-/// nothing for no joints. Throws `Error` (invalid_input) for a joint that there is not.
+/// Applies a skin to a mesh, which is in world space afterwards; all sets JOINTS_n and WEIGHTS_n
+/// count. Weights are normalized to a sum of one. Parts that the joints mirror keep their front.
+/// Does nothing without joints. Throws `Error` (invalid_input) for a joint that does not exist.
 void apply_skin(MeshDesc& mesh, const PrimitiveReader& primitive,
                 std::span<const glm::dmat4> joints, LoadContext& context);
 
-/// Can the primitive be skinned: does it say which joints move its vertices?
+/// Tests whether the primitive has the joint attributes of a skin.
 [[nodiscard]] bool has_joints(const PrimitiveReader& primitive);
 
 }  // namespace bdpt::io

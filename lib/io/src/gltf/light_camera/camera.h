@@ -12,7 +12,8 @@
 
 namespace bdpt::io {
 
-/// The camera that a node holds, if it holds one that can be rendered; else a warning.
+/// Reads the camera of a node; none if it has none, or, with a warning, one that cannot be
+/// rendered.
 [[nodiscard]] std::optional<CameraDesc> read_camera(const tinygltf::Model& model, std::size_t node,
                                                     const glm::dmat4& world_from_node,
                                                     LoadContext& context);

@@ -26,18 +26,18 @@ namespace bdpt::io {
 
 namespace {
 
-/// A failure that costs the environment only, unlike `Error`.
+/// A failure that only loses the environment, unlike `Error`.
 struct UnreadableCube : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The electro-optical function of IEC 61966-2-1, without the C library.
+/// Electro-optical transfer function of IEC 61966-2-1, without the C library.
 constexpr std::array<float, 256> srgb_table = [] {
     std::array<float, 256> table{};
     for (std::size_t i = 0; i < table.size(); ++i) {
         const double code = static_cast<double>(i) / 255.0;
         const double base = (code + 0.055) / 1.055;
-        double root = 1.0;  // the fifth root of base^2, by Newton's method
+        double root = 1.0;  // fifth root of base^2, by Newton's method
         for (int step = 0; step < 40; ++step) {
             const double power = root * root * root * root;
             root -= (root * power - base * base) / (5.0 * power);
@@ -52,7 +52,7 @@ std::size_t texel_count(const TexelImage& texels)
     return static_cast<std::size_t>(texels.width) * static_cast<std::size_t>(texels.height);
 }
 
-/// The upper eight bits of an integer, which is all that RGBD has.
+/// Returns the upper eight bits of an integer, the precision of RGBD.
 std::uint8_t code_of(const TexelImage& texels, std::size_t texel, int channel)
 {
     const auto value =
@@ -65,7 +65,7 @@ std::uint8_t code_of(const TexelImage& texels, std::size_t texel, int channel)
     return static_cast<std::uint8_t>(wide >> 8U);
 }
 
-/// Radiance from RGBD: colours are sRGB, and alpha divides them. An image without alpha has 255.
+/// Decodes radiance from RGBD: sRGB colours divided by alpha. An image without alpha has 255.
 Image decode_rgbd(const TexelImage& texels, const std::string& place, LoadContext& context)
 {
     Image image{texels.width, texels.height, {}};
@@ -107,7 +107,7 @@ DecodedImage read_face(const tinygltf::Model& model, std::size_t image, const Lo
     }
 }
 
-/// The images of the sides of the largest cube; none if there is no cube.
+/// Returns the images of the sides of the largest cube; empty if there is no cube.
 std::vector<std::size_t> first_level(const tinygltf::Value& light)
 {
     std::vector<std::size_t> images;
@@ -120,7 +120,7 @@ std::vector<std::size_t> first_level(const tinygltf::Value& light)
     return images;
 }
 
-/// `images`: indices of the six sides.
+/// Reads a cube. `images`: indices of the six sides.
 CubeMap read_cube(const tinygltf::Model& model, const std::vector<std::size_t>& images,
                   const std::string& place, LoadContext& context)
 {
@@ -175,12 +175,13 @@ int longest_side(const CubeMap& cube)
     return longest;
 }
 
-/// Four texels along a full circle for each of a side keep their detail, if the limits let them.
+/// Flattens the cube. Four texels along a full circle per texel of a side keep its detail, if the
+/// limits allow it.
 Image flatten(CubeMap cube, const std::string& place, LoadContext& context)
 {
     constexpr int least = 32;  // so that even sides of one texel have edges
     constexpr double most =
-        2048;  // more takes seconds and gigabytes, which a small file may ask for
+        2048;  // more would take seconds and gigabytes, which a small file could request
     const double affordable =
         std::sqrt(static_cast<double>(context.limits.image_bytes / sizeof(Rgb)) / 2.0);
     const int highest = std::max(
@@ -201,7 +202,7 @@ Image flatten(CubeMap cube, const std::string& place, LoadContext& context)
 
 float read_intensity(const tinygltf::Value& light, const std::string& place, LoadContext& context)
 {
-    // What alpha divides is 255 at most.
+    // The divisor alpha is 255 at most.
     constexpr double most = std::numeric_limits<float>::max() / 256.0;
     const double intensity = light.Get("intensity").GetNumberAsDouble();
     if (!(intensity >= 0.0 && intensity <= most)) {

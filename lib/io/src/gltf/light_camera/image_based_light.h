@@ -10,9 +10,9 @@
 
 namespace bdpt::io {
 
-/// The environment of a scene [EXT_lights_image_based], from the first level of its cube; none,
-/// with a warning, when an image of it cannot be read. Throws `Error` (invalid_input) for a cube
-/// that lacks a side, or is beyond the limits.
+/// Reads the environment of a scene [EXT_lights_image_based], from the first level of its cube;
+/// none, with a warning, if an image of it cannot be read. Throws `Error` (invalid_input) for a
+/// cube that lacks a side, or is beyond the limits.
 [[nodiscard]] std::optional<EnvironmentLightDesc> read_image_based_light(
     const tinygltf::Model& model, std::size_t scene, LoadContext& context);
 

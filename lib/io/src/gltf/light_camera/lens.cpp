@@ -10,7 +10,7 @@
 namespace bdpt::io {
 namespace {
 
-/// A number above 0 in the extras of a camera.
+/// Reads a number above 0 from the extras of a camera.
 std::optional<double> read_positive(const tinygltf::Camera& camera, const char* name,
                                     const std::string& place, LoadContext& context)
 {

@@ -9,7 +9,7 @@
 
 namespace bdpt::io {
 
-/// Is it above 0 and finite as a float too?
+/// Tests whether `value` is above 0 and finite, also as a float.
 [[nodiscard]] bool is_length(double value);
 
 /// A camera's thin lens [m]; names and values as in `CameraDesc`.
@@ -18,9 +18,8 @@ struct Lens {
     float focus_distance = CameraDesc{}.focus_distance;
 };
 
-/// What `extras` of the camera at `place` says by lensRadius [m] or fStop, and focusDistance [m].
-/// Extras belong to whoever writes them, so a value that makes no sense is no error: it is ignored
-/// with a warning.
+/// Reads a lens from `extras` of the camera at `place`: lensRadius [m] or fStop, and focusDistance
+/// [m]. Extras are free-form, so an invalid value is no error: it is ignored with a warning.
 [[nodiscard]] Lens read_lens(const tinygltf::Camera& camera, const CameraDesc& desc,
                              const std::string& place, LoadContext& context);
 

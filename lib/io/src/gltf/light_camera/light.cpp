@@ -17,7 +17,7 @@ namespace bdpt::io {
 namespace {
 
 constexpr double half_pi = 1.5707963267948966;
-// A cone needs some width; angles below would lose all digits in the cosine.
+// A cone needs some width: smaller angles would lose all digits in the cosine.
 constexpr double min_cone = 1e-3;
 
 Rgb read_intensity(const tinygltf::Light& light, const std::string& place, LoadContext& context)
@@ -55,8 +55,8 @@ SpotLightDesc read_spot(const tinygltf::Light& light, const std::string& place,
     return spot;
 }
 
-/// `extras.radius` in the node's units; 0 when there is none. Extras belong to whoever writes them,
-/// so a value that is no radius is no error.
+/// Reads `extras.radius` in the node's units; 0 if there is none. Extras are free-form, so an
+/// invalid value is no error.
 float read_radius(const tinygltf::Light& light, const std::string& place,
                   const glm::dmat4& world_from_node, LoadContext& context)
 {

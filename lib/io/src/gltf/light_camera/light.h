@@ -12,9 +12,9 @@
 
 namespace bdpt::io {
 
-/// The KHR_lights_punctual light that a node holds, if any. Units are those of the extension:
-/// candela and lux; `extras.radius` [m] of a point or spot light follows the node's mean scale.
-/// Throws `Error` (unsupported) for an unknown type.
+/// Reads the KHR_lights_punctual light of a node, if any. Units are those of the extension: candela
+/// and lux; `extras.radius` [m] of a point or spot light is scaled by the node's mean scale. Throws
+/// `Error` (unsupported) for an unknown type.
 [[nodiscard]] std::optional<LightDesc> read_light(const tinygltf::Model& model, std::size_t node,
                                                   const glm::dmat4& world_from_node,
                                                   LoadContext& context);

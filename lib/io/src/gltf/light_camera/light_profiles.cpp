@@ -17,7 +17,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// Brought back into [0, most], with a warning.
+/// Clamps a value to [0, most], with a warning.
 double in_range(double value, double most, const std::string& place, LoadContext& context)
 {
     if (!(value >= 0.0 && value <= most)) {
@@ -61,7 +61,7 @@ const LightProfiles::Known& LightProfiles::get(std::size_t index)
             model_, uri, view, std::min(context_.limits.file_bytes, max_ies_bytes), context_);
         IesProfile read =
             make_profile(read_ies(bytes, place, context_.warnings), place, context_.warnings);
-        // An intensity is there several times: in the scene, to look it up and to sample it.
+        // An intensity is stored several times: in the scene, for look-up and for sampling.
         constexpr std::uint64_t bytes_each = 32;
         context_.budget.spend("what it holds", read.profile.intensities.size(), bytes_each);
         const Known known{static_cast<ProfileId>(profiles_.size()), read.node_from_profile};

@@ -14,22 +14,22 @@
 
 namespace bdpt::io {
 
-/// Reads the light profiles of a document [EXT_lights_ies], each when a node first holds it.
+/// Reads the light profiles of a document [EXT_lights_ies], each when a node first uses it.
 class LightProfiles {
 public:
-    /// The arguments must outlive this. Profiles are added to `profiles`.
+    /// The arguments must outlive this object. Profiles are added to `profiles`.
     LightProfiles(const tinygltf::Model& model, std::vector<LightProfile>& profiles,
                   LoadContext& context)
         : model_(model), profiles_(profiles), context_(context)
     {}
 
-    /// The light that a node holds, if any. Throws `Error`: not_found for a file that is missing,
-    /// invalid_input for one that is broken.
+    /// Reads the light of a node, if any. Throws `Error`: not_found for a missing file,
+    /// invalid_input for a broken one.
     [[nodiscard]] std::optional<LightDesc> read(std::size_t node,
                                                 const glm::dmat4& world_from_node);
 
 private:
-    /// Where a profile is among those that have been read, and its axes in a node's.
+    /// A profile that has been read: its id, and its axes in the node's space.
     struct Known {
         ProfileId id{};
         Mat3 node_from_profile{1.0f};

@@ -14,7 +14,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// All but the first, in single precision.
+/// Returns all but the first value, in single precision.
 template <typename V, typename T>
 std::vector<V> later(const std::vector<T>& values)
 {

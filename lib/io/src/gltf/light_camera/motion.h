@@ -13,14 +13,14 @@
 namespace bdpt::io {
 
 // `worlds`: transforms of node `node` at equally spaced times while the shutter is open, the first
-// at its opening; empty: it stands still. What cannot go along straight lines, as it jumps, stands
-// still with a warning.
+// at its opening; empty: it stands still. A motion that cannot be linear, such as a jump, is
+// dropped with a warning.
 
-/// As `CameraDesc::motion`.
+/// Returns `CameraDesc::motion`.
 [[nodiscard]] std::vector<Mat4> camera_motion(std::span<const glm::dmat4> worlds, std::size_t node,
                                               LoadContext& context);
 
-/// Lets a light that is read for the opening move with its node.
+/// Makes a light that was read for the opening move with its node.
 void move_light(LightDesc& light, std::span<const glm::dmat4> worlds, std::size_t node,
                 LoadContext& context);
 

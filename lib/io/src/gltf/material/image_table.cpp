@@ -22,7 +22,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// A failure that costs one image only, unlike `Error`.
+/// A failure that only loses one image, unlike `Error`.
 struct UnreadableImage : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -43,16 +43,16 @@ Bytes read_image_file(const std::string& uri, const LoadContext& context)
 
 }  // namespace
 
-/// An image on its way; what goes wrong with it is kept until its turn.
+/// An image being loaded; its failure is kept until its turn.
 struct ImageTable::Job {
     std::size_t index = 0;
     Bytes own_bytes{};  // if it is not in a buffer
     ByteView bytes{};
     std::optional<EncodedImage> encoded{};
-    std::optional<ContentHash> hash{};  // of the bytes, if images are kept
+    std::optional<ContentHash> hash{};  // hash of the bytes, if there is a cache
     DecodedImage decoded{};
     std::exception_ptr failure{};
-    bool fatal = false;  // does it end more than this image?
+    bool fatal = false;  // true: the failure ends the loading
 
     template <typename Work>
     void attempt(const Work& work)
@@ -76,8 +76,8 @@ struct ImageTable::Job {
     }
 };
 
-/// Reads the bytes and the header. What an image takes is counted even if it turns out to be
-/// broken, so that the verdict does not depend on the order in which images are decoded.
+/// Reads the bytes and the header. Memory is charged even if the image turns out to be broken, so
+/// that the result does not depend on the order of decoding.
 void ImageTable::open(Job& job)
 {
     const tinygltf::Image& source = model_.images[job.index];
@@ -108,7 +108,7 @@ void ImageTable::open(Job& job)
     spend(job.encoded->decoded_bytes());
 }
 
-/// Copies the image, if the cache has it.
+/// Copies the image from the cache, if it is there.
 bool ImageTable::take_kept(Job& job) const
 {
     if (context_.images == nullptr) {
@@ -136,7 +136,7 @@ void ImageTable::spend(std::uint64_t bytes)
     context_.budget.memory().spend("the image", bytes);
 }
 
-/// Decodes the images of a batch at once, and adds them in their order.
+/// Decodes the images of a batch in parallel, and adds them in their order.
 void ImageTable::finish(std::deque<Job>& batch, const std::function<void()>& tell)
 {
     tbb::parallel_for(
@@ -177,7 +177,7 @@ void ImageTable::add(Job& job)
             context_.warn("a KTX2 image that KHR_texture_basisu does not allow is used as it is",
                           place + ": " + remark);
         }
-        // Whoever loads a damaged image again is told again.
+        // A damaged image is not cached, so that the warning is repeated when it is loaded again.
         if (job.hash && damage.empty() && job.decoded.remarks.empty()) {
             context_.images->keep(*job.hash, job.decoded.image);
         }
@@ -208,8 +208,8 @@ void ImageTable::decode(const std::vector<std::size_t>& indices,
             on_progress(progress);
         }
     };
-    // Images are opened one after the other and decoded in batches, which take no more memory
-    // together than one image may.
+    // Images are opened one after the other and decoded in batches, whose total memory is at most
+    // that allowed for one image.
     std::deque<Job> batch;
     std::uint64_t batch_memory = 0;
     for (const std::size_t index : indices) {

@@ -26,18 +26,19 @@ public:
         : model_(model), images_(images), context_(context)
     {}
 
-    /// Decodes these images of the document and adds them in that order; those that cannot be
-    /// read or decoded are left out, with a warning. `on_progress` may be empty. Throws `Error`
-    /// (invalid_input) about the first that is beyond the limits, whichever thread was first.
+    /// Decodes these images of the document and adds them in that order; those that cannot be read
+    /// or decoded are left out, with a warning. `on_progress` may be empty. Throws `Error`
+    /// (invalid_input) about the first image that is beyond the limits, independently of thread
+    /// timing.
     void decode(const std::vector<std::size_t>& indices,
                 const std::function<void(const LoadProgress&)>& on_progress);
 
-    /// Image `index` of the document, which is decoded now if it has not been; none if it cannot
-    /// be read or decoded.
+    /// Returns image `index` of the document, decoding it if necessary; none if it cannot be read
+    /// or decoded.
     [[nodiscard]] std::optional<ImageId> get(std::size_t index);
 
-    /// Warns where an image says that its colours are encoded otherwise than `wanted`, which a
-    /// texture goes by.
+    /// Warns if an image states another colour encoding than `wanted`, the one of the texture,
+    /// which is used.
     void check_encoding(ImageId id, ColorEncoding wanted);
 
 private:
@@ -52,14 +53,14 @@ private:
     std::vector<TexelImage>& images_;
     LoadContext& context_;
     struct SaidEncoding {
-        std::size_t index;  // of the image in the document
+        std::size_t index;  // index of the image in the document
         ColorEncoding encoding;
     };
     std::map<std::size_t, std::optional<ImageId>> known_;
-    std::map<ImageId, SaidEncoding> encodings_;  // of images that say one
+    std::map<ImageId, SaidEncoding> encodings_;  // encodings stated by images
     std::uint64_t total_bytes_ = 0;
-    std::uint64_t packed_bytes_ = 0;      // of the batch
-    std::uint64_t max_packed_bytes_ = 0;  // of any batch so far
+    std::uint64_t packed_bytes_ = 0;      // size of the current batch
+    std::uint64_t max_packed_bytes_ = 0;  // maximum over batches so far
 };
 
 }  // namespace bdpt::io

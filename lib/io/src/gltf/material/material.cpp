@@ -12,7 +12,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// Reads one material; the base of all pointers in messages is its own.
+/// Reads one material; pointers in messages are relative to it.
 class MaterialReader {
 public:
     MaterialReader(const tinygltf::Material& source, std::size_t index, TextureResolver& textures,
@@ -32,7 +32,7 @@ public:
         read_alpha();
         read_specular_glossiness(values_, desc_);
         if (values_.extension("KHR_materials_unlit") != nullptr) {
-            desc_.unlit = true;  // all else is for viewers that do not know the extension
+            desc_.unlit = true;  // the rest is for viewers that do not know the extension
             return std::move(desc_);
         }
         read_emission();
@@ -105,7 +105,7 @@ private:
         }
         for (int c = 0; c < 3; ++c) {
             const double factor = source_.emissiveFactor[static_cast<std::size_t>(c)];
-            // Factors above 1 were common before there was an extension for the strength.
+            // Factors above 1 were common before the extension for emissive strength.
             desc_.emission[c] = values_.in_range(
                 values_.in_range(factor, 0.0, no_limit, "emissiveFactor") * strength, 0.0, no_limit,
                 "emissiveFactor");
@@ -188,7 +188,7 @@ private:
         }
     }
 
-    /// Draft of September 2025; older files call the colour a factor.
+    /// Reads the draft of September 2025; older files call the colour a factor.
     void read_volume_scatter()
     {
         const auto* value = values_.extension("KHR_materials_volume_scatter");
@@ -204,7 +204,8 @@ private:
                              "extensions/KHR_materials_volume_scatter/scatterAnisotropy");
     }
 
-    /// Draft of June 2026, the successor of KHR_materials_volume_scatter. Comes after the volume.
+    /// Reads the draft of June 2026, the successor of KHR_materials_volume_scatter. Called after
+    /// the volume is read.
     void read_scatter()
     {
         const auto* value = values_.extension("KHR_materials_scatter");

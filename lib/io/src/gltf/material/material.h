@@ -10,8 +10,8 @@
 
 namespace bdpt::io {
 
-/// A glTF material with its KHR_materials extensions [glTF 2.0, sec. 3.9]. Values beyond their
-/// ranges are brought back, with a warning. Images that have no influence are not decoded.
+/// Reads a glTF material with its KHR_materials extensions [glTF 2.0, sec. 3.9]. Values out of
+/// range are clamped, with a warning. Images that have no influence are not decoded.
 [[nodiscard]] MaterialDesc read_material(const tinygltf::Model& model, std::size_t index,
                                          TextureResolver& textures, LoadContext& context);
 

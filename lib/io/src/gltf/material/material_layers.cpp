@@ -108,7 +108,7 @@ float read_dispersion(const Extension& from)
     return from.number("dispersion", 0.0, 0.0, no_limit);
 }
 
-/// The value that `read` makes of an extension, where the material has it.
+/// Returns the value that `read` makes of an extension, if the material has it.
 template <typename Desc>
 void read_extension(const MaterialValues& values, const std::string& name,
                     Desc (*read)(const Extension&), Desc& desc)

@@ -6,8 +6,8 @@
 
 namespace bdpt::io {
 
-/// Adds what KHR_materials_{anisotropy, clearcoat, diffuse_transmission, iridescence, sheen} say.
-/// Images that have no influence are not decoded.
+/// Reads the layers of KHR_materials_{anisotropy, clearcoat, diffuse_transmission, iridescence,
+/// sheen}. Images that have no influence are not decoded.
 void read_layers(const MaterialValues& values, MaterialDesc& desc);
 
 }  // namespace bdpt::io

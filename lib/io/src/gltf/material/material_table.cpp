@@ -32,14 +32,14 @@ std::vector<MaterialDesc> read_all(const tinygltf::Model& model, const std::vect
     return materials;
 }
 
-/// Images that the materials ask for, in the order in which they do.
+/// Returns the images that the materials use, in order of use.
 std::vector<std::size_t> wanted_images(const tinygltf::Model& model,
                                        const std::vector<int>& indices, LoadContext& context)
 {
     std::vector<std::size_t> wanted;
     std::set<std::size_t> known;
     const Silence silence(
-        context.warnings);  // They come again when the materials are read for good.
+        context.warnings);  // Warnings are repeated when the materials are actually read.
     TextureResolver textures(
         model,
         [&](std::size_t image) {
@@ -53,7 +53,7 @@ std::vector<std::size_t> wanted_images(const tinygltf::Model& model,
     return wanted;
 }
 
-/// Warns of images whose colours are encoded otherwise than their textures need.
+/// Warns of images whose colour encoding differs from the one that their textures need.
 void check_encodings(const MaterialDesc& material, ImageTable& images)
 {
     const auto check = [&images](const std::optional<TextureRef>& texture, ColorEncoding wanted) {
@@ -66,7 +66,7 @@ void check_encodings(const MaterialDesc& material, ImageTable& images)
                                 &material.diffuse_transmission.color_texture}) {
         check(*texture, ColorEncoding::srgb);
     }
-    // Alpha is linear in either encoding, so textures of which only that is read do not count.
+    // Alpha is linear in either encoding, so textures of which only alpha is read do not count.
     for (const auto* texture :
          {&material.metallic_roughness_texture, &material.normal_texture,
           &material.transmission_texture, &material.clearcoat.texture,

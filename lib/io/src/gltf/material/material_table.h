@@ -12,8 +12,8 @@
 
 namespace bdpt::io {
 
-/// The materials of these indices; a negative one is the default of the specification [glTF 2.0,
-/// sec. 3.7.2.1]. All images that they need are decoded together.
+/// Reads the materials of these indices; a negative one is the default material [glTF 2.0, sec.
+/// 3.7.2.1]. All images that they need are decoded together.
 [[nodiscard]] std::vector<MaterialDesc> read_materials(
     const tinygltf::Model& model, const std::vector<int>& indices, ImageTable& images,
     const std::function<void(const LoadProgress&)>& on_progress, LoadContext& context);

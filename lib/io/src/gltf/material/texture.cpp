@@ -20,7 +20,7 @@ Vec2 pair_or(const tinygltf::Value& object, const std::string& key, Vec2 fallbac
             static_cast<float>(pair.Get(1).GetNumberAsDouble())};
 }
 
-/// The image of a texture by an extension.
+/// Returns the image of a texture by an extension.
 std::optional<std::size_t> source_of(const tinygltf::Texture& texture, const char* extension)
 {
     const auto found = texture.extensions.find(extension);
@@ -30,8 +30,8 @@ std::optional<std::size_t> source_of(const tinygltf::Texture& texture, const cha
     return static_cast<std::size_t>(found->second.Get("source").GetNumberAsInt());
 }
 
-/// The images of a texture, the best first: WebP by its extension, KTX2 by its own if there is a
-/// library that decodes it, then the one for everybody.
+/// Returns the images of a texture, the best first: WebP by its extension, KTX2 by its own if there
+/// is a library that decodes it, then the core image.
 std::vector<std::size_t> sources(const tinygltf::Texture& texture, const std::string& place,
                                  LoadContext& context)
 {
@@ -57,7 +57,7 @@ std::vector<std::size_t> sources(const tinygltf::Texture& texture, const std::st
     return result;
 }
 
-/// The extensions by which a texture has images that we cannot read, in parentheses.
+/// Returns the extensions whose images of a texture cannot be read, in parentheses.
 std::string unread_images(const tinygltf::Texture& texture)
 {
     std::string names;

@@ -14,17 +14,17 @@
 
 namespace bdpt::io {
 
-/// A reference from a material to a texture, wherever it stands in the material.
+/// A reference from a material to a texture.
 struct TextureInfo {
     int index = -1;  ///< -1: no texture
     int tex_coord = 0;
     const tinygltf::Value* transform = nullptr;  ///< KHR_texture_transform, if any
 };
 
-/// The reference `key` in an extension of a material.
+/// Reads the reference `key` in an extension of a material.
 [[nodiscard]] TextureInfo texture_info(const tinygltf::Value& extension, const std::string& key);
 
-/// The same from one of tinygltf's structs (TextureInfo, NormalTextureInfo).
+/// Reads a reference from one of tinygltf's structs (TextureInfo, NormalTextureInfo).
 template <typename Info>
 [[nodiscard]] TextureInfo texture_info(const Info& info)
 {
@@ -33,22 +33,22 @@ template <typename Info>
             transform == info.extensions.end() ? nullptr : &transform->second};
 }
 
-/// Number `key` in an extension object, or `fallback`.
+/// Returns number `key` in an extension object, or `fallback`.
 [[nodiscard]] double number_or(const tinygltf::Value& object, const std::string& key,
                                double fallback);
 
 /// Resolves references to textures.
 class TextureResolver {
 public:
-    /// Gives the image of an index; none if it cannot be read.
+    /// Returns the image of an index; none if it cannot be read.
     using FindImage = std::function<std::optional<ImageId>(std::size_t)>;
 
     TextureResolver(const tinygltf::Model& model, FindImage find_image, LoadContext& context)
         : model_(model), find_image_(std::move(find_image)), context_(context)
     {}
 
-    /// None where there is no texture, or, with a warning, none that can be used. `place` is the
-    /// JSON pointer of the reference.
+    /// Resolves a reference; returns none if there is no texture or, with a warning, no usable one.
+    /// `place` is the JSON pointer of the reference.
     [[nodiscard]] std::optional<TextureRef> resolve(const TextureInfo& info,
                                                     const std::string& place);
 

@@ -6,7 +6,7 @@
 
 namespace bdpt::io {
 
-/// The material of a primitive in a variant of KHR_materials_variants: the one that is mapped to it
+/// Returns the material of a primitive in a variant of KHR_materials_variants: the one mapped to it
 /// or, if there is none, that of the primitive; -1: the default material.
 [[nodiscard]] int variant_material(const tinygltf::Primitive& primitive, std::size_t variant);
 

@@ -39,7 +39,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// Is the node and what is below it to be seen [KHR_node_visibility]?
+/// Tests whether the node and its descendants are visible [KHR_node_visibility].
 bool is_visible(const tinygltf::Node& node)
 {
     const auto found = node.extensions.find("KHR_node_visibility");
@@ -100,7 +100,7 @@ public:
     }
 
 private:
-    /// Cameras can be looked through even when their nodes are not seen.
+    /// Adds the node's camera, which can be used even if the node is not visible.
     void add_camera(std::size_t node)
     {
         if (std::optional<CameraDesc> camera =
@@ -143,7 +143,7 @@ private:
         }
     }
 
-    /// Where the node puts something at each time, or at all times.
+    /// Returns the node's transforms of the mesh at each time, or a single one for all times.
     [[nodiscard]] std::vector<glm::dmat4> worlds_of(std::size_t node, const glm::dmat4& place,
                                                     MeshId mesh)
     {
@@ -156,12 +156,12 @@ private:
         for (const glm::dmat4& world : moving) {
             worlds.push_back(world * place);
         }
-        // A mesh that deforms has all steps, and so must its instances.
+        // A mesh that deforms has all steps, so its instances must have them, too.
         const bool deforms = !result_.scene.meshes[static_cast<std::size_t>(mesh)].motion.empty();
         return deforms ? worlds : thinned(std::span<const glm::dmat4>(worlds));
     }
 
-    /// `worlds`: one transform for each time, or one for all.
+    /// Adds an instance. `worlds`: one transform for each time, or one for all.
     void add_instance(std::size_t node, PrimitiveId id, MeshId mesh,
                       const std::vector<glm::dmat4>& worlds)
     {
@@ -172,7 +172,7 @@ private:
         const tinygltf::Node& source = model_.nodes[node];
         InstanceDesc instance;
         instance.name = source.name.empty() ? fmt::format("node_{}", node) : source.name;
-        // Thousands of instances have one name, which may be of any length.
+        // Thousands of instances may share one name of any length.
         const std::string place = fmt::format("/nodes/{}", node);
         context_.budget.spend(place, 1, sizeof instance + instance.name.size());
         context_.budget.memory().spend(place, placed_instance + worlds.size() * sizeof(Mat4));
@@ -189,7 +189,7 @@ private:
         instance.motion.assign(worlds.begin() + 1, worlds.end());
         const float determinant = glm::determinant(Mat3(instance.world_from_object));
         if (!std::isnormal(determinant) || !can_move(instance.world_from_object, instance.motion)) {
-            // A scale of zero flattens the mesh: its triangles may still be seen.
+            // A scale of zero flattens the mesh, whose triangles may still be visible.
             const std::optional<MeshId> flat = meshes_.flatten(mesh, id, worlds);
             if (!flat) {
                 context_.warn("a mesh that is scaled to nothing is left out",
@@ -228,7 +228,7 @@ private:
     MeshTable meshes_;
     std::vector<bool> visited_;
     std::map<int, MaterialId> materials_;  // by their index in the document
-    std::vector<int> wanted_materials_;    // these indices, in the order of the scene's materials
+    std::vector<int> wanted_materials_;  // document indices, in the order of the scene's materials
 };
 
 std::vector<std::size_t> find_roots(const tinygltf::Model& model, std::optional<std::size_t> scene)

@@ -19,7 +19,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// The linear value of each code.
+/// Returns the linear value of each code.
 std::vector<float> linear_values(TexelType type)
 {
     const std::size_t codes = type == TexelType::unorm8 ? 256 : 65536;
@@ -30,7 +30,7 @@ std::vector<float> linear_values(TexelType type)
     return values;
 }
 
-/// Value `index` of `texels` as it is stored.
+/// Returns value `index` of `texels` as stored.
 std::size_t code_at(const TexelImage& texels, std::size_t index)
 {
     if (texels.type == TexelType::unorm8) {

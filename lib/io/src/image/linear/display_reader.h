@@ -9,12 +9,12 @@
 
 namespace bdpt::io {
 
-/// Whether a file is PNG, JPEG or WebP, by its first bytes.
+/// Tests whether a file is PNG, JPEG or WebP, by its first bytes.
 [[nodiscard]] bool is_display_image(ByteView file);
 
-/// Decodes a PNG, JPEG or WebP image, which is taken as sRGB-encoded [IEC 61966-2-1], as linear
-/// RGB in [0, 1]. Alpha and colour profiles are ignored. Throws `Error` (invalid_input): broken, or
-/// over a limit.
+/// Decodes a PNG, JPEG or WebP image, taken as sRGB-encoded [IEC 61966-2-1], to linear RGB in [0,
+/// 1]. Alpha and colour profiles are ignored. Throws `Error` (invalid_input): broken, or over a
+/// limit.
 [[nodiscard]] Image read_display_image(ByteView file, const ReadLimits& limits, Warnings& warnings,
                                        const MemoryBudget* memory = nullptr);
 

@@ -21,7 +21,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// Light is finite and not negative.
+/// Makes pixels finite and non-negative.
 void mend_pixels(Image& image, Warnings& warnings)
 {
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {

@@ -17,7 +17,7 @@ bool has(const Imf::ChannelList& channels, const std::string& name)
     return channels.findChannel(name.c_str()) != nullptr;
 }
 
-/// What is before the last dot, with the dot; empty without one.
+/// Returns the part of a channel's name before the last dot, with the dot; empty without a dot.
 std::string prefix_of(const std::string& channel)
 {
     const std::size_t dot = channel.rfind('.');
@@ -37,7 +37,7 @@ std::optional<ColorChannels> find_triple(const Imf::ChannelList& channels,
     return result;
 }
 
-/// For the message that there is no such layer.
+/// Returns all layers, for the message that a layer does not exist.
 std::string all_layers(const Imf::ChannelList& channels)
 {
     std::set<std::string> names;

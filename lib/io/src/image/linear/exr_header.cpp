@@ -20,7 +20,7 @@ constexpr std::size_t flags_offset = 4;
 constexpr std::size_t head_size = 8;
 constexpr std::uint32_t multi_part_flag = 0x1000;
 
-/// Reads a header from its start to its end. Beyond the file everything is zero.
+/// Reads a header from its start to its end. Bytes beyond the file are zero.
 class Cursor {
 public:
     Cursor(ByteView file, std::size_t position) : file_(file), position_(position) {}
@@ -37,7 +37,7 @@ public:
         return value;
     }
 
-    /// Text up to a zero byte.
+    /// Reads text up to a zero byte.
     [[nodiscard]] std::string_view read_text()
     {
         const ByteView rest = file_.subspan(position_);
@@ -89,7 +89,7 @@ constexpr FixedSize fixed_sizes[] = {{"box2f", 16},
                                      {"v3f", 12},
                                      {"v3i", 12}};
 
-/// Bytes that a list of channels takes, whatever its attribute says.
+/// Returns the size of a list of channels, independently of what its attribute states.
 std::size_t channel_list_size(Cursor cursor)
 {
     constexpr std::size_t channel_size = 16;
@@ -108,7 +108,7 @@ std::uint64_t preview_size(Cursor cursor)
     return width * height > UINT32_MAX ? UINT64_MAX : 8 + 4 * width * height;
 }
 
-/// Whether texts of the lengths that stand before them fill `size` bytes.
+/// Tests whether texts, each preceded by its length, fill `size` bytes.
 bool is_text_list(Cursor cursor, std::uint32_t size)
 {
     std::uint32_t left = size;
@@ -124,8 +124,9 @@ bool is_text_list(Cursor cursor, std::uint32_t size)
     return left == 0;
 }
 
-/// Values of most types know their own size, and OpenEXR goes by that. Where it is not the one that
-/// the attribute states, the rest of the header would be something else to OpenEXR than to us.
+/// Tests whether a value has the size that its attribute states. Values of most types have a size
+/// of their own, which OpenEXR uses. If the two differ, OpenEXR and this code would read the rest
+/// of the header differently.
 bool has_size(const Cursor& value, std::string_view type, std::uint32_t size)
 {
     for (const FixedSize& fixed : fixed_sizes) {
@@ -169,7 +170,7 @@ void check_window(Cursor box, const ReadLimits& limits)
     }
 }
 
-/// Goes over one attribute; false at the end of the header.
+/// Checks one attribute; returns false at the end of the header.
 bool check_attribute(Cursor& cursor, const ReadLimits& limits)
 {
     const std::string_view name = cursor.read_text();

@@ -109,7 +109,8 @@ std::vector<Rgb> read_channels(Imf::InputFile& input, const ColorChannels& color
     return pixels;
 }
 
-/// Luminance with subsampled chroma: OpenEXR itself rebuilds the colours, in half precision.
+/// Reads luminance with subsampled chroma: OpenEXR itself reconstructs the colours, in half
+/// precision.
 std::vector<Rgb> read_chroma(ByteView file, const std::string& prefix, const Imath::Box2i& box,
                              const Window& window)
 {
@@ -133,7 +134,7 @@ std::vector<Rgb> read_chroma(ByteView file, const std::string& prefix, const Ima
     return pixels;
 }
 
-/// Puts the data window where it belongs in the display window.
+/// Places the data window in the display window.
 Image place(std::vector<Rgb> pixels, const Imath::Box2i& data, const Imath::Box2i& display,
             const Window& data_size, const Window& size)
 {
@@ -159,7 +160,7 @@ Image place(std::vector<Rgb> pixels, const Imath::Box2i& data, const Imath::Box2
     return image;
 }
 
-/// The part of the display window that has data, with its corner at (0, 0).
+/// Returns the part of the display window that has data, with the window's corner at (0, 0).
 PixelRect filled_part(const Imath::Box2i& data, const Imath::Box2i& display)
 {
     const auto size = [](int low, int high) { return std::max(high - low + 1, 0); };
@@ -187,7 +188,7 @@ std::vector<std::pair<std::string, std::string>> attributes_of(const Imf::Header
     return result;
 }
 
-/// The channels of `layer`, or those of the image itself.
+/// Returns the channels of `layer`, or those of the image itself.
 ColorChannels choose_channels(const Imf::ChannelList& channels,
                               const std::optional<std::string>& layer, Warnings& warnings)
 {

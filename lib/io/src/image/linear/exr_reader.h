@@ -15,19 +15,19 @@
 
 namespace bdpt::io {
 
-/// Whether a file is OpenEXR, by its first bytes.
+/// Tests whether a file is OpenEXR, by its first bytes.
 [[nodiscard]] bool is_exr(ByteView file);
 
-/// What an OpenEXR file shows: the display window, black where there is no data.
+/// The display window of an OpenEXR file, black where there is no data.
 struct ExrImage {
     Image image;
-    PixelRect filled;  ///< where there is data
+    PixelRect filled;  ///< region with data
     /// Names and values of texts and numbers in the header.
     std::vector<std::pair<std::string, std::string>> attributes{};
 };
 
-/// Decodes a layer of the first part of an OpenEXR file as linear RGB: `find_layer`, or without a
-/// layer `find_colors`.
+/// Decodes a layer of the first part of an OpenEXR file to linear RGB: by `find_layer`, or without
+/// a layer name by `find_colors`.
 ///
 /// Throws `Error`: not_found (no such layer), invalid_input (broken, or over a limit), unsupported
 /// (deep data, other channels).

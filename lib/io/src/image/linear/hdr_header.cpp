@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t";
 
-/// The lines of a header, one after the other.
+/// Reader of the lines of a header.
 class Lines {
 public:
     explicit Lines(ByteView file) : file_(file) {}
@@ -35,7 +35,7 @@ public:
         size_ += length + 1;
         return {reinterpret_cast<const char*>(rest.data()), length};
     }
-    /// Bytes of all lines so far.
+    /// Returns the bytes of all lines so far.
     [[nodiscard]] std::size_t size() const { return size_; }
 
 private:
@@ -43,7 +43,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Takes the first word from a text; it is empty when there is none.
+/// Takes the first word from a text; empty if there is none.
 std::string_view take_word(std::string_view& text)
 {
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
@@ -61,7 +61,7 @@ std::optional<Number> number_of(std::string_view word)
     return error == std::errc() && stopped == end ? std::optional(number) : std::nullopt;
 }
 
-/// What follows `name` in a line that begins with it.
+/// Returns the rest of a line that begins with `name`.
 std::optional<std::string_view> value_of(std::string_view line, std::string_view name)
 {
     return line.starts_with(name) ? std::optional(line.substr(name.size())) : std::nullopt;
@@ -77,7 +77,7 @@ void check_format(std::string_view line, std::string_view value)
     }
 }
 
-/// Multiplies exposures by the factors of a line. As many as they are, each is positive.
+/// Multiplies exposures by the `count` factors of a line, all positive.
 void expose(std::array<double, 3>& exposure, std::string_view line, std::string_view values,
             std::size_t count)
 {
@@ -95,7 +95,7 @@ void expose(std::array<double, 3>& exposure, std::string_view line, std::string_
     }
 }
 
-/// "-Y" or the like, and a number of pixels.
+/// Parses "-Y" or the like, and a number of pixels.
 std::optional<HdrAxis> take_axis(std::string_view& text)
 {
     const std::string_view name = take_word(text);

@@ -11,16 +11,16 @@ namespace bdpt::io {
 /// One of the two axes that the pixels of a Radiance HDR image are stored along.
 struct HdrAxis {
     char name = 'X';      ///< X, which points to the right, or Y, which points up
-    bool ascends = true;  ///< whether pixels follow each other along it, or against it
+    bool ascends = true;  ///< true: pixels follow each other along the axis; false: against it
     int size = 0;         ///< [pixels], at least 1
 };
 
-/// What stands before the pixels of a Radiance HDR image.
+/// Header of a Radiance HDR image.
 struct HdrHeader {
     HdrAxis outer;  ///< from scanline to scanline
     HdrAxis inner;  ///< within a scanline
-    /// What red, green and blue have been multiplied by: all lines EXPOSURE and COLORCORR. Finite
-    /// and positive.
+    /// Factors that red, green and blue have been multiplied by: the product of all EXPOSURE and
+    /// COLORCORR lines. Finite and positive.
     std::array<double, 3> exposure{1.0, 1.0, 1.0};
     std::size_t size = 0;  ///< [bytes]
 
@@ -29,7 +29,7 @@ struct HdrHeader {
 };
 
 /// Reads the header [Ward, "The RADIANCE Picture File Format", in the Radiance Reference Manual].
-/// Lines that change no pixel, PRIMARIES and GAMMA among them, do not count. Throws `Error`:
+/// Lines that change no pixel are ignored, PRIMARIES and GAMMA among them. Throws `Error`:
 /// invalid_input (broken), unsupported (pixels other than 32-bit_rle_rgbe).
 [[nodiscard]] HdrHeader read_hdr_header(ByteView file);
 

@@ -16,8 +16,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// Where the pixels along an axis are among those of an image, whose rows begin at the left and at
-/// the top.
+/// Positions of the pixels along an axis in an image, whose rows begin at the left and at the top.
 struct Walk {
     std::ptrdiff_t first = 0;
     std::ptrdiff_t step = 1;

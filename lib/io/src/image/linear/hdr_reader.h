@@ -9,12 +9,12 @@
 
 namespace bdpt::io {
 
-/// Whether a file is Radiance HDR, by its first bytes.
+/// Tests whether a file is Radiance HDR, by its first bytes.
 [[nodiscard]] bool is_hdr(ByteView file);
 
-/// Decodes a Radiance HDR image as linear RGB, in any of its eight orientations. The exposure that
-/// the header tells of is divided out, with a warning. Throws `Error`: invalid_input (broken, or
-/// over a limit), unsupported (pixels other than 32-bit_rle_rgbe).
+/// Decodes a Radiance HDR image to linear RGB, in any of its eight orientations. The exposure in
+/// the header is divided out, with a warning. Throws `Error`: invalid_input (broken, or over a
+/// limit), unsupported (pixels other than 32-bit_rle_rgbe).
 [[nodiscard]] Image read_hdr(ByteView file, const ReadLimits& limits, Warnings& warnings,
                              const MemoryBudget* memory = nullptr);
 

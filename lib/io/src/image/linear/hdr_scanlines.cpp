@@ -10,8 +10,8 @@ namespace bdpt::io {
 
 namespace {
 
-/// Whether a scanline of `length` pixels is in the newer encoding. No pixel begins so, for one of
-/// its mantissas is at least 128.
+/// Tests whether a scanline of `length` pixels is in the newer encoding. No pixel begins like this,
+/// as one of its mantissas is at least 128.
 bool has_mark(ByteView bytes, std::size_t length)
 {
     return length >= 8 && length <= 32767 && bytes.size() >= 4 && bytes[0] == 2 && bytes[1] == 2 &&
@@ -55,8 +55,8 @@ Rgbe HdrScanlines::take_pixel()
     return pixel;
 }
 
-/// The older encoding: three mantissas of 1 say how often the pixel before them is repeated. Where
-/// they follow each other, the later ones are the higher digits, of base 256.
+/// Reads the older encoding: three mantissas of 1 give the number of repetitions of the previous
+/// pixel. Consecutive counts are digits of base 256, the lowest first.
 void HdrScanlines::read_by_pixels(std::span<Rgbe> line)
 {
     unsigned shift = 0;
@@ -67,7 +67,7 @@ void HdrScanlines::read_by_pixels(std::span<Rgbe> line)
             shift = 0;
             continue;
         }
-        // As long as there is a count, no line has more than 2^31 pixels.
+        // While counts are read, no line has more than 2^31 pixels.
         const std::size_t count = shift < 32 ? std::size_t{pixel[3]} << shift : line.size() + 1;
         if (i == 0 || count > line.size() - i) {
             fail(i == 0 ? "begins with a repetition" : "a run goes past its end");
@@ -78,7 +78,7 @@ void HdrScanlines::read_by_pixels(std::span<Rgbe> line)
     }
 }
 
-/// The newer encoding: a mark and the length, then each component by itself.
+/// Reads the newer encoding: a mark and the length, then each component by itself.
 void HdrScanlines::read_by_components(std::span<Rgbe> line)
 {
     const Rgbe mark = take_pixel();
@@ -90,7 +90,7 @@ void HdrScanlines::read_by_components(std::span<Rgbe> line)
     }
 }
 
-/// Runs of one value, marked by 128, and values one by one.
+/// Reads runs of one value, marked by 128, and single values.
 void HdrScanlines::read_component(std::span<Rgbe> line, std::size_t component)
 {
     for (std::size_t i = 0; i < line.size();) {

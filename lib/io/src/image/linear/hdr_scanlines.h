@@ -17,11 +17,11 @@ using Rgbe = std::array<std::uint8_t, 4>;
 /// in the older or the newer way [Ward, "The RADIANCE Picture File Format"].
 class HdrScanlines {
 public:
-    /// `encoded` is what follows the header; it must stay as long as this.
+    /// `encoded` is the data behind the header; it must outlive this object.
     explicit HdrScanlines(ByteView encoded) : rest_(encoded) {}
 
-    /// Reads the next scanline. Throws `Error` (invalid_input), which names it, when it is broken
-    /// or cut off.
+    /// Reads the next scanline. Throws `Error` (invalid_input) that names the scanline if it is
+    /// broken or truncated.
     void read(std::span<Rgbe> line);
 
 private:
@@ -33,7 +33,7 @@ private:
     [[noreturn]] void fail(const char* what) const;
 
     ByteView rest_;
-    std::size_t number_ = 0;  // of the scanline, from 1
+    std::size_t number_ = 0;  // number of the scanline, from 1
 };
 
 }  // namespace bdpt::io

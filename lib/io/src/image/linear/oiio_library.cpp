@@ -20,7 +20,7 @@ constexpr const char* module_name = "libbdpt_oiio.so";
 void* load_module()
 {
     const std::filesystem::path file = companion_file(module_name);
-    // It stays: OpenImageIO cannot be unloaded safely.
+    // The module stays loaded: OpenImageIO cannot be unloaded safely.
     void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (module == nullptr) {
         throw Error(ErrorCode::unsupported,

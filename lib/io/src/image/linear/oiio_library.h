@@ -8,16 +8,16 @@
 
 namespace bdpt::io {
 
-/// An image that OpenImageIO has opened in memory, which must stay there. It may be read on
-/// another thread.
+/// An image that OpenImageIO has opened in memory, which must stay there. It may be read on another
+/// thread.
 class OiioImage {
 public:
     [[nodiscard]] const BdptImageHeader& header() const { return header_; }
-    /// Values of all pixels.
+    /// Returns the number of values of all pixels.
     [[nodiscard]] std::size_t value_count() const;
 
-    /// Reads all pixels as they are stored, top row first, into room for `value_count()` values;
-    /// integers become 0 to 1. Throws std::runtime_error when they cannot be decoded.
+    /// Reads all pixels as stored, top row first, into room for `value_count()` values; integers
+    /// are scaled to [0, 1]. Throws std::runtime_error if they cannot be decoded.
     void read(float* values) const;
 
 private:
@@ -35,16 +35,16 @@ private:
     std::unique_ptr<BdptImage, decltype(&bdpt_oiio_close)> image_;
 };
 
-/// OpenImageIO, loaded into the process with the first object of this class; it stays there. To
-/// have one is cheap.
+/// OpenImageIO, loaded into the process with the first object of this class; it stays loaded.
+/// Objects are cheap.
 class OiioLibrary {
 public:
-    /// Throws `Error`: unsupported when the module cannot be found or loaded, internal when it is
-    /// another version's.
+    /// Throws `Error`: unsupported if the module cannot be found or loaded, internal if it is of
+    /// another version.
     OiioLibrary();
 
-    /// Opens an image in memory; `format` is one of OpenImageIO's names. Throws
-    /// std::runtime_error when it cannot be opened.
+    /// Opens an image in memory; `format` is one of OpenImageIO's names. Throws std::runtime_error
+    /// if it cannot be opened.
     [[nodiscard]] OiioImage open(const char* format, ByteView bytes) const;
 
 private:

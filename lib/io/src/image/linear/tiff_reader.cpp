@@ -34,8 +34,8 @@ OiioLibrary open_library()
     }
 }
 
-/// What headers say is checked before memory is taken: by us, and by OpenImageIO, which takes room
-/// for a tile.
+/// Checks the header before memory is allocated, by this code and by OpenImageIO, which allocates a
+/// tile.
 void check_header(const BdptImageHeader& header, const ReadLimits& limits,
                   const MemoryBudget* memory)
 {
@@ -58,7 +58,7 @@ void check_header(const BdptImageHeader& header, const ReadLimits& limits,
 
 bool is_tiff(ByteView file)
 {
-    // Of either byte order; the last two are BigTIFF.
+    // Either byte order; the last two are BigTIFF.
     constexpr std::array starts{"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
     return std::any_of(starts.begin(), starts.end(), [file](std::string_view start) {
         return file.size() >= start.size() && std::equal(start.begin(), start.end(), file.begin());

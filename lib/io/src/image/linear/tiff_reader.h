@@ -8,12 +8,12 @@
 
 namespace bdpt::io {
 
-/// Whether a file is TIFF, by its first bytes.
+/// Tests whether a file is TIFF, by its first bytes.
 [[nodiscard]] bool is_tiff(ByteView file);
 
-/// Decodes the first image of a TIFF file as linear RGB, by OpenImageIO: floats of any size, grey
+/// Decodes the first image of a TIFF file to linear RGB, by OpenImageIO: floats of any size, grey
 /// or RGB. Alpha and other channels are ignored. Throws `Error`: invalid_input (broken, or over a
-/// limit), unsupported (integers, another orientation; OpenImageIO is not there).
+/// limit), unsupported (integers, another orientation; no OpenImageIO).
 [[nodiscard]] Image read_tiff(ByteView file, const ReadLimits& limits,
                               const MemoryBudget* memory = nullptr);
 

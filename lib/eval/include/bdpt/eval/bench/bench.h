@@ -29,21 +29,21 @@
 
 namespace bdpt::eval {
 
-/// How far the work on a scene is, in CPU time [s] as it was planned.
+/// Progress of the work on a scene, in CPU time [s] as planned.
 struct BenchProgress {
-    double worked = 0.0;   ///< what has been done, without what was found in the folder
-    double left = 0.0;     ///< what is still to do
+    double worked = 0.0;   ///< time done, without results found in the folder
+    double left = 0.0;     ///< time still planned
     std::string activity;  ///< "bdpt, seed 2"
 };
 
-/// How a caller watches and stops a benchmark. Everything is optional.
+/// Hooks by which a caller watches and stops a benchmark. All are optional.
 struct BenchControl {
-    std::stop_token stop;  ///< ends it after the pass in flight; finished runs are kept
+    std::stop_token stop;  ///< stops after the pass in flight; finished runs are kept
     std::function<void(const BenchProgress&)> on_progress;
-    std::function<void(const std::string&)> on_note;  ///< one line for people
+    std::function<void(const std::string&)> on_note;  ///< receives one line for people
 };
 
-/// The error floor of an integrator, which stays however long it renders.
+/// The error floor of an integrator: the error that remains however long it renders.
 struct ErrorFloor {
     IntegratorKind integrator = IntegratorKind::bdpt;
     double relmse = 0.0;
@@ -64,33 +64,33 @@ struct SceneResult {
     std::filesystem::path reference_file;
     std::vector<BenchGoals> goals;
     std::vector<BenchRun> runs;        ///< by seed, then in the order of the integrators
-    std::vector<ErrorFloor> floors{};  ///< of integrators that cannot find all light
-    std::vector<TimeSplit> splits{};   ///< of integrators whose time has been measured
-    bool complete = false;             ///< all runs were made
+    std::vector<ErrorFloor> floors{};  ///< floors of the integrators that cannot find all light
+    std::vector<TimeSplit> splits{};   ///< splits of the integrators whose time was measured
+    bool complete = false;             ///< true if all runs were made
 };
 
-/// CPU time that a scene takes at about, with its reference [s].
+/// Returns the approximate CPU time for a scene, including its reference [s].
 [[nodiscard]] BDPT_EXPORT double planned_seconds(const BenchOptions& options);
 
-/// Where a run's image at equal time is.
+/// Returns the path of a run's image at equal time.
 [[nodiscard]] BDPT_EXPORT std::filesystem::path image_file(const std::filesystem::path& folder,
                                                            const std::string& scene,
                                                            IntegratorKind integrator,
                                                            std::uint64_t seed);
 
-/// All files that `run_scene` may write, for whoever has to clean up after it.
+/// Returns all files that `run_scene` may write, so that a caller can remove them.
 [[nodiscard]] BDPT_EXPORT std::vector<std::filesystem::path> scene_files(
     const std::filesystem::path& folder, const std::string& scene, const BenchOptions& options);
 
-/// Runs every integrator with every seed in turn (A B C A B C ...), so that a machine that gets
-/// slower or busier does so for all. A run is rendered up to the samples that take `seconds`, which
-/// are found out first, or to those of the comparison at equal samples, whichever are more, and
-/// looked at on its way. All runs, their images and the reference are kept in `folder`; those
-/// that are there already are not made again. None if stopped before there was a reference.
+/// Runs every integrator with every seed, interleaved (A B C A B C ...), so that a machine that
+/// slows down does so for all integrators. A run renders as many samples as take `seconds`
+/// (measured first), or the samples of the comparison at equal samples, whichever is more, and
+/// records checkpoints. Runs, their images and the reference are kept in `folder`; existing ones
+/// are not rendered again. Returns none if stopped before there was a reference.
 ///
-/// Throws `Error`, whose message names the file: output when one cannot be written; usage when the
-/// folder holds runs of another scene or with other options; not_found or invalid_input when what
-/// it holds, or the given reference, cannot be read or used; those of render().
+/// Throws `Error`, whose message names the file: output if a file cannot be written; usage if the
+/// folder holds runs of another scene or with other options; not_found or invalid_input if its
+/// contents, or the given reference, cannot be read or used; the errors of render().
 [[nodiscard]] BDPT_EXPORT std::optional<SceneResult> run_scene(const BenchScene& scene,
                                                                const BenchOptions& options,
                                                                const std::filesystem::path& folder,

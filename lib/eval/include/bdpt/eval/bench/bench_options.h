@@ -18,21 +18,22 @@
 
 namespace bdpt::eval {
 
-/// What a benchmark does with each scene. Times are CPU time of all threads [s]: other programs on
-/// the machine count less in it than in the time on the wall.
+/// Options of the benchmark of each scene. Times are CPU times of all threads [s], which other
+/// programs on the machine disturb less than wall-clock times.
 struct BenchOptions {
     std::vector<IntegratorKind> integrators = unbiased_integrators();
-    /// How to render. Integrator, size, samples and seed do not count.
+    /// Render options. Integrator, size, samples and seed are ignored.
     RenderOptions render{};
-    double seconds = 5.0;  ///< of each run at equal time, > 0
-    /// Of each run at equal samples, [1, 2^20]; none: the greatest power of two that every
-    /// integrator manages in `seconds`.
+    double seconds = 5.0;  ///< time of each run at equal time, > 0
+    /// Samples of each run at equal samples, in [1, 2^20]; none: the greatest power of two that
+    /// every integrator renders in `seconds`.
     std::optional<std::int64_t> samples{};
-    int seeds = 5;  ///< runs of each integrator, [1, 10000]; their seeds are 0, 1, 2 ...
+    int seeds = 5;  ///< runs of each integrator, in [1, 10000]; their seeds are 0, 1, 2 ...
     /// An image, or a folder with NAME.exr for each scene; none: references are rendered.
     std::optional<std::filesystem::path> reference{};
-    double reference_seconds = 60.0;  ///< of each of the two renders that a reference is made of
-    int strategy_depth = 5;  ///< longest paths [edges] in the images of strategies; 0: none
+    double reference_seconds = 60.0;  ///< time of each of the two renders that make up a reference
+    int strategy_depth =
+        5;  ///< maximum path length [edges] of the images of strategies; 0: no such images
 };
 
 }  // namespace bdpt::eval

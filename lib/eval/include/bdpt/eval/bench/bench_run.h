@@ -21,29 +21,29 @@
 
 namespace bdpt::eval {
 
-/// How far a run was after some samples. Errors hold the noise of the reference too.
+/// State of a run after some samples. The errors include the noise of the reference.
 struct Checkpoint {
     std::int64_t samples = 0;   ///< per pixel
-    double cpu_seconds = 0.0;   ///< of all threads [s]
-    double wall_seconds = 0.0;  ///< [s]
+    double cpu_seconds = 0.0;   ///< CPU time of all threads [s]
+    double wall_seconds = 0.0;  ///< wall-clock time [s]
     double relmse = 0.0;
     double relmse_scales = 0.0;
     double mape = 0.0;
 };
 
-/// A render of a scene by an integrator with a seed of its own, looked at on its way: the samples
-/// up to a checkpoint are, to the bit, what a render of just those would have made.
+/// A render of a scene by one integrator with one seed, measured at checkpoints. The samples up to
+/// a checkpoint are bit-identical to a render of just those samples.
 struct BenchRun {
     IntegratorKind integrator = IntegratorKind::bdpt;
     std::uint64_t seed = 0;
-    std::vector<Checkpoint> checkpoints;         ///< rising samples
-    RenderStats stats{};                         ///< of all samples
-    std::uint64_t invalid = 0;                   ///< `FilmDefects`
-    std::uint64_t saturated = 0;                 ///< the same
-    std::optional<std::uint64_t> peak_memory{};  ///< of the process during the run [bytes]
+    std::vector<Checkpoint> checkpoints;         ///< in order of increasing samples
+    RenderStats stats{};                         ///< over all samples
+    std::uint64_t invalid = 0;                   ///< counts of `FilmDefects`
+    std::uint64_t saturated = 0;                 ///< counts of `FilmDefects`
+    std::optional<std::uint64_t> peak_memory{};  ///< peak of the process during the run [bytes]
 };
 
-/// How many samples an integrator takes in the two comparisons.
+/// Numbers of samples per pixel of an integrator in the two comparisons.
 struct BenchGoals {
     IntegratorKind integrator = IntegratorKind::bdpt;
     std::int64_t equal_time = 0;

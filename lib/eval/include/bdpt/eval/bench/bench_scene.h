@@ -21,11 +21,11 @@
 
 namespace bdpt::eval {
 
-/// A scene of a benchmark.
+/// A scene to benchmark.
 struct BenchScene {
-    std::string name;  ///< of files: letters, digits, "_", "-" and "."; each scene has its own
-    std::string file;  ///< for people
-    std::string environment{};  ///< the same: where light from infinity comes from
+    std::string name;  ///< used in file names: letters, digits, "_", "-" and "."; unique per scene
+    std::string file;  ///< path of the scene, for people
+    std::string environment{};  ///< source of light from infinity, for people
     const Scene& scene;
     CameraDesc camera;
     int width = 0;  ///< [pixels]

@@ -16,8 +16,8 @@
 
 namespace bdpt::eval {
 
-/// CPU time of all threads of this process so far [s]: other programs on the machine count less in
-/// it than on a clock at the wall.
+/// Returns the CPU time of all threads of this process so far [s], which other programs on the
+/// machine disturb less than the wall-clock time.
 [[nodiscard]] inline double cpu_seconds()
 {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;

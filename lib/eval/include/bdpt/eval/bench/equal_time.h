@@ -28,37 +28,37 @@
 
 namespace bdpt::eval {
 
-/// One of several ways to render a scene, of the same integrator or of different ones.
+/// One of several ways to render a scene, by the same integrator or by different ones.
 struct Variant {
     std::string name;
-    RenderOptions options;  ///< size, samples and seed do not count
+    RenderOptions options;  ///< size, samples and seed are ignored
 };
 
-/// How variants are held against each other.
+/// Options of a comparison of variants.
 struct EqualTimeOptions {
     double seconds = 2.0;  ///< CPU time of each render [s], if there are no `samples`
-    /// Of each render, per pixel, however long that takes.
+    /// Samples per pixel of each render, whatever time they take.
     std::optional<std::int64_t> samples{};
-    int rounds = 5;  ///< renders of each variant, with a seed of its own each
+    int rounds = 5;  ///< renders of each variant, each with its own seed
 };
 
-/// How a variant did, over the rounds.
+/// Result of a variant over all rounds.
 struct Score {
-    /// relMSE without the reference's noise, by `bench_scale`; without `samples` that after exactly
-    /// `seconds`, as if it fell with the inverse of the time from where it was measured.
+    /// relMSE without the reference's noise, by `bench_scale`. Without `samples` it is extrapolated
+    /// to exactly `seconds`, as if it were proportional to the inverse of the time.
     Spread error;
-    double sample_seconds = 0.0;  ///< CPU time for one sample of every pixel; median [s]
+    double sample_seconds = 0.0;  ///< median CPU time for one sample of every pixel [s]
     std::int64_t samples = 0;     ///< per pixel in each render
 };
 
-/// A reference by bdpt with `samples` samples, as `options` say but for integrator, size and seed,
-/// which no contest has. Throws like render() and `bench_scale`.
+/// Renders a reference by bdpt with `samples` samples and the given `options`, whose integrator,
+/// size and seed are ignored. Throws like render() and `bench_scale`.
 [[nodiscard]] BDPT_EXPORT Reference render_reference(const BenchScene& scene,
                                                      const RenderOptions& options,
                                                      std::int64_t samples);
 
-/// The scores of all variants, in their order. The variants take turns, A B C A B C ..., so that a
-/// machine that gets slower or busier does so for all. Throws like render().
+/// Returns the scores of all variants, in their order. Renders are interleaved (A B C A B C ...),
+/// so that a machine that slows down does so for all variants. Throws like render().
 [[nodiscard]] BDPT_EXPORT std::vector<Score> compare_at_equal_time(
     const BenchScene& scene, const Reference& reference, std::span<const Variant> variants,
     const EqualTimeOptions& options);

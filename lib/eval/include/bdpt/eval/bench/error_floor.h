@@ -19,11 +19,11 @@
 
 namespace bdpt::eval {
 
-/// The part of the relMSE of some renders, with different seeds, that is the same in all of them:
-/// it stays however long one renders, as what an integrator cannot find is missing each time. From
+/// Returns the part of the relMSE that is common to renders with different seeds. It remains
+/// however long one renders: it is the light that an integrator cannot find. It is estimated from
 /// products of the errors of two different renders, in which noise cancels; `noise` is that of the
-/// reference. None when it is less than a tenth of the error, or not sure: closer to 0 than three
-/// standard errors. At least two images of the reference's size.
+/// reference. Returns none if it is less than a tenth of the error, or less than three standard
+/// errors from 0. Takes at least two images of the reference's size.
 [[nodiscard]] BDPT_EXPORT std::optional<double> error_floor(std::span<const Image> images,
                                                             const Image& reference, double noise);
 

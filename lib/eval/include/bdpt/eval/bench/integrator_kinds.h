@@ -14,12 +14,12 @@
 
 #include <vector>
 
-/// Judging renders: metrics, comparisons, benchmarks, proofs of estimators, reports.
+/// Evaluation of renders: metrics, comparisons, benchmarks, verification of estimators, reports.
 namespace bdpt::eval {
 
-/// Those of `integrators()`, from the simplest to the one that has all strategies.
+/// Returns the kinds of `integrators()`, from the simplest to the one that has all strategies.
 [[nodiscard]] BDPT_EXPORT std::vector<IntegratorKind> all_integrators();
-/// Those of them that are not biased.
+/// Returns the kinds of `all_integrators()` that are unbiased.
 [[nodiscard]] BDPT_EXPORT std::vector<IntegratorKind> unbiased_integrators();
 
 }  // namespace bdpt::eval

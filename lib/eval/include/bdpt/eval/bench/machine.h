@@ -14,16 +14,17 @@
 
 namespace bdpt::eval {
 
-/// The machine and software that times depend on, beside the options; empty where unknown.
+/// Description of the machine and software that times depend on, beside the options; empty where
+/// unknown.
 struct MachineFacts {
     std::string cpu;        ///< model name
-    int processors = 0;     ///< hardware threads that this process may use
+    int processors = 0;     ///< hardware threads available to this process
     std::string system;     ///< kernel and its release
-    std::string compiler;   ///< that made the library
-    std::string libraries;  ///< that it was made with: "Embree 3.13.5, oneTBB 2021.8.0, ..."
+    std::string compiler;   ///< compiler of the library
+    std::string libraries;  ///< libraries it was built with: "Embree 3.13.5, oneTBB 2021.8.0, ..."
 };
 
-/// The description of this machine.
+/// Returns the description of this machine.
 [[nodiscard]] BDPT_EXPORT MachineFacts machine_facts();
 
 }  // namespace bdpt::eval

@@ -20,39 +20,42 @@
 
 namespace bdpt::eval {
 
-/// The best known limit of the images of a scene.
+/// The reference image of a scene: the best known estimate of the limit of its renders.
 struct Reference {
     Image image;
-    double noise = 0.0;  ///< relMSE that its own noise adds to that of every image
-    std::string origin;  ///< for people: how it came about
+    double noise =
+        0.0;  ///< relMSE that the reference's own noise adds to every image compared with it
+    std::string origin;  ///< origin of the image, for people
 };
 
-/// Scale of relMSE and MAPE in benchmarks: epsilon is 0.01 of the reference's mean, so that the
-/// unit of light does not matter. Throws `Error` (invalid_input) for a black reference.
+/// Returns the scale of relMSE and MAPE in benchmarks: epsilon is 0.01 of the reference's mean,
+/// which makes errors independent of the unit of light. Throws `Error` (invalid_input) for a black
+/// reference.
 [[nodiscard]] BDPT_EXPORT MetricScale bench_scale(const Image& reference);
 
-/// An image and the two halves of the samples that it is the mean of.
+/// An image and the two half images whose mean it is.
 struct HalvedImage {
     Image image;
     Image first;
     Image second;
 };
 
-/// relMSE of an image's own noise, as its halves tell it, relative to `base` of the same size.
-/// Throws like `bench_scale`.
+/// Returns the relMSE of an image's own noise, estimated from its halves, relative to `base` of the
+/// same size. Throws like `bench_scale`.
 [[nodiscard]] BDPT_EXPORT double noise_of(const HalvedImage& image, const Image& base);
 
-/// The combination of two renders by different integrators.
+/// Combination of two renders by different integrators.
 struct CombinedReference {
     Image image;
-    double noise = 0.0;      ///< relMSE
-    double share = 0.0;      ///< weight of the first image, by the inverse of its noise
-    double agreement = 0.0;  ///< squared difference of the two over what their noise explains
+    double noise = 0.0;  ///< relMSE
+    double share = 0.0;  ///< weight of the first image, by inverse noise
+    double agreement =
+        0.0;  ///< squared difference of the two images over the one expected from their noise
 };
 
-/// The mean of both, weighted by what the halves tell of their noise. If they differ by more than
-/// that explains (`agreement` above 2) the second does not see all light, and the first counts
-/// alone. Sizes are equal. Throws like `bench_scale`.
+/// Returns the mean of both images, weighted by the inverse of the noise that their halves show. If
+/// they differ by more than that noise explains (`agreement` above 2), the second lacks light and
+/// the first is taken alone. Sizes are equal. Throws like `bench_scale`.
 [[nodiscard]] BDPT_EXPORT CombinedReference combine(const HalvedImage& all_light,
                                                     const HalvedImage& most_light);
 

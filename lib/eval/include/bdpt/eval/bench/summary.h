@@ -23,36 +23,38 @@
 
 namespace bdpt::eval {
 
-/// The runs of an integrator after some samples: over seeds.
+/// A point of an integrator's convergence curve: its runs of all seeds after some samples.
 struct CurvePoint {
     std::int64_t samples = 0;
     double cpu_seconds = 0.0;  ///< median
     Spread error;              ///< relMSE without the reference's noise
 };
 
-/// The results of an integrator's runs in one of the two comparisons.
+/// Results of an integrator's runs in one of the two comparisons.
 struct GoalSummary {
     std::int64_t samples = 0;
     double cpu_seconds = 0.0;   ///< median
     double wall_seconds = 0.0;  ///< median
-    /// relMSE without the reference's noise; at equal time that after exactly those seconds, as if
-    /// it fell with the inverse of the time from where it was measured.
+    /// relMSE without the reference's noise. At equal time it is extrapolated to exactly those
+    /// seconds, as if it were proportional to the inverse of the time.
     Spread error;
-    Spread error_scales;  ///< the same of relMSE over scales, where blotches count
+    Spread error_scales;  ///< relmse_scales without the reference's noise, which also counts
+                          ///< low-frequency noise
     Spread mape;
-    /// The reference's noise is a third of the error or more: what is left is not sure.
+    /// True if the reference's noise is a third of the error or more, so that the rest is
+    /// uncertain.
     bool near_noise = false;
 };
 
-/// How many times sooner than `pt` an integrator has the error that `pt` ends with.
+/// Speed-up over `pt`: the ratio of the times to reach the final error of `pt`.
 struct SpeedUp {
     double factor = 1.0;
-    /// The run is shorter, or the error is already below at its first sample, so the time is that
-    /// of an error that falls with the inverse of it.
+    /// True if the time is extrapolated with an error proportional to its inverse: the run is
+    /// shorter, or its error is already lower at the first sample.
     bool extrapolated = false;
 };
 
-/// All that is told about an integrator in a scene.
+/// Summary of an integrator in a scene.
 struct IntegratorSummary {
     IntegratorKind integrator = IntegratorKind::bdpt;
     int seeds = 0;
@@ -61,31 +63,33 @@ struct IntegratorSummary {
     std::vector<CurvePoint> curve;
     double efficiency = 0.0;            ///< 1 / (error x CPU time) at equal time [1/s]
     std::optional<SpeedUp> speed_up{};  ///< none without runs of pt
-    /// The error floor; none: the integrator finds all light.
+    /// Error floor; none: the integrator finds all light.
     std::optional<double> floor{};
-    std::optional<TimeSplit> time{};  ///< where it goes; none if that was not measured
-    double samples_per_second = 0.0;  ///< of all pixels, in time on the wall
+    std::optional<TimeSplit> time{};  ///< time by phase; none if it was not measured
+    double samples_per_second = 0.0;  ///< samples of all pixels per second of wall-clock time
     double camera_rays_per_second = 0.0;
     double light_rays_per_second = 0.0;
     double shadow_rays_per_second = 0.0;
-    std::optional<std::uint64_t> peak_memory{};  ///< of the process; the greatest [bytes]
-    std::uint64_t invalid = 0;                   ///< samples that were dropped, in all runs
+    std::optional<std::uint64_t>
+        peak_memory{};          ///< peak memory of the process, maximum over runs [bytes]
+    std::uint64_t invalid = 0;  ///< dropped samples, in all runs
 };
 
-/// A summary for each integrator that has runs, in the order of the goals. `seconds` is the CPU
-/// time that is equal.
+/// Returns a summary for each integrator that has runs, in the order of the goals. `seconds` is the
+/// CPU time of the comparison at equal time.
 [[nodiscard]] BDPT_EXPORT std::vector<IntegratorSummary> summarize(const SceneResult& result,
                                                                    double seconds);
 
-/// When a curve has come down to an error.
+/// Time at which a curve has fallen to an error.
 struct TimeToError {
     double seconds = 0.0;
-    bool extrapolated = false;  ///< the time is before the first point or after the last one
+    bool extrapolated =
+        false;  ///< true if the time is before the first point or after the last one
 };
 
-/// The time after which a curve stays at or below `error` > 0, between its points on straight lines
-/// of a log-log plot; before the first and after the last as if the error fell with the inverse of
-/// the time. The curve has a point and rising times.
+/// Returns the time from which a curve stays at or below `error` > 0, interpolated linearly in
+/// log-log space; before the first and after the last point the error is taken as proportional to
+/// the inverse of the time. The curve has at least one point and increasing times.
 [[nodiscard]] BDPT_EXPORT TimeToError time_to_error(const std::vector<CurvePoint>& curve,
                                                     double error);
 

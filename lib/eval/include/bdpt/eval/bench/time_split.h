@@ -21,12 +21,13 @@
 
 namespace bdpt::eval {
 
-/// Where the time of an integrator's samples goes in a scene; from a render of its own, which
-/// counts in none of the comparisons.
+/// Time by phase of an integrator's samples in a scene, from a separate render that counts in none
+/// of the comparisons.
 struct TimeSplit {
     IntegratorKind integrator = IntegratorKind::bdpt;
-    std::array<double, all_phases.size()> shares{};  ///< by phase; they add up to 1
-    double sample_seconds = 0.0;  ///< mean of a sample of a pixel, of one thread [s]
+    std::array<double, all_phases.size()>
+        shares{};                 ///< fraction of the time by phase; they sum to 1
+    double sample_seconds = 0.0;  ///< mean thread time of one sample of a pixel [s]
     std::int64_t samples = 0;     ///< per pixel
     double distortion = 0.0;      ///< `TimeProfile::distortion`
 };

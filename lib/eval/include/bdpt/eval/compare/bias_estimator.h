@@ -24,19 +24,19 @@
 
 namespace bdpt::eval {
 
-/// Estimates how far the mean of renders of one scene, with different seeds, is from a reference
-/// that is taken as the truth: in all, and in each tile.
+/// Estimates the bias of renders of one scene with different seeds: the difference of their mean
+/// from a reference that is taken as the truth, for the whole image and for each tile.
 class BDPT_EXPORT BiasEstimator {
 public:
-    /// The tiles lie in images of `width` x `height` pixels.
+    /// Takes tiles of images of `width` x `height` pixels.
     BiasEstimator(int width, int height, std::vector<PixelRect> tiles);
 
-    /// Both have that size.
+    /// Adds an image; both have that size.
     void add(const Image& image, const Image& reference);
 
-    /// The bias of at least one image.
+    /// Returns the bias of at least one image.
     [[nodiscard]] Bias bias() const;
-    /// A test for each tile and channel, the surest bias first; none for one image.
+    /// Returns a test for each tile and channel, in order of increasing p; none for one image.
     [[nodiscard]] std::vector<TileBias> tile_tests() const;
 
 private:
@@ -47,10 +47,10 @@ private:
     int width_;
     int height_;
     std::vector<PixelRect> tiles_;
-    std::array<std::vector<double>, 3> sums_;  // of differences; a number a pixel, by channel
-    double squares_ = 0.0;                     // of differences, over pixels, channels and images
-    std::array<Moments, 4> means_;             // red, green, blue, and their mean
-    std::array<std::vector<Moments>, 3> tile_means_;  // a number a tile, by channel
+    std::array<std::vector<double>, 3> sums_;  // sums of differences; one per pixel, by channel
+    double squares_ = 0.0;          // sum of squared differences, over pixels, channels and images
+    std::array<Moments, 4> means_;  // red, green, blue, and their mean
+    std::array<std::vector<Moments>, 3> tile_means_;  // one per tile, by channel
 };
 
 }  // namespace bdpt::eval

@@ -29,9 +29,9 @@ struct FileComparison {
     std::vector<std::string> warnings;  ///< one line each, with the file's name
 };
 
-/// Reads the images, one at a time, and holds them against the reference, within the region
-/// that the reference and the first image both have data for; the others must have data for
-/// all of it. `layer` is that of `io::ImageOptions`; the options' x0 and y0 are found out.
+/// Reads the images one at a time and compares them with the reference, within the region for which
+/// both the reference and the first image have data; the other images must have data for all of it.
+/// `layer` is that of `io::ImageOptions`; x0 and y0 of the options are set from the files.
 ///
 /// Throws `Error`, whose message names the file: those of `io::read_image` and `Comparison`, and
 /// invalid_input for images of different size or without pixels in common.

@@ -25,38 +25,39 @@
 
 namespace bdpt::eval {
 
-/// The measurements and reports of a comparison.
+/// Options of a comparison.
 struct ComparisonOptions {
     std::vector<Metric> metrics{all_metrics.begin(), all_metrics.end()};
     MetricOptions scale{};
-    Metric map_metric = Metric::relmse;  ///< of the map and the worst tiles; not psnr
-    int tile_size = 32;                  ///< [pixels] a side, at least 1
-    int worst_tiles = 5;                 ///< how many are reported at most; at least 1
-    /// Where the images lie in the whole image [pixels]: for messages and reported tiles.
+    Metric map_metric =
+        Metric::relmse;   ///< metric of the error map and of the worst tiles; not psnr
+    int tile_size = 32;   ///< side of a tile [pixels], at least 1
+    int worst_tiles = 5;  ///< maximum number of tiles to report; at least 1
+    /// Position of the images in the whole image [pixels], for messages and reported tiles.
     int x0 = 0;
     int y0 = 0;
 };
 
-/// Holds images, one after the other, against a reference. Images that are added are renders of
-/// one scene with different seeds; the reference is taken as the truth.
+/// Compares images, one after the other, with a reference. The images are renders of one scene with
+/// different seeds; the reference is taken as the truth.
 class BDPT_EXPORT Comparison {
 public:
-    /// `name` is for messages. Throws `Error`: usage for options that make no sense, invalid_input
-    /// for a reference without pixels or with NaN or infinity.
+    /// Takes the reference; `name` is for messages. Throws `Error`: usage for invalid options,
+    /// invalid_input for a reference without pixels or with NaN or infinity.
     Comparison(const std::string& name, Image reference, ComparisonOptions options);
 
-    /// Throws `Error` (invalid_input) when the image has another size than the reference, or
-    /// NaN or infinity.
+    /// Adds an image. Throws `Error` (invalid_input) if its size differs from the reference's, or
+    /// if it has NaN or infinity.
     void add(const std::string& name, const Image& image);
 
-    /// The statistics of at least one image.
+    /// Returns the statistics of at least one image.
     [[nodiscard]] ComparisonReport report() const;
 
 private:
     [[nodiscard]] std::vector<TileError> worst_tiles(const ErrorMap& terms) const;
     [[nodiscard]] std::vector<TileBias> biased_tiles() const;
     [[nodiscard]] MetricSummary summarize(std::size_t metric) const;
-    /// From our images to the whole image.
+    /// Converts a rectangle of the compared images to one of the whole image.
     [[nodiscard]] PixelRect placed(const PixelRect& rect) const;
 
     Image reference_;
@@ -65,7 +66,7 @@ private:
     MetricScale scale_;
     std::vector<PixelRect> tiles_;
     std::vector<ImageErrors> images_;
-    std::vector<double> map_sum_;  // terms of map_metric, a number a pixel
+    std::vector<double> map_sum_;  // sum over images of the terms of map_metric, one per pixel
     BiasEstimator bias_;
 };
 

@@ -20,8 +20,8 @@
 
 namespace bdpt::eval {
 
-/// The report as a JSON object, as docs/compare.md describes it. What is not a finite number is
-/// null. `image` and `reference` are what the user called them.
+/// Returns the report as a JSON object, as described in docs/compare.md. Numbers that are not
+/// finite are null. `image` and `reference` are their names as the user gave them.
 [[nodiscard]] BDPT_EXPORT std::string comparison_json(const ComparisonReport& report,
                                                       std::span<const ThresholdResult> thresholds,
                                                       const std::string& image,

@@ -25,13 +25,13 @@
 
 namespace bdpt::eval {
 
-/// The metrics of one image, in the order of the report's.
+/// Metrics of one image, in the order of the report's.
 struct ImageErrors {
     std::string name;
     std::vector<double> values;
 };
 
-/// A metric over all images.
+/// Statistics of a metric over all images.
 struct MetricSummary {
     Metric metric = Metric::relmse;
     double mean = 0.0;
@@ -40,47 +40,47 @@ struct MetricSummary {
     double greatest = 0.0;
 };
 
-/// A number that was estimated.
+/// An estimate with its standard error.
 struct Estimate {
     double value = 0.0;
     std::optional<double> standard_error{};
 };
 
-/// Where standard errors of the bias come from.
+/// Source of the standard errors of the bias.
 enum class BiasSource : std::uint8_t {
-    seeds,   ///< the spread between images of different seeds
-    blocks,  ///< the spread between blocks of pixels of the only image; noise must not reach over
+    seeds,   ///< spread between images of different seeds
+    blocks,  ///< spread between blocks of pixels of a single image; noise must not correlate beyond
              ///< a block
 };
 
-/// Mean of image minus reference: of red, green, blue, and of the mean of the three.
+/// Mean of image minus reference: for red, green, blue, and the mean of the three.
 struct Bias {
     BiasSource source = BiasSource::blocks;
     std::array<Estimate, 4> channels;
-    /// Root mean square over pixels (tiles) and channels; none for one image.
+    /// Root mean square over pixels and channels, and over tiles and channels; none for one image.
     std::optional<double> pixel_standard_error{};
     std::optional<double> tile_standard_error{};
 };
 
 /// A tile and the metric in it, averaged over the images.
 struct TileError {
-    PixelRect tile{};  ///< in the whole image
+    PixelRect tile{};  ///< position in the whole image
     double value = 0.0;
 };
 
-/// A tile and how sure it is that its mean differs from the reference's.
+/// A tile and the test whether its mean differs from the reference's.
 struct TileBias {
-    PixelRect tile{};  ///< in the whole image
-    int channel = 0;   ///< red, green, blue
+    PixelRect tile{};  ///< position in the whole image
+    int channel = 0;   ///< 0 to 2: red, green, blue
     double bias = 0.0;
     double standard_error = 0.0;
     double t = 0.0;  ///< bias / standard_error
-    double p = 1.0;  ///< of Student's t-test, Holm-corrected for all tiles and channels
+    double p = 1.0;  ///< p of Student's t-test, Holm-corrected for all tiles and channels
 };
 
-/// All that is known about images that were held against a reference.
+/// Results of the comparison of images with a reference.
 struct ComparisonReport {
-    PixelRect region;  ///< what was compared, in the whole image
+    PixelRect region;  ///< compared region, in the whole image
     MetricScale scale;
     std::vector<ImageErrors> images;
     std::vector<MetricSummary> metrics;
@@ -89,7 +89,7 @@ struct ComparisonReport {
     Metric map_metric = Metric::relmse;
     std::vector<TileError> worst_tiles;  ///< by `map_metric`, the worst first
     std::vector<TileBias> biased_tiles;  ///< the lowest p first; empty for one image
-    /// `map_metric` of each pixel; of several images from the mean of their terms.
+    /// `map_metric` of each pixel, from the mean of the terms over all images.
     ErrorMap map;
 };
 

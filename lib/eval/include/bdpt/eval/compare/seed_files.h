@@ -16,9 +16,9 @@
 
 namespace bdpt::eval {
 
-/// The images that are to be held against `reference`: `path` itself, or, when it is a folder,
-/// all .exr and .hdr files in it but the reference and hidden ones, by name. Throws `Error`
-/// (not_found) when the folder cannot be read or holds none.
+/// Returns the images to compare with `reference`: `path` itself, or if it is a folder, all .exr
+/// and .hdr files in it except the reference and hidden ones, sorted by name. Throws `Error`
+/// (not_found) if the folder cannot be read or holds none.
 [[nodiscard]] BDPT_EXPORT std::vector<std::filesystem::path> seed_files(
     const std::filesystem::path& path, const std::filesystem::path& reference);
 

@@ -22,24 +22,24 @@
 
 namespace bdpt::eval {
 
-/// The quantity of a threshold.
+/// Quantity that a threshold limits.
 enum class ThresholdKind : std::uint8_t {
-    metric,  ///< the metric's mean over the images
-    bias,    ///< the greatest of the three channels' absolute bias
-    p,       ///< the lowest p of all tiles
+    metric,  ///< mean of the metric over the images
+    bias,    ///< greatest absolute bias of the three channels
+    p,       ///< lowest p of all tiles
 };
 
-/// The worst value that is still good.
+/// The worst value that passes.
 struct Threshold {
     ThresholdKind kind = ThresholdKind::metric;
     Metric metric = Metric::relmse;  ///< if `kind` is metric
-    double limit = 0.0;  ///< the least good psnr or p, the greatest good value of others
+    double limit = 0.0;              ///< minimum of psnr or p, maximum of other quantities
 };
 
-/// Reads "NAME=VALUE"; the name is a metric's, "bias" or "p". None for anything else.
+/// Parses "NAME=VALUE", where NAME is a metric, "bias" or "p". Returns none for anything else.
 [[nodiscard]] BDPT_EXPORT std::optional<Threshold> parse_threshold(std::string_view text);
 
-/// Whether a threshold holds.
+/// Result of a threshold.
 struct ThresholdResult {
     std::string name;
     double limit = 0.0;
@@ -47,8 +47,8 @@ struct ThresholdResult {
     bool passed = false;
 };
 
-/// Holds a report against a threshold. Throws `Error` (usage) when the report does not have the
-/// metric, or has one image and so no p.
+/// Checks a report against a threshold. Throws `Error` (usage) if the report does not have the
+/// metric, or has a single image and so no p.
 [[nodiscard]] BDPT_EXPORT ThresholdResult check_threshold(const ComparisonReport& report,
                                                           const Threshold& threshold);
 

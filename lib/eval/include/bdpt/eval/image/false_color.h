@@ -20,15 +20,15 @@
 
 namespace bdpt::eval {
 
-/// How errors become colours.
+/// Options of false-colour images.
 struct FalseColorOptions {
-    double scale = 1.0;  ///< > 0: the error that has the last colour; greater ones have it too
-    std::string title;   ///< under the colour bar: lower-case letters, digits and "_+-. "
+    double scale = 1.0;  ///< error of the last colour, > 0; greater errors have that colour, too
+    std::string title;   ///< text under the colour bar: lower-case letters, digits and "_+-. "
 };
 
-/// The errors as `heat_colors` from 0 to `scale`, above a bar that shows which colour is how much:
-/// the map's pixels are the top left corner, one to one. Maps that are narrower than the bar needs
-/// have grey beside them.
+/// Draws the errors in `heat_colors` from 0 to `scale`, above a colour bar with its values. The
+/// map's pixels are the top left corner, one to one. A map narrower than the bar is padded with
+/// grey.
 [[nodiscard]] BDPT_EXPORT io::DisplayImage false_color(const ErrorMap& map,
                                                        const FalseColorOptions& options);
 

@@ -22,8 +22,9 @@ namespace bdpt::eval {
 /// sRGB-encoded red, green, blue.
 using Color8 = std::array<std::uint8_t, 3>;
 
-/// 256 colours from black over violet, red and orange to pale yellow. Neighbours are equally far
-/// apart in CIE L*a*b*, and lightness always rises, so that the order is seen without colours too.
+/// Returns 256 colours from black through violet, red and orange to pale yellow. Neighbours are
+/// equally far apart in CIE L*a*b*, and lightness increases monotonically, so the order is visible
+/// without colour vision.
 [[nodiscard]] BDPT_EXPORT std::vector<Color8> heat_colors();
 
 }  // namespace bdpt::eval

@@ -17,23 +17,23 @@
 
 namespace bdpt::eval {
 
-// A font of 5 x 7 dots with what labels are made of: digits, small letters, and signs of numbers.
-// It depends on no file, so that labels look the same everywhere.
+// A font of 5 x 7 dots with the characters of labels: digits, small letters, and signs of numbers.
+// It is compiled in, so labels look the same on every machine.
 
-constexpr int glyph_height = 7;   ///< dots from a line's top to its bottom
-constexpr int glyph_advance = 6;  ///< dots from one letter to the next
+constexpr int glyph_height = 7;   ///< height of a line [dots]
+constexpr int glyph_advance = 6;  ///< distance from one letter to the next [dots]
 
-/// Is there a glyph for `letter`? All others are drawn as spaces.
+/// Tests whether there is a glyph for `letter`. Others are drawn as spaces.
 [[nodiscard]] BDPT_EXPORT bool has_glyph(char letter);
 
-/// Where and how large a text is drawn.
+/// Position and size of a text.
 struct TextPlace {
     int x = 0;  ///< top left corner [pixels]
     int y = 0;
     int dot = 1;  ///< side of a dot [pixels]
 };
 
-/// `image` with `text` in light grey; what is outside of it is cut off.
+/// Draws `text` on `image` in light grey, clipped to the image.
 [[nodiscard]] BDPT_EXPORT io::DisplayImage with_text(io::DisplayImage image, std::string_view text,
                                                      const TextPlace& place);
 

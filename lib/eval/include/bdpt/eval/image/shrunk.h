@@ -15,7 +15,7 @@
 
 namespace bdpt::eval {
 
-/// The means of squares of `factor` x `factor` pixels; those at the right and lower border may be
+/// Averages squares of `factor` x `factor` pixels; those at the right and lower border may be
 /// smaller.
 [[nodiscard]] BDPT_EXPORT Image shrunk(const Image& image, int factor);
 

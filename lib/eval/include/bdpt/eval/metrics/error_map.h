@@ -18,13 +18,13 @@
 
 namespace bdpt::eval {
 
-/// How wrong each pixel is; row-major, row 0 is the top row.
+/// Error of each pixel; row-major, row 0 is the top row.
 struct ErrorMap {
     int width = 0;
     int height = 0;
     std::vector<double> values;  ///< width * height
 
-    /// `x` in [0, width), `y` in [0, height).
+    /// Returns the error of a pixel, `x` in [0, width), `y` in [0, height).
     [[nodiscard]] double at(int x, int y) const
     {
         return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +

@@ -25,48 +25,49 @@
 
 namespace bdpt::eval {
 
-/// A measure of how far an image x is from its reference r. Means are over pixels and channels.
+/// A measure of the error of an image x against its reference r. Means are over pixels and
+/// channels.
 enum class Metric : std::uint8_t {
     relmse,  ///< mean of (x - r)^2 / (r^2 + squared_epsilon)
-    /// Mean of relmse and of those of the averages over squares of 2, 4, 8 and 16 pixels a side:
-    /// errors that neighbours share count more than those that average out.
+    /// Mean of relmse and of the relmse of averages over squares of 2, 4, 8 and 16 pixels a side,
+    /// so that correlated errors count more than those that average out.
     relmse_scales,
     mse,       ///< mean of (x - r)^2
-    rmse,      ///< root of that
+    rmse,      ///< root of mse
     mape,      ///< mean of |x - r| / (|r| + epsilon)
     smape,     ///< mean of |x - r| / (|x| + |r| + epsilon) [Vogels et al. 2018]
-    psnr,      ///< 10 log10(peak^2 / MSE) [dB]; infinite without an error; more is better
+    psnr,      ///< 10 log10(peak^2 / mse) [dB]; infinite without an error; greater is better
     flip,      ///< mean of HDR-FLIP
-    flip_ldr,  ///< mean of FLIP between the images as `io::filmic` shows them
+    flip_ldr,  ///< mean of FLIP between the images as tone-mapped by `io::filmic`
 };
 
-/// In the order of the enumerators.
+/// All metrics, in the order of the enumerators.
 inline constexpr std::array all_metrics{Metric::relmse, Metric::relmse_scales, Metric::mse,
                                         Metric::rmse,   Metric::mape,          Metric::smape,
                                         Metric::psnr,   Metric::flip,          Metric::flip_ldr};
 
-/// The enumerator's own name.
+/// Returns the enumerator's own name.
 [[nodiscard]] BDPT_EXPORT std::string_view to_string(Metric metric);
-/// The enumerator of that name, if there is one.
+/// Returns the enumerator of that name, if there is one.
 [[nodiscard]] BDPT_EXPORT std::optional<Metric> parse_metric(std::string_view name);
 
-/// Whether a greater value is a greater error: all but psnr.
+/// Tests whether a greater value means a greater error: true for all but psnr.
 [[nodiscard]] BDPT_EXPORT bool grows_with_error(Metric metric);
 
-/// What the metric averages: for each pixel the mean over its channels of the terms above, before
-/// any root or logarithm; mse, rmse and psnr average the same. The images have one size and are
+/// Returns the terms that the metric averages: for each pixel the mean over its channels, before
+/// any root or logarithm; mse, rmse and psnr have the same terms. The images have one size and are
 /// finite.
 [[nodiscard]] BDPT_EXPORT ErrorMap error_terms(Metric metric, const Image& image,
                                                const Image& reference, const MetricScale& scale);
 
-/// The metric from the mean of its terms.
+/// Returns the metric, given the mean of its terms.
 [[nodiscard]] BDPT_EXPORT double from_mean(Metric metric, double mean, const MetricScale& scale);
 
-/// The mean of the values, which are at least one.
+/// Returns the mean of the values, of which there is at least one.
 [[nodiscard]] BDPT_EXPORT double mean(const ErrorMap& map);
 
-/// The metric of a whole image. Throws `Error`: invalid_input for images without pixels, of
-/// different sizes, or with NaN or infinity; usage for options that make no sense.
+/// Evaluates the metric of a whole image. Throws `Error`: invalid_input for images without pixels,
+/// of different sizes, or with NaN or infinity; usage for invalid options.
 [[nodiscard]] BDPT_EXPORT double evaluate(Metric metric, const Image& image, const Image& reference,
                                           const MetricOptions& options = {});
 

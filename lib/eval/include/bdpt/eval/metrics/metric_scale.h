@@ -21,36 +21,38 @@
 
 namespace bdpt::eval {
 
-/// The reference of the small number in the denominator of relative errors.
+/// Unit of epsilon in relative errors.
 enum class EpsilonUnit : std::uint8_t {
-    absolute,        ///< 1, or 1 nit: images of about unit brightness
-    reference_mean,  ///< the mean of the reference: images of any brightness
+    absolute,        ///< 1 (1 nit): for images of about unit brightness
+    reference_mean,  ///< the mean of the reference: for images of any brightness
 };
 
-/// The parameters of metrics beside the two images.
+/// Options of metrics.
 struct MetricOptions {
     double epsilon = 0.01;  ///< > 0; keeps relative errors of black pixels finite
     EpsilonUnit epsilon_unit = EpsilonUnit::absolute;
-    std::optional<double> peak{};  ///< of PSNR, > 0; none: the reference's greatest component
-    double pixels_per_degree = default_pixels_per_degree;  ///< of FLIP; 1 to 1000
-    std::optional<FlipExposures> exposures{};  ///< of HDR-FLIP; none: those that suit the reference
-    std::optional<float> exposure{};  ///< [EV] of LDR-FLIP; none: io::automatic_exposure(reference)
+    std::optional<double> peak{};  ///< peak of PSNR, > 0; none: the reference's greatest component
+    double pixels_per_degree = default_pixels_per_degree;  ///< resolution for FLIP, in [1, 1000]
+    std::optional<FlipExposures>
+        exposures{};  ///< exposures of HDR-FLIP; none: `flip_exposures(reference)`
+    std::optional<float>
+        exposure{};  ///< exposure of LDR-FLIP [EV]; none: io::automatic_exposure(reference)
 };
 
-/// The options with all that depends on the reference filled in: the same for every image that is
-/// held against it, so that their errors can be compared.
+/// The options with all values that depend on the reference filled in: the same for every image
+/// compared with it, so that errors are comparable.
 struct MetricScale {
     double epsilon = 0.01;          ///< added to |r| in MAPE and to |x| + |r| in SMAPE
     double squared_epsilon = 0.01;  ///< added to r^2 in relMSE
-    double peak = 1.0;              ///< 0 for a black reference
+    double peak = 1.0;              ///< peak of PSNR; 0 for a black reference
     double pixels_per_degree = default_pixels_per_degree;
     FlipExposures exposures;
-    float exposure = 0.0f;  ///< [EV]
+    float exposure = 0.0f;  ///< exposure of LDR-FLIP [EV]
 };
 
-/// With m the mean of the reference's components (or 1 for absolute epsilons), `epsilon` is
-/// options.epsilon m and `squared_epsilon` options.epsilon m^2. Throws `Error`: usage for numbers
-/// out of range, invalid_input when the mean is needed and not positive.
+/// Computes the scale. With m the mean of the reference's components (or 1 for absolute epsilons),
+/// `epsilon` is options.epsilon m and `squared_epsilon` is options.epsilon m^2. Throws `Error`:
+/// usage for numbers out of range, invalid_input if the mean is needed and not positive.
 [[nodiscard]] BDPT_EXPORT MetricScale make_scale(const Image& reference,
                                                  const MetricOptions& options);
 

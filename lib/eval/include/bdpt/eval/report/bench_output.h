@@ -21,23 +21,23 @@
 
 namespace bdpt::eval {
 
-/// A benchmark with all that is needed to repeat it.
+/// A benchmark with all data needed to repeat it.
 struct BenchRecord {
     BenchOptions options;
     MachineFacts machine;
     std::string started;  ///< UTC, ISO 8601
-    std::string command;  ///< as it was typed
+    std::string command;  ///< command line as typed
     std::vector<SceneResult> scenes;
 };
 
-/// All of it as a JSON object, as docs/bench.md describes it.
+/// Returns the record as a JSON object, as described in docs/bench.md.
 [[nodiscard]] BDPT_EXPORT std::string bench_json(const BenchRecord& record);
 
-/// A line for each checkpoint of each run.
+/// Returns the record as CSV: a line for each checkpoint of each run.
 [[nodiscard]] BDPT_EXPORT std::string bench_csv(const BenchRecord& record);
 
-/// One HTML page with everything in it, from the record and the images that `folder` has. Throws
-/// `Error` like `io::read_image`, or out_of_memory.
+/// Returns a self-contained HTML page of the record and the images in `folder`. Throws `Error` like
+/// `io::read_image`, or out_of_memory.
 [[nodiscard]] BDPT_EXPORT std::string bench_page(const BenchRecord& record,
                                                  const std::filesystem::path& folder);
 

@@ -20,22 +20,23 @@
 
 namespace bdpt::eval {
 
-/// Red, green and blue with 9 bits each and one exponent of 5 bits for all three
+/// Packs red, green and blue with 9 bits each and a shared exponent of 5 bits
 /// [EXT_texture_shared_exponent]: the greatest component keeps a relative error of 2^-9. `rgb` is
 /// clamped to [0, 65408]; NaN is 0.
 [[nodiscard]] BDPT_EXPORT std::uint32_t pack_rgb9e5(Rgb rgb);
-/// The pixels of `packed`.
+/// Unpacks a pixel of `pack_rgb9e5`.
 [[nodiscard]] BDPT_EXPORT Rgb unpack_rgb9e5(std::uint32_t packed);
 
-/// Pixels for a page: each, times `scale`, as RGB9E5; the lowest bytes of all, then the second
-/// lowest ...; compressed [RFC 1950]; as base64 [RFC 4648].
+/// Encodes pixels for a page: each, times `scale`, as RGB9E5; split into byte planes, lowest bytes
+/// first; compressed [RFC 1950]; as base64 [RFC 4648].
 [[nodiscard]] BDPT_EXPORT std::string packed_image(const Image& image, double scale);
 
-/// Bytes, compressed, as base64.
+/// Encodes bytes: compressed, as base64.
 [[nodiscard]] BDPT_EXPORT std::string packed_bytes(std::span<const std::uint8_t> bytes);
 
-/// The power of two that brings light of `mean` [nit] to about 1/4, so that RGB9E5 holds what is up
-/// to 2^18 times brighter, and 2^13 times darker with all its bits. 1 for darkness.
+/// Returns the power of two that scales light of `mean` [nit] to about 1/4, so that RGB9E5 holds up
+/// to 2^18 times brighter light, and 2^13 times darker light with all its bits. Returns 1 for
+/// darkness.
 [[nodiscard]] BDPT_EXPORT double page_scale(double mean);
 
 }  // namespace bdpt::eval

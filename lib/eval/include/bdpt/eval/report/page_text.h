@@ -17,18 +17,18 @@
 #include <utility>
 #include <vector>
 
-// What pages are put together from. Their parts that show images, colours and numbers are shared:
+// Building blocks of HTML pages. Their parts that show images, colours and numbers are shared:
 // lib/eval/src/report/page.
 
 namespace bdpt::eval {
 
-/// Colours of the heat map from 0 to 1, six hexadecimal digits each.
+/// Returns the colours of the heat map from 0 to 1, six hexadecimal digits each.
 [[nodiscard]] BDPT_EXPORT std::string heat_text();
 
-/// JSON that no HTML parser takes for the end of a script.
+/// Escapes JSON so that no HTML parser finds the end of a script in it.
 [[nodiscard]] BDPT_EXPORT std::string script_safe(std::string_view json);
 
-/// `text` with each word in double braces replaced by what it stands for.
+/// Replaces each word in double braces in `text` by its value.
 [[nodiscard]] BDPT_EXPORT std::string fill_page(
     std::string_view text,
     const std::vector<std::pair<std::string_view, std::string_view>>& values);

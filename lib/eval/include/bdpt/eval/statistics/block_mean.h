@@ -18,10 +18,10 @@
 
 namespace bdpt::eval {
 
-/// Standard error of the mean of `width` x `height` values, row-major, whose neighbours depend on
-/// each other, as noise does behind a pixel filter. It is taken from the sums over blocks of
-/// `block` x `block` values, which must be larger than the dependence reaches [the linearised
-/// estimator for clusters, Cochran 1977, ch. 9A]. None when there is only one block.
+/// Returns the standard error of the mean of `width` x `height` values, row-major, whose neighbours
+/// are correlated, as noise is by a pixel filter. It is estimated from the sums over blocks of
+/// `block` x `block` values, which must be larger than the correlation length [the linearised
+/// estimator for clusters, Cochran 1977, ch. 9A]. Returns none if there is only one block.
 [[nodiscard]] BDPT_EXPORT std::optional<double> block_standard_error(std::span<const double> values,
                                                                      int width, int height,
                                                                      int block);

@@ -16,7 +16,7 @@
 
 namespace bdpt::eval {
 
-/// Mean and spread of a stream of numbers [Welford 1962].
+/// Running mean and variance of a stream of numbers [Welford 1962].
 class Moments {
 public:
     void add(double x)
@@ -29,9 +29,9 @@ public:
 
     [[nodiscard]] std::int64_t count() const { return count_; }
     [[nodiscard]] double mean() const { return mean_; }
-    /// Unbiased; needs two numbers.
+    /// Returns the unbiased variance; needs two numbers.
     [[nodiscard]] double variance() const { return squares_ / static_cast<double>(count_ - 1); }
-    /// The standard error of the mean.
+    /// Returns the standard error of the mean.
     [[nodiscard]] double standard_error() const
     {
         return std::sqrt(variance() / static_cast<double>(count_));

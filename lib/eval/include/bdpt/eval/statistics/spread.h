@@ -14,15 +14,15 @@
 
 namespace bdpt::eval {
 
-/// The middle of some numbers, and how far they reach.
+/// Median and range of some numbers.
 struct Spread {
     double median = 0.0;
     double least = 0.0;
     double greatest = 0.0;
 };
 
-/// The spread of at least one number; the median of an even count is the mean of the two in the
-/// middle.
+/// Returns the spread of at least one number; the median of an even count is the mean of the two in
+/// the middle.
 [[nodiscard]] BDPT_EXPORT Spread spread(std::vector<double> values);
 
 }  // namespace bdpt::eval

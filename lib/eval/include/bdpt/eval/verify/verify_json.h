@@ -19,11 +19,11 @@
 
 namespace bdpt::eval {
 
-/// "pass", "fail" or "inconclusive".
+/// Returns "pass", "fail" or "inconclusive".
 [[nodiscard]] BDPT_EXPORT std::string_view to_string(Verdict verdict);
 
-/// The report as one line of JSON, as docs/verify.md describes it, with a line break. Numbers that
-/// are not finite are null; bytes of `scene` that are not UTF-8 are replaced.
+/// Returns the report as one line of JSON, as described in docs/verify.md, with a line break.
+/// Numbers that are not finite are null; bytes of `scene` that are not UTF-8 are replaced.
 [[nodiscard]] BDPT_EXPORT std::string verify_json(const VerifyReport& report,
                                                   std::string_view scene);
 

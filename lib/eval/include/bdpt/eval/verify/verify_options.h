@@ -21,55 +21,56 @@
 
 namespace bdpt::eval {
 
-/// Samples a pixel of a batch. bdpt and mis have most of the time: how sharp the verdict is hangs
-/// on them, for mis is the one to check what only one strategy of bdpt can make.
+/// Samples per pixel of a batch. bdpt and mis take most of the time, as the sharpness of the
+/// verdict depends on them: mis alone checks light that only one strategy of bdpt can find.
 constexpr int bdpt_samples = 32;
-constexpr int mis_samples = 64;    ///< of mis
-constexpr int other_samples = 16;  ///< of pt, nee, lt and vcm
-/// Of pt for paths of one edge: a single ray each, and lamps that are seen are often small.
+constexpr int mis_samples = 64;    ///< samples of mis
+constexpr int other_samples = 16;  ///< samples of pt, nee, lt and vcm
+/// Samples of pt for paths of one edge: a single ray each, and visible area lights are often small.
 constexpr int direct_samples = 64;
 
-/// The options of `verify`: its paths, confidence and sharpness.
+/// Options of `verify`: its paths, confidence and sharpness.
 struct VerifyOptions {
     int width = 32;  ///< [pixels]
     int height = 32;
-    /// Tiles along each side of the image; not more than there are pixels.
+    /// Tiles along each side of the image; not more than pixels.
     int grid = 4;
-    /// Longest paths that are tested [edges], at least 1.
+    /// Maximum path length that is tested [edges], at least 1.
     int max_depth = 5;
-    /// Light paths for each camera path, and how many of them it is connected to, of bdpt; as
-    /// `BidirectionalOptions` has them.
+    /// Light paths per camera path, and the number of light paths that a camera path is connected
+    /// to, of bdpt; see `BidirectionalOptions`.
     double light_paths = 1.0;
     std::optional<double> connections{};
-    /// If there is one, `vcm` is held against bdpt as well, with that
-    /// `BidirectionalOptions::merge_radius`: its image is right in the limit of none.
+    /// If set, `vcm` with this `BidirectionalOptions::merge_radius` is compared with bdpt as well;
+    /// its image is unbiased in the limit of a radius of 0.
     std::optional<double> merge_radius{};
-    /// Merging has a good part of the light of 32 x 32 pixels then, and blurs little.
+    /// A radius at which merging carries much of the light of 32 x 32 pixels but blurs little.
     static constexpr double small_merge_radius = 0.02;
     /// Light samples at each vertex of a camera path, of all integrators but lt and pt, in [1,
     /// 1024].
     int light_samples = 1;
-    /// Chance of `Verdict::fail` for a renderer without fault.
+    /// Probability of `Verdict::fail` for a correct renderer.
     double false_alarm = 1e-3;
-    /// Errors of a strategy that change the mean of the image by this fraction must be found with
-    /// 90 % chance; else the verdict is `inconclusive`.
+    /// Relative error of the image's mean that must be found with a probability of 90 % if a
+    /// strategy causes it; else the verdict is `inconclusive`.
     double detectable_bias = 0.01;
-    double seconds = 120.0;  ///< after which no more batches start
+    double seconds = 120.0;  ///< time after which no more batches start [s]
     std::int64_t max_batches = std::numeric_limits<std::int64_t>::max();
     std::uint64_t seed = 0;
-    int threads = 0;  ///< 0: one for each hardware thread; no influence on what a batch brings
+    int threads = 0;  ///< 0: one per hardware thread; does not change a batch's result
 };
 
-/// How far `verify` is.
+/// Progress of `verify`.
 struct VerifyProgress {
     std::int64_t batches = 0;
-    double seconds = 0.0;     ///< [s] since the start
-    double detectable = 1.0;  ///< what `VerifyOptions::detectable_bias` asks for, as it is now
+    double seconds = 0.0;  ///< time since the start [s]
+    double detectable =
+        1.0;  ///< current value of the error that `VerifyOptions::detectable_bias` limits
 };
 
-/// How a caller watches and stops `verify`. Everything is optional.
+/// Hooks by which a caller watches and stops `verify`. All are optional.
 struct VerifyControl {
-    /// A request ends the renders; what is there is judged.
+    /// A request ends the renders; the verdict is based on the batches so far.
     std::stop_token stop;
     /// Called now and then on the thread that called verify().
     std::function<void(const VerifyProgress&)> on_progress;

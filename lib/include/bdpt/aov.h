@@ -13,8 +13,12 @@
 /// }
 /// @endcode
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
+#include <string_view>
 
 namespace bdpt {
 
@@ -51,6 +55,40 @@ enum class Aov : std::uint8_t {
     opacity,
 };
 
+/// How a layer of the first surface combines the rays of a pixel.
+enum class AovMean : std::uint8_t {
+    none,     ///< no layer of the first surface
+    of_rays,  ///< mean over all rays; those that leave the scene count as 0
+    of_hits,  ///< mean over the rays that hit a surface
+};
+
+/// The names of an AOV, and how it is measured.
+struct AovLayer {
+    Aov aov;
+    std::string_view name;      ///< in options
+    std::string_view layer;     ///< in images; empty: the main layer
+    std::string_view channels;  ///< one letter each; ids have layers of their own
+    AovMean mean = AovMean::none;
+    float without_hits = 0.0f;  ///< the value of a mean of hits without any
+};
+
+/// All AOVs, in the order of their layers. An AOV of the first surface needs its row, and its value
+/// in `PrimaryHit`.
+inline constexpr std::array aov_layers{
+    AovLayer{Aov::albedo, "albedo", "albedo", "RGB", AovMean::of_rays},
+    AovLayer{Aov::normal, "normal", "normal", "XYZ", AovMean::of_rays},
+    AovLayer{Aov::depth, "depth", "depth", "Z", AovMean::of_hits,
+             std::numeric_limits<float>::infinity()},
+    AovLayer{Aov::position, "position", "position", "XYZ", AovMean::of_hits},
+    AovLayer{Aov::sample_count, "samples", "sampleCount", "Y"},
+    AovLayer{Aov::variance, "variance", "variance", "RGB"},
+    AovLayer{Aov::alpha, "alpha", "", "A"},
+    AovLayer{Aov::opacity, "opacity", "opacity", "A"},
+    AovLayer{Aov::object, "object", "", ""},
+    AovLayer{Aov::material, "material", "", ""},
+    AovLayer{Aov::shadow, "shadow", "shadow", "A"},
+};
+
 /// A set of AOVs.
 class AovSet {
 public:
@@ -78,6 +116,14 @@ private:
 [[nodiscard]] constexpr bool asks_for_ids(AovSet aovs)
 {
     return aovs.contains(Aov::object) || aovs.contains(Aov::material);
+}
+
+/// Tests whether a set has AOVs of the first surface beside whether there is one.
+[[nodiscard]] constexpr bool asks_for_surfaces(AovSet aovs)
+{
+    return std::any_of(aov_layers.begin(), aov_layers.end(), [aovs](const AovLayer& layer) {
+        return layer.mean != AovMean::none && aovs.contains(layer.aov);
+    });
 }
 
 }  // namespace bdpt

@@ -9,33 +9,11 @@
 namespace bdpt {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-void add(std::array<ExactSum, 3>& sums, Vec3 value)
-{
-    for (int c = 0; c < 3; ++c) {
-        sums[static_cast<std::size_t>(c)].add(value[c]);
-    }
-}
-
-/// Clamps a value to the range of sums.
-Vec3 limited(Vec3 value)
-{
-    for (int c = 0; c < 3; ++c) {
-        value[c] = std::clamp(value[c], -ExactSum::max_value, ExactSum::max_value);
-    }
-    return value;
-}
-
-void merge_sums(std::vector<std::array<ExactSum, 3>>& to,
-                const std::vector<std::array<ExactSum, 3>>& from)
-{
-    for (std::size_t i = 0; i < to.size(); ++i) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            to[i][c].add(from[i][c]);
-        }
-    }
-}
+static_assert(std::all_of(aov_layers.begin(), aov_layers.end(),
+                          [](const AovLayer& layer) {
+                              return static_cast<std::size_t>(layer.aov) < aov_layers.size();
+                          }),
+              "PrimaryHit has room for every AOV");
 
 void merge_sums(std::vector<ExactSum>& to, const std::vector<ExactSum>& from)
 {
@@ -59,12 +37,12 @@ AovFilm::AovFilm(const PixelRect& region, AovSet aovs, PixelCounts counts)
     const std::size_t pixels =
         static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
     const auto room = [&](Aov aov) { return aovs.contains(aov) ? pixels : 0; };
-    albedo_.resize(room(Aov::albedo));
-    normal_.resize(room(Aov::normal));
-    position_.resize(room(Aov::position));
-    depth_.resize(room(Aov::depth));
-    hits_.resize(std::max({room(Aov::albedo), room(Aov::normal), room(Aov::position),
-                           room(Aov::depth), room(Aov::alpha)}));
+    for (std::size_t k = 0; k < aov_layers.size(); ++k) {
+        if (aov_layers[k].mean != AovMean::none) {
+            surface_[k].resize(room(aov_layers[k].aov) * aov_layers[k].channels.size());
+        }
+    }
+    hits_.resize(asks_for_surfaces(aovs) ? pixels : room(Aov::alpha));
     counts_.resize(counts == PixelCounts::own ? room(Aov::sample_count) : 0);
     opacity_.resize(room(Aov::opacity));
     unshadowed_.resize(room(Aov::shadow));
@@ -84,17 +62,15 @@ void AovFilm::add(int x, int y, const PrimaryHit& hit) noexcept
     if (!hits_.empty()) {
         ++hits_[i];
     }
-    if (!albedo_.empty()) {
-        bdpt::add(albedo_[i], hit.albedo);
-    }
-    if (!normal_.empty()) {
-        bdpt::add(normal_[i], hit.normal);
-    }
-    if (!position_.empty()) {
-        bdpt::add(position_[i], limited(hit.position));
-    }
-    if (!depth_.empty()) {
-        depth_[i].add(std::min(hit.depth, ExactSum::max_value));
+    for (std::size_t k = 0; k < aov_layers.size(); ++k) {
+        if (!surface_[k].empty()) {
+            const std::size_t channels = aov_layers[k].channels.size();
+            const Vec3& value = hit[aov_layers[k].aov];
+            for (std::size_t c = 0; c < channels; ++c) {
+                surface_[k][i * channels + c].add(std::clamp(
+                    value[static_cast<int>(c)], -ExactSum::max_value, ExactSum::max_value));
+            }
+        }
     }
 }
 
@@ -121,10 +97,9 @@ void AovFilm::merge(const AovFilm& other)
     if (region_ != other.region_ || aovs_ != other.aovs_ || pixel_counts_ != other.pixel_counts_) {
         throw Error(ErrorCode::usage, "AOVs to merge differ in their region or in what they hold");
     }
-    merge_sums(albedo_, other.albedo_);
-    merge_sums(normal_, other.normal_);
-    merge_sums(position_, other.position_);
-    merge_sums(depth_, other.depth_);
+    for (std::size_t k = 0; k < surface_.size(); ++k) {
+        merge_sums(surface_[k], other.surface_[k]);
+    }
     merge_counts(hits_, other.hits_);
     merge_counts(counts_, other.counts_);
     merge_sums(opacity_, other.opacity_);
@@ -136,34 +111,34 @@ void AovFilm::merge(const AovFilm& other)
 std::vector<AovFilm::Plane> AovFilm::planes() const
 {
     std::vector<Plane> result;
-    const auto add_color = [&](const char* name, const char* channels,
-                               std::vector<Sum3> AovFilm::*sums) {
-        for (std::size_t c = 0; c < 3 && !(this->*sums).empty(); ++c) {
-            result.push_back(
-                {.name = std::string(name) + "." + channels[c], .color = sums, .channel = c});
+    for (std::size_t k = 0; k < aov_layers.size(); ++k) {
+        const AovLayer& layer = aov_layers[k];
+        for (std::size_t c = 0; c < layer.channels.size() && !surface_[k].empty(); ++c) {
+            result.push_back({.name = std::string(layer.layer) + "." + layer.channels[c],
+                              .layer = k,
+                              .channel = c});
         }
-    };
-    add_color("albedo", "RGB", &AovFilm::albedo_);
-    add_color("normal", "XYZ", &AovFilm::normal_);
-    add_color("position", "XYZ", &AovFilm::position_);
-    if (!depth_.empty()) {
-        result.push_back({.name = "depth.Z", .single = &AovFilm::depth_});
     }
     if (!hits_.empty()) {
-        result.push_back({.name = "hits", .count = &AovFilm::hits_});
+        result.push_back({.name = "hits", .counts = &AovFilm::hits_});
     }
     if (!counts_.empty()) {
-        result.push_back({.name = "counts", .count = &AovFilm::counts_});
+        result.push_back({.name = "counts", .counts = &AovFilm::counts_});
     }
     if (needs_opacity()) {
-        result.push_back({.name = "opacity", .single = &AovFilm::opacity_});
+        result.push_back({.name = "opacity", .sums = &AovFilm::opacity_});
     }
     if (needs_ground()) {
-        result.push_back({.name = "ground.unshadowed", .single = &AovFilm::unshadowed_});
-        result.push_back({.name = "ground.shadowed", .single = &AovFilm::shadowed_});
-        result.push_back({.name = "ground.hits", .count = &AovFilm::ground_hits_});
+        result.push_back({.name = "ground.unshadowed", .sums = &AovFilm::unshadowed_});
+        result.push_back({.name = "ground.shadowed", .sums = &AovFilm::shadowed_});
+        result.push_back({.name = "ground.hits", .counts = &AovFilm::ground_hits_});
     }
     return result;
+}
+
+std::size_t AovFilm::element(const Plane& plane, std::size_t pixel)
+{
+    return pixel * aov_layers[plane.layer].channels.size() + plane.channel;
 }
 
 std::vector<std::string> AovFilm::plane_names() const
@@ -181,10 +156,10 @@ void AovFilm::read_row(std::size_t plane, int row, std::span<ExactSum::Words> wo
     const std::size_t first =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(region_.width());
     for (std::size_t x = 0; x < words.size(); ++x) {
-        words[x] = which.color ? (this->*which.color)[first + x][which.channel].words()
-                   : which.single
-                       ? (this->*which.single)[first + x].words()
-                       : ExactSum::Words{.low = (this->*which.count)[first + x], .high = 0};
+        words[x] = which.counts
+                       ? ExactSum::Words{.low = (this->*which.counts)[first + x], .high = 0}
+                   : which.sums ? (this->*which.sums)[first + x].words()
+                                : surface_[which.layer][element(which, first + x)].words();
     }
 }
 
@@ -194,12 +169,12 @@ void AovFilm::add_row(std::size_t plane, int row, std::span<const ExactSum::Word
     const std::size_t first =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(region_.width());
     for (std::size_t x = 0; x < words.size(); ++x) {
-        if (which.color) {
-            (this->*which.color)[first + x][which.channel].add(words[x]);
-        } else if (which.single) {
-            (this->*which.single)[first + x].add(words[x]);
+        if (which.counts) {
+            (this->*which.counts)[first + x] += words[x].low;
+        } else if (which.sums) {
+            (this->*which.sums)[first + x].add(words[x]);
         } else {
-            (this->*which.count)[first + x] += words[x].low;
+            surface_[which.layer][element(which, first + x)].add(words[x]);
         }
     }
 }
@@ -220,52 +195,55 @@ std::vector<Layer> AovFilm::develop(const Film& film) const
         throw Error(ErrorCode::usage, "the AOVs and the film are not of the same region");
     }
     const auto samples = static_cast<double>(film.sample_count());
-    std::vector<Layer> layers;
-    const auto layer = [&](Aov aov, const char* name, const char* channels, const auto& pixel) {
-        if (!aovs_.contains(aov)) {
-            return;
+    const Image variance = aovs_.contains(Aov::variance) ? film.variance() : Image{};
+    const auto over_samples = [&](double sum) { return samples > 0.0 ? sum / samples : 0.0; };
+    const auto of_surface = [&](std::size_t k, std::size_t i, std::size_t c) {
+        const AovLayer& info = aov_layers[k];
+        const double sum = surface_[k][i * info.channels.size() + c].value();
+        if (info.mean == AovMean::of_rays) {
+            return over_samples(sum);
         }
-        Layer result{.name = name,
-                     .channels = channels,
-                     .width = region_.width(),
-                     .height = region_.height(),
-                     .values = {}};
+        return hits_[i] > 0 ? sum / static_cast<double>(hits_[i])
+                            : static_cast<double>(info.without_hits);
+    };
+    const auto value = [&](std::size_t k, std::size_t i, std::size_t c) {
+        switch (aov_layers[k].aov) {
+            case Aov::alpha:
+                return over_samples(static_cast<double>(hits_[i])) +
+                       (needs_ground() ? shadow_opacity(i, samples) : 0.0);
+            case Aov::shadow:
+                return shadow_opacity(i, samples);
+            case Aov::opacity:
+                return over_samples(opacity_[i].value());
+            case Aov::sample_count:
+                return counts_.empty() ? samples : static_cast<double>(counts_[i]);
+            case Aov::variance:
+                return static_cast<double>(variance.pixels[i][static_cast<int>(c)]);
+            default:
+                return of_surface(k, i, c);
+        }
+    };
+    std::vector<Layer> layers;
+    for (std::size_t k = 0; k < aov_layers.size(); ++k) {
+        const AovLayer& info = aov_layers[k];
+        if (!aovs_.contains(info.aov) || info.channels.empty()) {
+            continue;
+        }
+        Layer layer{.name = std::string(info.layer),
+                    .channels = std::string(info.channels),
+                    .width = region_.width(),
+                    .height = region_.height(),
+                    .values = {}};
         const std::size_t pixels =
-            static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
-        result.values.reserve(pixels * result.channels.size());
+            static_cast<std::size_t>(layer.width) * static_cast<std::size_t>(layer.height);
+        layer.values.reserve(pixels * info.channels.size());
         for (std::size_t i = 0; i < pixels; ++i) {
-            for (std::size_t c = 0; c < result.channels.size(); ++c) {
-                result.values.push_back(static_cast<float>(pixel(i, c)));
+            for (std::size_t c = 0; c < info.channels.size(); ++c) {
+                layer.values.push_back(static_cast<float>(value(k, i, c)));
             }
         }
-        layers.push_back(std::move(result));
-    };
-    const auto over_samples = [&](double sum) { return samples > 0.0 ? sum / samples : 0.0; };
-    const auto over_hits = [&](double sum, std::size_t i, double without) {
-        return hits_[i] > 0 ? sum / static_cast<double>(hits_[i]) : without;
-    };
-    using Index = std::size_t;
-    const auto shadow = [&](Index i, Index) { return shadow_opacity(i, samples); };
-    layer(Aov::alpha, "", "A", [&](Index i, Index) {
-        return over_samples(static_cast<double>(hits_[i])) + (needs_ground() ? shadow(i, 0) : 0.0);
-    });
-    layer(Aov::shadow, "shadow", "A", shadow);
-    layer(Aov::opacity, "opacity", "A",
-          [&](Index i, Index) { return over_samples(opacity_[i].value()); });
-    layer(Aov::albedo, "albedo", "RGB",
-          [&](Index i, Index c) { return over_samples(albedo_[i][c].value()); });
-    layer(Aov::normal, "normal", "XYZ",
-          [&](Index i, Index c) { return over_samples(normal_[i][c].value()); });
-    layer(Aov::depth, "depth", "Z",
-          [&](Index i, Index) { return over_hits(depth_[i].value(), i, infinity); });
-    layer(Aov::position, "position", "XYZ",
-          [&](Index i, Index c) { return over_hits(position_[i][c].value(), i, 0.0); });
-    layer(Aov::sample_count, "sampleCount", "Y", [&](Index i, Index) {
-        return counts_.empty() ? samples : static_cast<double>(counts_[i]);
-    });
-    const Image variance = aovs_.contains(Aov::variance) ? film.variance() : Image{};
-    layer(Aov::variance, "variance", "RGB",
-          [&](Index i, Index c) { return variance.pixels[i][static_cast<int>(c)]; });
+        layers.push_back(std::move(layer));
+    }
     return layers;
 }
 

@@ -12,23 +12,12 @@
 
 namespace bdpt {
 
-namespace {
-
-/// Tests whether a layer needs more of a surface than the fact that a ray hit it.
-bool shows_surfaces(AovSet aovs)
-{
-    return aovs.contains(Aov::albedo) || aovs.contains(Aov::normal) ||
-           aovs.contains(Aov::position) || aovs.contains(Aov::depth);
-}
-
-}  // namespace
-
 AovPass::AovPass(const World& world, const MovingCamera& camera, const RenderOptions& options)
     : world_(world),
       camera_(camera),
       options_(options),
       filter_(options.film.filter),
-      needs_surfaces_(shows_surfaces(options.film.aovs)),
+      needs_surfaces_(asks_for_surfaces(options.film.aovs)),
       ground_(world, options)
 {
     if (asks_for_ids(options.film.aovs)) {
@@ -83,11 +72,12 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
                 world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
             is_opaque = point.opacity >= 1.0f;
             const Vec3 normal = point.bsdf.shading_normal();
-            film.add(x, y,
-                     {.albedo = point.bsdf.base_color(),
-                      .normal = dot(normal, ray.direction) > 0.0f ? -normal : normal,
-                      .position = point.end.p,
-                      .depth = camera.depth(point.end.p)});
+            PrimaryHit first;
+            first[Aov::albedo] = point.bsdf.base_color();
+            first[Aov::normal] = dot(normal, ray.direction) > 0.0f ? -normal : normal;
+            first[Aov::position] = point.end.p;
+            first[Aov::depth].x = camera.depth(point.end.p);
+            film.add(x, y, first);
         } else {
             film.add(x, y, {});
         }

@@ -4,37 +4,33 @@
 #include <bdpt/film/id_film.h>
 #include <bdpt/options/integrators.h>
 
-#include <array>
-#include <utility>
-
 namespace bdpt::app {
 namespace {
 
 constexpr std::uint64_t color_sum = 3 * sizeof(ExactSum);
 constexpr std::uint64_t shadow_sums = 2 * sizeof(ExactSum) + sizeof(std::uint64_t);
 
-/// Memory per pixel of an AOV: sums in an `AovFilm` or `IdFilm`, and floats of the developed layer.
-struct AovCost {
-    Aov aov;
-    std::uint64_t sums;  // [bytes]
-    std::uint64_t channels;
-};
-
-/// Typical cost of a pixel; each further id takes 8 bytes, and the heap's overhead.
+/// Typical cost of a pixel's ids; each further one takes 8 bytes, and the heap's overhead.
 constexpr std::uint64_t two_ids = sizeof(IdCounts) + 32;
 constexpr std::uint64_t id_channels = 2 * IdFilm::levels;
 
-constexpr std::array<AovCost, 11> aov_costs{{{Aov::albedo, color_sum, 3},
-                                             {Aov::normal, color_sum, 3},
-                                             {Aov::depth, sizeof(ExactSum), 1},
-                                             {Aov::position, color_sum, 3},
-                                             {Aov::sample_count, 0, 1},
-                                             {Aov::variance, 0, 3},
-                                             {Aov::alpha, sizeof(std::uint64_t), 1},
-                                             {Aov::shadow, shadow_sums, 1},
-                                             {Aov::opacity, sizeof(ExactSum), 1},
-                                             {Aov::object, two_ids, id_channels},
-                                             {Aov::material, two_ids, id_channels}}};
+/// Returns the size of the sums of a pixel in an `AovFilm` or `IdFilm` [bytes].
+std::uint64_t sums_of(const AovLayer& layer)
+{
+    switch (layer.aov) {
+        case Aov::object:
+        case Aov::material:
+            return two_ids;
+        case Aov::alpha:
+            return sizeof(std::uint64_t);
+        case Aov::opacity:
+            return sizeof(ExactSum);
+        case Aov::shadow:
+            return shadow_sums;
+        default:
+            return layer.mean == AovMean::none ? 0 : layer.channels.size() * sizeof(ExactSum);
+    }
+}
 
 }  // namespace
 
@@ -43,10 +39,12 @@ std::uint64_t film_bytes(const RenderOptions& options, const Size& size)
     const bool splats = info(options.integrator).traces_light_paths;
     constexpr std::uint64_t halves = 2;
     std::uint64_t pixel = halves * (splats ? 2 : 1) * color_sum + sizeof(Rgb);
-    for (const AovCost& cost : aov_costs) {
-        if (options.film.aovs.contains(cost.aov)) {
+    for (const AovLayer& layer : aov_layers) {
+        if (options.film.aovs.contains(layer.aov)) {
+            const bool is_id = layer.aov == Aov::object || layer.aov == Aov::material;
+            const std::uint64_t channels = is_id ? id_channels : layer.channels.size();
             // Developed, and once more in the channel order of a file.
-            pixel += cost.sums + 2 * cost.channels * sizeof(float);
+            pixel += sums_of(layer) + 2 * channels * sizeof(float);
         }
     }
     const PixelRect region = options.film.crop.value_or(

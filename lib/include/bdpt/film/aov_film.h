@@ -31,12 +31,18 @@
 
 namespace bdpt {
 
-/// The first surface that a camera ray hits.
-struct PrimaryHit {
-    Rgb albedo{0.0f};
-    Vec3 normal{0.0f};    ///< unit length
-    Vec3 position{0.0f};  ///< [m]
-    float depth = 0.0f;   ///< along the camera's axis [m]
+/// The first surface that a camera ray hits: the value of each AOV of first surfaces. Layers of one
+/// channel have it in x.
+class PrimaryHit {
+public:
+    [[nodiscard]] Vec3& operator[](Aov aov) { return values_[static_cast<std::size_t>(aov)]; }
+    [[nodiscard]] const Vec3& operator[](Aov aov) const
+    {
+        return values_[static_cast<std::size_t>(aov)];
+    }
+
+private:
+    std::array<Vec3, aov_layers.size()> values_{};
 };
 
 /// Direct light on the ground where a camera ray hits it: luminance of its irradiance [lx].
@@ -98,17 +104,17 @@ public:
     [[nodiscard]] bool operator==(const AovFilm& other) const = default;
 
 private:
-    using Sum3 = std::array<ExactSum, 3>;
-
     /// A sum or a count for each pixel.
     struct Plane {
         std::string name;
-        std::vector<Sum3> AovFilm::*color = nullptr;
-        std::size_t channel = 0;
-        std::vector<ExactSum> AovFilm::*single = nullptr;
-        std::vector<std::uint64_t> AovFilm::*count = nullptr;
+        std::size_t layer = 0;    // of `surface_`
+        std::size_t channel = 0;  // of that
+        std::vector<ExactSum> AovFilm::*sums = nullptr;
+        std::vector<std::uint64_t> AovFilm::*counts = nullptr;
     };
     [[nodiscard]] std::vector<Plane> planes() const;
+    /// Returns the index of a pixel's sum in a plane of `surface_`.
+    [[nodiscard]] static std::size_t element(const Plane& plane, std::size_t pixel);
     /// Returns the index of a pixel in the region.
     [[nodiscard]] std::size_t index(int x, int y) const;
     /// Returns the opacity of the shadow in a pixel with that many samples.
@@ -117,11 +123,9 @@ private:
     PixelRect region_;
     AovSet aovs_;
     PixelCounts pixel_counts_ = PixelCounts::equal;
+    // One sum per pixel and channel for each row of `aov_layers` that was requested, else empty.
+    std::array<std::vector<ExactSum>, aov_layers.size()> surface_;
     // One element per pixel if requested, else empty.
-    std::vector<Sum3> albedo_;
-    std::vector<Sum3> normal_;
-    std::vector<Sum3> position_;
-    std::vector<ExactSum> depth_;
     std::vector<std::uint64_t> hits_;
     std::vector<std::uint64_t> counts_;
     std::vector<ExactSum> opacity_;

@@ -83,14 +83,13 @@ inline constexpr std::array enumerators<FilterKind>{
 };
 /// Names of AOVs in options; `shadow` is requested with --ground.
 template <>
-inline constexpr std::array enumerators<Aov>{
-    Enumerator{Aov::albedo, "albedo"},        Enumerator{Aov::normal, "normal"},
-    Enumerator{Aov::depth, "depth"},          Enumerator{Aov::position, "position"},
-    Enumerator{Aov::sample_count, "samples"}, Enumerator{Aov::variance, "variance"},
-    Enumerator{Aov::alpha, "alpha"},          Enumerator{Aov::opacity, "opacity"},
-    Enumerator{Aov::object, "object"},        Enumerator{Aov::material, "material"},
-    Enumerator{Aov::shadow, "shadow"},
-};
+inline constexpr auto enumerators<Aov> = [] {
+    std::array<Enumerator<Aov>, aov_layers.size()> result{};
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i] = {aov_layers[i].aov, aov_layers[i].name};
+    }
+    return result;
+}();
 
 /// Fields of `Strategy`, with names.
 template <>

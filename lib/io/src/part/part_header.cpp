@@ -62,16 +62,12 @@ FilmLayout read_layout(const JsonValue& json)
     return layout;
 }
 
-constexpr std::array all_aovs{Aov::albedo,       Aov::normal,   Aov::depth,  Aov::position,
-                              Aov::sample_count, Aov::variance, Aov::alpha,  Aov::shadow,
-                              Aov::object,       Aov::material, Aov::opacity};
-
 ordered_json to_json(const AovSet& aovs)
 {
     ordered_json json = ordered_json::array();
-    for (const Aov aov : all_aovs) {
-        if (aovs.contains(aov)) {
-            json.push_back(static_cast<int>(aov));
+    for (const AovLayer& layer : aov_layers) {
+        if (aovs.contains(layer.aov)) {
+            json.push_back(static_cast<int>(layer.aov));
         }
     }
     return json;
@@ -81,7 +77,7 @@ AovSet read_aovs(const JsonValue& json)
 {
     AovSet aovs;
     for (const JsonValue& number : json.elements()) {
-        aovs.insert(static_cast<Aov>(number.number(0, static_cast<int>(all_aovs.back()))));
+        aovs.insert(static_cast<Aov>(number.number(0, static_cast<int>(aov_layers.size()) - 1)));
     }
     return aovs;
 }

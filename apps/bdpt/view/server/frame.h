@@ -26,7 +26,7 @@ struct Frame {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::uint32_t samples = 0;
-    std::uint32_t channels = 3;          ///< 3: RGB; 5: RGB and coverage of the background
+    std::uint32_t channels = 3;          ///< 3: RGB; 5: RGB, covered and background fraction
     std::vector<std::uint8_t> pixels{};  ///< halves, little-endian
     std::map<ClientId, std::uint32_t>
         sequences{};  ///< last request of each page that the picture reflects

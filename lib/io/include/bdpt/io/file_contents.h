@@ -13,8 +13,7 @@ namespace bdpt::io {
 
 /// Content hash of a file that a scene is read from.
 struct FileContent {
-    std::string
-        name;  ///< file name of the scene; of other files the URI by which it refers to them
+    std::string name;  ///< file name of the scene; of other files the URI in the scene
     std::optional<ContentHash> hash;  ///< hash of all its bytes; none: it cannot be read
     [[nodiscard]] bool operator==(const FileContent&) const = default;
 };

@@ -38,8 +38,8 @@ void wait_for_renders()
 NB_MODULE(_bdpt, module)
 {
     module.doc() = "Bidirectional path tracing.";
-    nb::set_leak_warnings(
-        false);  // they are for developers, and daemon threads leak the objects they use
+    // Leak warnings are for developers, and daemon threads leak the objects they use.
+    nb::set_leak_warnings(false);
     module.attr("__version__") = BDPT_VERSION;
     error_type = new nb::object(nb::steal(PyErr_NewExceptionWithDoc(
         "bdpt.Error",

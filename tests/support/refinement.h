@@ -14,8 +14,8 @@ enum class CellBatches { separate, common };
 
 /// Statistics of a renderer's batches so far; by default, those of a known mean.
 struct BatchEvidence {
-    std::array<double, compared_cells>
-        variance{};  ///< variance of one batch, relative to the squared mean
+    /// Variance of one batch, relative to the squared mean.
+    std::array<double, compared_cells> variance{};
     std::array<int, compared_cells> batches{};  ///< number of batches so far
     double work = 0.0;                          ///< work of a batch of all cells, in any unit
     CellBatches cells = CellBatches::separate;

@@ -80,8 +80,8 @@ int run_compare(const CompareArguments& arguments)
     for (const std::string& warning : comparison.warnings) {
         console.warning(warning);
     }
-    std::exception_ptr
-        failure;  // failure of the image; deferred, so that the report is still printed
+    // Failure of the image; deferred, so that the report is still printed.
+    std::exception_ptr failure;
     if (arguments.error_image) {
         try {
             write_error_image(arguments, report);

@@ -149,9 +149,8 @@ void OptionList::store_given()
         if (option.repeats) {
             option.clear();
         }
-        const std::size_t first = option.repeats || !option.given()
-                                      ? 0
-                                      : option.texts.size() - 1;  // else only the last one
+        // All texts of a repeatable option, else only the last one.
+        const std::size_t first = option.repeats || !option.given() ? 0 : option.texts.size() - 1;
         for (std::size_t i = first; i < option.texts.size(); ++i) {
             if (!option.store(option.texts[i])) {
                 reject(option.name(), option.texts[i], option.expected);

@@ -38,15 +38,15 @@ struct ValueInfo {
     std::vector<std::string> words{};  ///< allowed words, if only these are allowed
     bool is_path = false;              ///< a file or folder, unless it is one of `words`
     bool may_be_number = false;        ///< a text that JSON may give as a number
-    char separator =
-        '\0';  ///< between several numbers, which may be an array in JSON; 0: a single value
+    /// Between several numbers, which may be an array in JSON; 0: a single value.
+    char separator = '\0';
 };
 
 /// Conversion of a text to a value.
 template <typename T>
 struct ValueType {
-    std::function<std::optional<T>(const std::string&)>
-        parse;             ///< returns none for an invalid value
+    /// Returns none for an invalid value.
+    std::function<std::optional<T>(const std::string&)> parse;
     std::string expected;  ///< description of valid values, as in "expected a number from 0 to 1"
     ValueInfo info{};
 };

@@ -63,8 +63,8 @@ struct RenderArguments {
     std::optional<MediumDesc> fog{};         ///< around all bodies, if any
     std::optional<VolumeChoice> volume{};    ///< in the scene, if any
     DisplayArguments display{};
-    std::optional<float>
-        light_exposure{};  ///< exposure of a white card [EV], if the light was metered
+    /// Exposure of a white card [EV], if the light was metered.
+    std::optional<float> light_exposure{};
     std::optional<DenoiseArguments> denoise{};  ///< set if images are to be denoised
     ExrFormat exr{};
     std::optional<std::filesystem::path> stats{};  ///< file for statistics of the render

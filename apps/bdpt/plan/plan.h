@@ -40,8 +40,8 @@ struct Plan {
     std::optional<std::filesystem::path> environment{};  ///< the file of --env
     std::optional<std::filesystem::path> volume{};       ///< the file of --volume
     std::optional<std::filesystem::path> rates{};  ///< the file of --rates, in the plan's folder
-    std::vector<std::string>
-        render_options{};  ///< further words of bdpt render, the same for all tasks
+    /// Further words of bdpt render, the same for all tasks.
+    std::vector<std::string> render_options{};
     std::vector<std::string> merge_options{};      ///< words of bdpt merge
     std::vector<std::filesystem::path> outputs{};  ///< with #### and {camera} for several images
     std::optional<std::filesystem::path> strategies{};  ///< .exr file of strategy images

@@ -24,8 +24,8 @@ struct PreparedScene {
     double load_seconds = 0.0;          ///< reading files
     double build_seconds = 0.0;         ///< building the scene
     std::string xmp{};                  ///< the file's metadata about itself
-    std::size_t lights =
-        0;  ///< lights of the file and of --env, without those added to a dark scene
+    /// Lights of the file and of --env, without those added to a dark scene.
+    std::size_t lights = 0;
     bool is_framed = false;                      ///< the camera is not one of the file
     std::vector<CameraDesc> cameras{};           ///< those of the scene
     std::vector<std::filesystem::path> files{};  ///< that the scene names

@@ -100,8 +100,8 @@ double memory_in(const fs::path& folder)
 
 CgroupLimits cgroup_limits(const fs::path& root)
 {
-    constexpr double no_machine =
-        0x1p60;  // [bytes]; version 1 states a huge number if there is no limit
+    // [bytes]; version 1 states a huge number if there is no limit.
+    constexpr double no_machine = 0x1p60;
     constexpr double max_processors = 4096.0;
     const fs::path mounts = root / "sys/fs/cgroup";
     double processors = unlimited;

@@ -90,8 +90,8 @@ std::string one_line(std::string_view text)
 std::string escaped(std::string_view text)
 {
     return with_replaced(valid_utf8(text), [](char32_t code) {
-        constexpr char32_t pairs =
-            0x10000;  // JSON writes characters from here on as two surrogates
+        // JSON writes characters from here on as two surrogates.
+        constexpr char32_t pairs = 0x10000;
         if (code == U'\n' || code == U'\t') {
             return std::string(1, static_cast<char>(code));
         }

@@ -23,8 +23,9 @@ struct Scale {
     std::vector<Tick> ticks;
 };
 
-/// Returns the noise by blocks of 8 x 8 pixels: the standard error of their mean relative to it, in
-/// dark blocks relative to 1 % of the image's mean. Black before there are two samples.
+/// Returns the noise by blocks of 8 x 8 pixels: the standard error of a pixel (root mean square)
+/// relative to the block's mean, which counts as at least 1 % of the image's mean. Black before
+/// there are two samples.
 [[nodiscard]] Image noise_image(const Film& film);
 [[nodiscard]] Scale noise_scale();
 

@@ -42,8 +42,8 @@ struct ViewState {
     double automatic_exposure = 0.0;  ///< exposure [EV] used if none is set
     bool exposure_is_automatic = true;
     std::string curve;
-    std::string
-        background;  ///< "transparent" or a colour, such as "#ffffff"; empty: the environment
+    /// "transparent" or a colour, such as "#ffffff"; empty: the environment.
+    std::string background;
     std::vector<ViewLayer> layers;
     ViewLayer layer = ViewLayer::picture;
     std::optional<Scale> scale{};

@@ -46,8 +46,8 @@ std::vector<std::string> render_words(const std::vector<std::string>& words)
         const std::string& word = words[i];
         const std::string name = word.substr(0, word.find('='));
         if (has(with_value, name)) {
-            i += std::size_t{
-                name.size() == word.size() ? 1U : 0U};  // otherwise the word contains the value
+            // Skips the value, unless the word contains it.
+            i += std::size_t{name.size() == word.size() ? 1U : 0U};
         } else if (!has(flags, word) && !(word.starts_with("-o") && word.size() > 2)) {
             result.push_back(one_line(word));
         }

@@ -18,18 +18,18 @@ using ClientId = std::uint64_t;
 struct Frame {
     std::uint32_t slot = 0;        ///< index of the integrator that made it
     std::uint32_t generation = 0;  ///< version of the view, incremented with each change
-    std::uint32_t grid_width =
-        0;  ///< width of the whole picture [pixels]; less for coarse pictures
+    /// Width of the whole picture [pixels]; less for coarse pictures.
+    std::uint32_t grid_width = 0;
     std::uint32_t grid_height = 0;
     std::uint32_t x = 0;  ///< position of `pixels` in the grid
     std::uint32_t y = 0;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::uint32_t samples = 0;
-    std::uint32_t channels = 3;          ///< 3: RGB; 5: RGB and coverage of the background
+    std::uint32_t channels = 3;          ///< 3: RGB; 5: RGB, covered and background fraction
     std::vector<std::uint8_t> pixels{};  ///< halves, little-endian
-    std::map<ClientId, std::uint32_t>
-        sequences{};  ///< last request of each page that the picture reflects
+    /// Last request of each page that the picture reflects.
+    std::map<ClientId, std::uint32_t> sequences{};
 };
 
 /// Bytes before the pixels.

@@ -158,8 +158,8 @@ private:
         });
     }
 
-    ServerState
-        state_;  // first: connections, owned by the context, use it while they are destroyed
+    // First: connections, owned by the context, use it while they are destroyed.
+    ServerState state_;
     asio::io_context context_{1};
     asio::signal_set signals_;
     tcp::acceptor acceptor_;

@@ -27,8 +27,8 @@ Rgb linear_from_relative_xyz(Vec3 relative)
             0.0556394198f * c.x - 0.2040112061f * c.y + 1.0571489770f * c.z};
 }
 
-constexpr float knee =
-    6.0f / 29.0f;  // knee of CIE 1976: below its cube the root is replaced by a line
+// Knee of CIE 1976: below its cube the root is replaced by a line.
+constexpr float knee = 6.0f / 29.0f;
 
 float lab_curve(float t)
 {

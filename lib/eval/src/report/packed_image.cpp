@@ -38,8 +38,8 @@ std::string base64(std::span<const Bytef> bytes)
 std::uint32_t pack_rgb9e5(Rgb rgb)
 {
     const auto clamped = [](float value) {
-        return value > 0.0f ? std::min(value, max_value)
-                            : 0.0f;  // NaN is not above 0, so it becomes 0
+        // NaN is not above 0, so it becomes 0.
+        return value > 0.0f ? std::min(value, max_value) : 0.0f;
     };
     const Rgb color(clamped(rgb.r), clamped(rgb.g), clamped(rgb.b));
     const float greatest = std::max({color.r, color.g, color.b});

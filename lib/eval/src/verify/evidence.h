@@ -69,8 +69,8 @@ struct LengthEvidence {
     Moments from_camera;
     Moments from_light;
     std::array<Moments, other_integrators.size()> others;
-    std::array<SecondMoment, other_integrators.size()>
-        seen;  ///< second moments of the samples of `others`
+    /// Second moments of the samples of `others`.
+    std::array<SecondMoment, other_integrators.size()> seen;
     LengthSums sums;
 };
 

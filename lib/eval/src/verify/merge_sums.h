@@ -19,8 +19,8 @@ struct MergeSumsOfLength {
     double tested = 0.0;     ///< g times merged paths, weighted among merges alone
     double expected = 0.0;   ///< g times the weighted paths of all techniques
     double by_merges = 0.0;  ///< part of `expected` that was merged
-    SecondMoment
-        second_moment;  ///< second moment of a sample of `tested`, estimated from all paths
+    /// Second moment of a sample of `tested`, estimated from all paths.
+    SecondMoment second_moment;
     SecondMoment seen;
 
     MergeSumsOfLength& operator+=(const MergeSumsOfLength& other);

@@ -60,8 +60,8 @@ constexpr double full_share = 1.0 / 16.0;
 struct StrategySums {
     double tested = 0.0;    ///< g times the unweighted paths that u found
     double expected = 0.0;  ///< g times the weighted paths of all strategies
-    SecondMoment
-        second_moment;      ///< moment of a sample's `tested - expected`, estimated from all paths
+    /// Moment of a sample's `tested - expected`, estimated from all paths.
+    SecondMoment second_moment;
     SecondMoment seen;      ///< moment of a sample's `tested - expected`, from the paths as found
     double reach = 0.0;     ///< weighted paths that u can sample, found by any strategy
     double weighted = 0.0;  ///< paths that u found

@@ -117,8 +117,8 @@ void for_each_measure(Batch& batch, const Visit& visit)
 void render_merges(const Scene& scene, const CameraDesc& camera, const VerifyOptions& options,
                    std::int64_t number, Batch& batch)
 {
-    constexpr std::uint64_t other_numbers =
-        0x6d65726765;  // distinct from those of the image of vcm
+    // Makes numbers distinct from those of the image of vcm.
+    constexpr std::uint64_t other_numbers = 0x6d65726765;
     RenderOptions balanced =
         render_options(options, IntegratorKind::vcm, number, 1, options.max_depth);
     balanced.transport.heuristic = Heuristic::balance;

@@ -47,8 +47,8 @@ Bytes read_all(std::uint64_t limit, const WorthReading& worth, const MemoryBudge
     bool judged = !worth;
     for (std::size_t count = read_some(block); count > 0; count = read_some(block)) {
         if (memory != nullptr && bytes.size() + count > bytes.capacity()) {
-            memory->check("standard input",
-                          3 * bytes.size());  // growing copies it to twice the room
+            // Growing copies it to twice the room.
+            memory->check("standard input", 3 * bytes.size());
         }
         bytes.insert(bytes.end(), block.begin(),
                      block.begin() + static_cast<std::ptrdiff_t>(count));

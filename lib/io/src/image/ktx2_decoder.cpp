@@ -30,8 +30,8 @@ DecodingLimits decoding_limits(ByteView file, const Ktx2Header& header)
     // The file, its levels without supercompression, as RGBA, and the output.
     constexpr std::uint64_t bytes_per_pixel = 16;
     constexpr std::uint64_t start_seconds = 10;
-    constexpr std::uint64_t pixels_per_second =
-        2'000'000;  // a tenth of the speed of a slow machine
+    // A tenth of the speed of a slow machine.
+    constexpr std::uint64_t pixels_per_second = 2'000'000;
     return {.memory = 2 * file.size() + bytes_per_pixel * header.pixels,
             .seconds = start_seconds + header.pixels / pixels_per_second};
 }

@@ -25,8 +25,8 @@ RgbePixel rgbe_of(const Rgb& color)
     std::array<float, 3> values{};
     float most = 0.0f;
     for (int c = 0; c < 3; ++c) {
-        const float value =
-            color[c] > 0.0f ? std::min(color[c], largest) : 0.0f;  // NaN becomes 0, too
+        // NaN becomes 0, too.
+        const float value = color[c] > 0.0f ? std::min(color[c], largest) : 0.0f;
         values[static_cast<std::size_t>(c)] = value;
         most = std::max(most, value);
     }

@@ -49,8 +49,8 @@ struct ExrPlacement {
 
 /// Options of an EXR file, and its metadata.
 struct ExrOptions {
-    ExrChannelType type =
-        ExrChannelType::single_float;  ///< type of the main layer; others have floats
+    /// Type of the main layer; others have floats.
+    ExrChannelType type = ExrChannelType::single_float;
     ImageMetadata metadata;
     ExrStorage storage = ExrStorage::scanlines;
     std::optional<ExrPlacement> placement{};  ///< none: it is not cropped

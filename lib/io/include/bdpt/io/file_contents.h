@@ -23,8 +23,7 @@ namespace bdpt::io {
 
 /// Content hash of a file that a scene is read from.
 struct FileContent {
-    std::string name;  ///< the name of the scene's file as given, or the URI by which the scene
-                       ///< refers to it
+    std::string name;  ///< file name of the scene; of other files the URI in the scene
     std::optional<ContentHash> hash;  ///< hash of all its bytes; none: it cannot be read
     [[nodiscard]] bool operator==(const FileContent&) const = default;
 };

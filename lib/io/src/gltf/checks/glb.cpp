@@ -43,8 +43,8 @@ std::uint64_t worth_reading(ByteView start, const ReadLimits& limits)
     if (is_glb(start) && start.size() >= header_size) {
         return std::uint64_t{read_u32(start, 8)} + 1;
     }
-    constexpr std::string_view before_object =
-        " \t\r\n\xef\xbb\xbf";  // including the byte order mark of UTF-8
+    // White space, and the byte order mark of UTF-8.
+    constexpr std::string_view before_object = " \t\r\n\xef\xbb\xbf";
     const auto first = std::find_if(start.begin(), start.end(), [&](std::uint8_t byte) {
         return before_object.find(static_cast<char>(byte)) == std::string_view::npos;
     });

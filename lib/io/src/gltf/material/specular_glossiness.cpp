@@ -27,8 +27,8 @@ void read_specular_glossiness(const MaterialValues& values, MaterialDesc& desc)
     desc.metallic_roughness_texture.reset();
     const double glossiness = number_or(*object, "glossinessFactor", 1.0);
     desc.roughness = 1.0f - values.in_range(glossiness, 0.0, 1.0, place + "glossinessFactor");
-    constexpr float reflectance =
-        0.04f;  // reflectance of index 1.5, which the specular colour multiplies
+    // Reflectance of index 1.5, which the specular colour multiplies.
+    constexpr float reflectance = 0.04f;
     const Rgb specular = values.color(*object, "specularFactor", 1.0);
     desc.ior = 1.5f;
     desc.specular = 1.0f;

@@ -32,8 +32,8 @@ struct BenchOptions {
     /// An image, or a folder with NAME.exr for each scene; none: references are rendered.
     std::optional<std::filesystem::path> reference{};
     double reference_seconds = 60.0;  ///< time of each of the two renders that make up a reference
-    int strategy_depth =
-        5;  ///< maximum path length [edges] of the images of strategies; 0: no such images
+    /// Maximum path length [edges] of the images of strategies; 0: no such images.
+    int strategy_depth = 5;
 };
 
 }  // namespace bdpt::eval

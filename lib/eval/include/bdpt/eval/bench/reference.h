@@ -23,8 +23,8 @@ namespace bdpt::eval {
 /// The reference image of a scene: the best known estimate of the limit of its renders.
 struct Reference {
     Image image;
-    double noise =
-        0.0;  ///< relMSE that the reference's own noise adds to every image compared with it
+    /// relMSE that the reference's own noise adds to every image compared with it.
+    double noise = 0.0;
     std::string origin;  ///< origin of the image, for people
 };
 
@@ -49,8 +49,8 @@ struct CombinedReference {
     Image image;
     double noise = 0.0;  ///< relMSE
     double share = 0.0;  ///< weight of the first image, by inverse noise
-    double agreement =
-        0.0;  ///< squared difference of the two images over the one expected from their noise
+    /// Squared difference of the two images over the one expected from their noise.
+    double agreement = 0.0;
 };
 
 /// Returns the mean of both images, weighted by the inverse of the noise that their halves show. If

@@ -70,8 +70,8 @@ struct IntegratorSummary {
     double camera_rays_per_second = 0.0;
     double light_rays_per_second = 0.0;
     double shadow_rays_per_second = 0.0;
-    std::optional<std::uint64_t>
-        peak_memory{};          ///< peak memory of the process, maximum over runs [bytes]
+    /// Peak memory of the process, maximum over runs [bytes].
+    std::optional<std::uint64_t> peak_memory{};
     std::uint64_t invalid = 0;  ///< dropped samples, in all runs
 };
 
@@ -83,8 +83,8 @@ struct IntegratorSummary {
 /// Time at which a curve has fallen to an error.
 struct TimeToError {
     double seconds = 0.0;
-    bool extrapolated =
-        false;  ///< true if the time is before the first point or after the last one
+    /// True if the time is before the first point or after the last one.
+    bool extrapolated = false;
 };
 
 /// Returns the time from which a curve stays at or below `error` > 0, interpolated linearly in

@@ -25,8 +25,8 @@ namespace bdpt::eval {
 /// of the comparisons.
 struct TimeSplit {
     IntegratorKind integrator = IntegratorKind::bdpt;
-    std::array<double, all_phases.size()>
-        shares{};                 ///< fraction of the time by phase; they sum to 1
+    /// Fraction of the time by phase; they sum to 1.
+    std::array<double, all_phases.size()> shares{};
     double sample_seconds = 0.0;  ///< mean thread time of one sample of a pixel [s]
     std::int64_t samples = 0;     ///< per pixel
     double distortion = 0.0;      ///< `TimeProfile::distortion`

@@ -29,8 +29,8 @@ namespace bdpt::eval {
 struct ComparisonOptions {
     std::vector<Metric> metrics{all_metrics.begin(), all_metrics.end()};
     MetricOptions scale{};
-    Metric map_metric =
-        Metric::relmse;   ///< metric of the error map and of the worst tiles; not psnr
+    /// Metric of the error map and of the worst tiles; not psnr.
+    Metric map_metric = Metric::relmse;
     int tile_size = 32;   ///< side of a tile [pixels], at least 1
     int worst_tiles = 5;  ///< maximum number of tiles to report; at least 1
     /// Position of the images in the whole image [pixels], for messages and reported tiles.

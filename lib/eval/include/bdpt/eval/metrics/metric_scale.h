@@ -33,10 +33,10 @@ struct MetricOptions {
     EpsilonUnit epsilon_unit = EpsilonUnit::absolute;
     std::optional<double> peak{};  ///< peak of PSNR, > 0; none: the reference's greatest component
     double pixels_per_degree = default_pixels_per_degree;  ///< resolution for FLIP, in [1, 1000]
-    std::optional<FlipExposures>
-        exposures{};  ///< exposures of HDR-FLIP; none: `flip_exposures(reference)`
-    std::optional<float>
-        exposure{};  ///< exposure of LDR-FLIP [EV]; none: io::automatic_exposure(reference)
+    /// Exposures of HDR-FLIP; none: `flip_exposures(reference)`.
+    std::optional<FlipExposures> exposures{};
+    /// Exposure of LDR-FLIP [EV]; none: io::automatic_exposure(reference).
+    std::optional<float> exposure{};
 };
 
 /// The options with all values that depend on the reference filled in: the same for every image

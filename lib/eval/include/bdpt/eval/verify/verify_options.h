@@ -64,8 +64,8 @@ struct VerifyOptions {
 struct VerifyProgress {
     std::int64_t batches = 0;
     double seconds = 0.0;  ///< time since the start [s]
-    double detectable =
-        1.0;  ///< current value of the error that `VerifyOptions::detectable_bias` limits
+    /// Current value of the error that `VerifyOptions::detectable_bias` limits.
+    double detectable = 1.0;
 };
 
 /// Hooks by which a caller watches and stops `verify`. All are optional.

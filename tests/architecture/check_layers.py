@@ -34,6 +34,7 @@ ALLOWED = {
     "lib/src/scene": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/threads": [r"(oneapi/)?tbb/"],
     "lib/src/profile": [r"glm/", r"(oneapi/)?tbb/"],
+    "lib/src/integrator": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/pilot": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/render": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/io/include": [r"glm/"],

@@ -3,6 +3,8 @@
 #include "catch.hpp"
 #include "integrator/bidirectional/light_path_cache.h"
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -21,19 +23,19 @@ Vec3 random_point(std::mt19937& engine, Vec3 center, float extent)
     return center + Vec3(uniform(engine), uniform(engine), uniform(engine));
 }
 
-RenderOptions vcm_options()
+RenderOptions vcm_options(int width = side)
 {
     RenderOptions options;
     options.integrator = IntegratorKind::vcm;
-    options.film.width = side;
+    options.film.width = width;
     options.film.height = side;
     return options;
 }
 
 /// Light paths of up to five vertices within a cube, some of which cannot be joined.
-LightPathCache random_cache(std::mt19937& engine, Vec3 center, float extent)
+LightPathCache random_cache(std::mt19937& engine, Vec3 center, float extent, int width = side)
 {
-    const RenderOptions options = vcm_options();
+    const RenderOptions options = vcm_options(width);
     const LightPathCounts counts(options);
     LightPathCache cache(counts, options);
     std::int64_t bundle = 0;
@@ -73,7 +75,7 @@ TEST_CASE("the grid finds each light vertex that is near, once", "[vcm]")
         grid.build(cache, center, radius);
     }
     std::vector<const PathVertex*> all;
-    cache.for_each_path([&](std::span<const PathVertex> path) {
+    cache.for_each_path(0, cache.chunks(), [&](std::span<const PathVertex> path) {
         for (std::size_t i = 1; i < path.size(); ++i) {
             if (path[i].connectible) {
                 all.push_back(&path[i]);
@@ -104,6 +106,32 @@ TEST_CASE("the grid finds each light vertex that is near, once", "[vcm]")
         REQUIRE(near == expected);
     }
     CHECK(found > 50);
+}
+
+TEST_CASE("a grid has the same order from any number of threads", "[vcm]")
+{
+    std::mt19937 engine(11);
+    const LightPathCache cache = random_cache(engine, Vec3(0.0f), 1.0f, 1000);
+    REQUIRE(cache.chunks() > 100);
+    const auto found_with = [&](int threads) {
+        LightVertexGrid grid;
+        const tbb::global_control allowance(tbb::global_control::max_allowed_parallelism, 8);
+        tbb::task_arena arena(threads);
+        arena.execute([&] { grid.build(cache, Vec3(0.0f), 0.1f); });
+        std::vector<const PathVertex*> found;
+        std::mt19937 places(12);
+        for (int i = 0; i < 200; ++i) {
+            grid.for_each_near(
+                random_point(places, Vec3(0.0f), 1.0f),
+                [&](std::span<const PathVertex> light) { found.push_back(&light.back()); });
+        }
+        return found;
+    };
+    const std::vector<const PathVertex*> expected = found_with(1);
+    REQUIRE(expected.size() > 500);
+    for (const int threads : {2, 3, 8}) {
+        CHECK(found_with(threads) == expected);
+    }
 }
 
 TEST_CASE("a grid without light vertices finds none", "[vcm]")

@@ -67,11 +67,12 @@ public:
     {
         return chunk_of(bundle).moments[place_of(bundle)];
     }
-    /// Visits the light paths in order.
+    /// Visits the light paths of the chunks [first, last) in order.
     template <typename Visit>
-    void for_each_path(const Visit& visit) const
+    void for_each_path(std::int64_t first, std::int64_t last, const Visit& visit) const
     {
-        for (const Chunk& chunk : chunks_) {
+        for (std::int64_t number = first; number < last; ++number) {
+            const Chunk& chunk = chunks_[static_cast<std::size_t>(number)];
             std::size_t begin = 0;
             for (const PathEnd& end : chunk.path_ends) {
                 visit(std::span(chunk.vertices).subspan(begin, end.vertices - begin));

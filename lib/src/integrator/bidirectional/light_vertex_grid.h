@@ -28,11 +28,11 @@ class LightVertexGrid {
 
 public:
     /// Maximum memory per vertex: there are less than two buckets for each.
-    static constexpr std::size_t bytes_of_vertex = sizeof(Entry) + 2 * sizeof(std::size_t);
+    static constexpr std::size_t bytes_of_vertex = 2 * sizeof(Entry) + 2 * sizeof(std::size_t);
 
     /// Sorts all vertices in `cache` that can merge into cells; their addresses must stay valid.
     /// Vertices at most `radius` apart are near. Coordinates are relative to `center`, for
-    /// precision.
+    /// precision. Runs in parallel; the number of threads does not change the grid.
     void build(const LightPathCache& cache, Vec3 center, float radius);
 
     /// Calls `visit` with the light path up to each vertex near `p`, in an order that depends only
@@ -59,11 +59,14 @@ private:
 
     [[nodiscard]] Cell cell_of(Vec3 p, double offset) const;
     [[nodiscard]] std::size_t bucket_of(const Cell& cell) const;
+    /// Sorts the entries of a part, which begin at entry `first`, into its buckets `begins`.
+    void sort_part(std::size_t first, std::span<const Entry> part, std::span<std::size_t> begins);
     /// Returns those of the eight cubes that have a point near `p`, without duplicates; the rest is
     /// `none`.
     [[nodiscard]] std::array<std::size_t, 8> buckets_near(Vec3 p) const;
 
     std::vector<Entry> entries_;       ///< sorted by bucket
+    std::vector<Entry> parted_;        ///< sorted by part of the buckets, while the grid is built
     std::vector<std::size_t> begins_;  ///< first entries of buckets, plus the end of the last
     Vec3 center_{0.0f};
     double cells_per_meter_ = 1.0;

@@ -3,7 +3,7 @@
 
 MODELS is a folder with models of other people (HotelRoom_meshopt, Lamborghini, GodotLivingRoom, Garage, Jungle,
 ShaderBall_materialx, hdr/...), of which those that are there are rendered, each under the environments of the table
-below. A way is what `bdpt render` is told beside that, for example `--way "--integrator mis"`; the first one counts as 1.
+below, and after them scenes of mixed_light_scenes.py and of scenes/. A way is what `bdpt render` is told beside that, for example `--way "--integrator mis"`; the first one counts as 1.
 `PROGRAM: OPTIONS` takes another program than --bdpt. Prints for each scene and way: squared relative error without the
 worst 0.1 % of pixels, CPU time of one thread without loading, and their product, each over that of the first way. Errors
 come from the spread between seeds, relative to a reference that neither has part in: its noise would flatter the
@@ -12,6 +12,7 @@ noisier one. Ways take turns. Needs numpy."""
 import argparse
 import math
 import pathlib
+import re
 import resource
 import shlex
 import statistics
@@ -21,6 +22,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "light_paths"))
+import mixed_light_scenes
 import numpy as np
 import seed_errors
 
@@ -38,6 +40,12 @@ SCENES = (
     ("jungle, sunset", "Jungle/scene.gltf", "--env {hdr}/sunset.exr"),
     ("jungle, default sky", "Jungle/scene.gltf", ""),
     ("shader ball, interior", "ShaderBall_materialx/shaderball.glb", "--env {hdr}/interior.exr"),
+    ("floor of 6 m", "floor-6.gltf", "--env {hdr}/courtyard.exr"),
+    ("floor of 60 m", "floor-60.gltf", "--env {hdr}/courtyard.exr"),
+    ("floor of 200 m", "floor-200.gltf", "--env {hdr}/courtyard.exr"),
+    ("lamp room", "lamp-room.gltf", "--env {hdr}/courtyard.exr"),
+    ("shop", "shop.gltf", "--env {hdr}/courtyard.exr"),
+    ("six rooms", "six-rooms.gltf", "--env {hdr}/courtyard.exr"),
     ("room-environment", "room-environment.gltf", ""),
     ("room-environment, sunset", "room-environment.gltf", "--env {hdr}/sunset.exr"),
 )
@@ -88,7 +96,7 @@ def main():
     parser.add_argument("models", type=pathlib.Path, metavar="MODELS")
     parser.add_argument("--bdpt", type=pathlib.Path, default=ROOT / "build/release/apps/bdpt")
     parser.add_argument("--way", action="append", required=True, metavar="[PROGRAM:]OPTIONS")
-    parser.add_argument("--only", default="", help="scenes whose names have this in them")
+    parser.add_argument("--only", default="", help="scenes whose names this regular expression matches")
     parser.add_argument("--size", default="240x135")
     parser.add_argument("--spp", type=int, default=16)
     parser.add_argument("--seeds", type=int, default=4)
@@ -97,9 +105,18 @@ def main():
     arguments = parser.parse_args()
     print(f"{'scene':26}" + "".join(f"{'error':>8}{'time':>7}{'product':>9}" for _ in arguments.way[1:]) + "   mean")
     products = [[] for _ in arguments.way[1:]]
+    with tempfile.TemporaryDirectory() as made:
+        mixed_light_scenes.write(made)
+        measure_all(arguments, pathlib.Path(made), products)
+    print(f"{'geometric mean':26}" + "".join(
+        f"{'':15}{math.exp(statistics.fmean(math.log(p) for p in each)):9.3f}" for each in products if each))
+    return 0
+
+
+def measure_all(arguments, made, products):
     for name, file, options in SCENES:
-        path = next((p for p in (arguments.models / file, ROOT / "scenes" / file) if p.exists()), None)
-        if path is None or arguments.only not in name:
+        path = next((p for p in (arguments.models / file, made / file, ROOT / "scenes" / file) if p.exists()), None)
+        if path is None or not re.search(arguments.only, name):
             continue
         scene = (path, options.format(hdr=arguments.models / "hdr"))
         seconds, images, reference = measure(scene, arguments)
@@ -112,9 +129,6 @@ def main():
             row += f"{error:8.3f}{time:7.2f}{error * time:9.3f}"
         means = " ".join(f"{each.mean() / reference.mean():.4f}" for each in images)
         print(f"{name:26}{row}   {means}", flush=True)
-    print(f"{'geometric mean':26}" + "".join(
-        f"{'':15}{math.exp(statistics.fmean(math.log(p) for p in each)):9.3f}" for each in products if each))
-    return 0
 
 
 if __name__ == "__main__":

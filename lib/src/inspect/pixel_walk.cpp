@@ -2,7 +2,7 @@
 
 #include "path/light_path_counts.h"
 #include "path/strategy_set.h"
-#include "render/learned_visibility.h"
+#include "render/learned_light.h"
 #include "render/open_camera.h"
 
 #include <bdpt/error.h>
@@ -14,15 +14,15 @@
 namespace bdpt {
 namespace {
 
-NextEventSampling sampling_of(const RenderOptions& options, const EnvironmentVisibility* visibility)
+NextEventSampling sampling_of(const RenderOptions& options, const LearnedLight* learned)
 {
     if (info(options.integrator).has_strategies) {
-        return StrategySet(options, visibility).next_event_sampling();
+        return StrategySet(options, learned).next_event_sampling();
     }
     const bool weighs = options.integrator == IntegratorKind::mis;
     return {.environments = weighs ? options.sampling.environment : EnvironmentSampling::plain,
             .lights = options.sampling.lights,
-            .visibility = weighs ? visibility : nullptr};
+            .learned = weighs ? learned : nullptr};
 }
 
 WalkLimits limits_of(const RenderOptions& options, int max_vertices)
@@ -75,8 +75,8 @@ PixelWalk::PixelWalk(const Scene& scene, const CameraDesc& camera, const RenderO
               .wavelength = start_.moment.wavelength,
               .rays = rays_,
               .clock = nullptr},
-      visibility_(learned_visibility(scene.world(), camera, options)),
-      next_event_sampling_(sampling_of(options, visibility_.get())),
+      learned_(learned_light(scene.world(), camera, options)),
+      next_event_sampling_(sampling_of(options, learned_.get())),
       camera_path_(options.transport.max_depth + 1)
 {
     trace_camera_subpath(sample_, start_.raster, limits_of(options_, camera_path_.capacity()),

@@ -3,7 +3,7 @@
 #include "camera/moving_camera.h"
 #include "film/pixel_filter.h"
 #include "integrator/sample_start.h"
-#include "light/environment/environment_visibility.h"
+#include "light/learned/learned_light.h"
 #include "path/random_walk.h"
 #include "path/sample_context.h"
 
@@ -41,7 +41,7 @@ private:
     TimedCamera timed_;
     RayCounts rays_;
     SampleContext sample_;
-    std::unique_ptr<const EnvironmentVisibility> visibility_;
+    std::shared_ptr<const LearnedLight> learned_;
     NextEventSampling next_event_sampling_;
     Subpath camera_path_;
 };

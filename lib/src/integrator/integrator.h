@@ -13,7 +13,7 @@
 
 namespace bdpt {
 
-class EnvironmentVisibility;
+struct LearnedLight;
 class MovingCamera;
 class World;
 struct TimeSheet;
@@ -66,10 +66,11 @@ public:
                                                   const Films& films) const = 0;
 };
 
-/// Creates the integrator of `options`, which have been checked. The world, the camera and the
-/// learned visibility of its environment (null: none) must outlive the integrator.
-[[nodiscard]] std::unique_ptr<Integrator> make_integrator(
-    const World& world, const MovingCamera& camera, const RenderOptions& options,
-    const EnvironmentVisibility* visibility = nullptr);
+/// `options` have been checked. The world, the camera and what is known of the light of its
+/// environment (null: nothing) must outlive the integrator.
+[[nodiscard]] std::unique_ptr<Integrator> make_integrator(const World& world,
+                                                          const MovingCamera& camera,
+                                                          const RenderOptions& options,
+                                                          const LearnedLight* learned = nullptr);
 
 }  // namespace bdpt

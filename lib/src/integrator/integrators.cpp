@@ -12,14 +12,13 @@ namespace bdpt {
 namespace {
 
 using Factory = std::unique_ptr<Integrator> (*)(const World&, const MovingCamera&,
-                                                const RenderOptions&, const EnvironmentVisibility*);
+                                                const RenderOptions&, const LearnedLight*);
 
 template <typename T>
 std::unique_ptr<Integrator> make(const World& world, const MovingCamera& camera,
-                                 const RenderOptions& options,
-                                 const EnvironmentVisibility* visibility)
+                                 const RenderOptions& options, const LearnedLight* learned)
 {
-    return std::make_unique<T>(world, camera, options, visibility);
+    return std::make_unique<T>(world, camera, options, learned);
 }
 
 /// User-facing description and factory of an integrator.
@@ -104,9 +103,9 @@ const IntegratorInfo& info(IntegratorKind kind)
 
 std::unique_ptr<Integrator> make_integrator(const World& world, const MovingCamera& camera,
                                             const RenderOptions& options,
-                                            const EnvironmentVisibility* visibility)
+                                            const LearnedLight* learned)
 {
-    return row_of(options.integrator).make(world, camera, options, visibility);
+    return row_of(options.integrator).make(world, camera, options, learned);
 }
 
 }  // namespace bdpt

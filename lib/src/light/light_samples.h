@@ -10,7 +10,7 @@
 
 namespace bdpt {
 
-class EnvironmentVisibility;
+struct LearnedLight;
 
 enum class LightId : std::uint32_t {};
 
@@ -18,9 +18,9 @@ enum class LightId : std::uint32_t {};
 struct NextEventSampling {
     EnvironmentSampling environments = EnvironmentSampling::plain;
     LightSampling lights = LightSampling::automatic;
-    int samples = 1;  ///< per camera vertex
-    /// Learned visibility of the environment; null: unknown.
-    const EnvironmentVisibility* visibility = nullptr;
+    int samples = 1;  ///< number per camera vertex
+    /// What a pilot learned; null if nothing.
+    const LearnedLight* learned = nullptr;
 };
 
 /// A point on a light, however it was found: everything that its densities depend on.

@@ -21,7 +21,7 @@ bool has_more_edges_than_one(Strategy strategy)
 
 }  // namespace
 
-StrategySet::StrategySet(const RenderOptions& options, const EnvironmentVisibility* visibility)
+StrategySet::StrategySet(const RenderOptions& options, const LearnedLight* learned)
     : min_depth_(options.transport.min_depth),
       max_depth_(options.transport.max_depth),
       max_camera_depth_(options.bidirectional.max_camera_depth),
@@ -33,13 +33,13 @@ StrategySet::StrategySet(const RenderOptions& options, const EnvironmentVisibili
                              options.bidirectional.disabled.end(), has_more_edges_than_one) &&
                 max_camera_depth_ >= max_depth_ && max_light_depth_ >= max_depth_),
       merges_(light_paths_.merged),
-      // Images of single strategies show the estimate of each strategy alone.
-      next_event_sampling_{
-          .environments = options.bidirectional.strategy_depth > 0 ? EnvironmentSampling::plain
-                                                                   : options.sampling.environment,
-          .lights = options.sampling.lights,
-          .samples = options.sampling.light_samples,
-          .visibility = options.bidirectional.strategy_depth > 0 ? nullptr : visibility}
+      // Images of single strategies show what each finds by itself.
+      next_event_sampling_{.environments = options.bidirectional.strategy_depth > 0
+                                               ? EnvironmentSampling::plain
+                                               : options.sampling.environment,
+                           .lights = options.sampling.lights,
+                           .samples = options.sampling.light_samples,
+                           .learned = options.bidirectional.strategy_depth > 0 ? nullptr : learned}
 {
     counts_.assign(static_cast<std::size_t>(stride_ * stride_), 0.0f);
     for (int s = 0; s < stride_; ++s) {
@@ -71,7 +71,7 @@ StrategySet::StrategySet(const RenderOptions& options, const EnvironmentVisibili
     for (int t = 2; t + 1 < stride_; ++t) {
         if (uses(1, t) && !uses(0, t + 1)) {
             next_event_sampling_.environments = EnvironmentSampling::plain;
-            next_event_sampling_.visibility = nullptr;
+            next_event_sampling_.learned = nullptr;
         }
     }
 }

@@ -13,9 +13,8 @@ namespace bdpt {
 /// path.
 class StrategySet {
 public:
-    /// Selects the strategies of bdpt, lt or vcm. `options` have been checked.
-    explicit StrategySet(const RenderOptions& options,
-                         const EnvironmentVisibility* visibility = nullptr);
+    /// `options` have been checked. The integrator is bdpt, lt or vcm.
+    explicit StrategySet(const RenderOptions& options, const LearnedLight* learned = nullptr);
 
     /// Returns N_s of the strategy; 0 if it is not used.
     [[nodiscard]] float count(int s, int t) const

@@ -125,11 +125,11 @@ void add_sample(std::int64_t index, Heuristic heuristic, BidirectionalIntegrator
 }  // namespace
 
 PilotResult run_pilot(const World& world, const MovingCamera& camera, const RenderOptions& asked,
-                      const EnvironmentVisibility* visibility, const std::stop_token& abandon)
+                      const LearnedLight* learned, const std::stop_token& abandon)
 {
     const PilotGrid grid(asked.film.width, asked.film.height);
     const RenderOptions options = pilot_options(asked, grid);
-    BidirectionalIntegrator integrator(world, camera, options, visibility);
+    BidirectionalIntegrator integrator(world, camera, options, learned);
     PilotContributions contributions{
         .grid = grid,
         .light_paths = LightPathCounts(options).per_camera_path,

@@ -10,7 +10,7 @@
 
 namespace bdpt {
 
-class EnvironmentVisibility;
+struct LearnedLight;
 class MovingCamera;
 class World;
 
@@ -32,7 +32,7 @@ struct PilotResult {
 /// `abandon` is requested it returns soon, with a meaningless result.
 [[nodiscard]] PilotResult run_pilot(const World& world, const MovingCamera& camera,
                                     const RenderOptions& options,
-                                    const EnvironmentVisibility* visibility = nullptr,
+                                    const LearnedLight* learned = nullptr,
                                     const std::stop_token& abandon = {});
 
 /// Returns `options` with the integrator and the numbers that have the smallest error at equal cost

@@ -1,8 +1,8 @@
 #include <bdpt/render.h>
 
 #include "pilot/pilot.h"
-#include "pilot/visibility_pilot.h"
 #include "render/check_options.h"
+#include "render/learned_light.h"
 #include "render/open_camera.h"
 #include "threads/threads.h"
 
@@ -45,12 +45,11 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     whole.film.crop.reset();
     whole.sampling.rates.reset();
     const MovingCamera opened = open_camera(scene.world(), camera, whole);
+    const auto learned = learned_light(scene.world(), camera, whole, abandon);
     Threads threads(options.system.threads);
     IntegratorChoice choice;
     threads.execute([&] {
-        const auto visibility = learn_visibility(scene.world(), opened, whole, abandon);
-        const PilotResult pilot =
-            run_pilot(scene.world(), opened, whole, visibility.get(), abandon);
+        const PilotResult pilot = run_pilot(scene.world(), opened, whole, learned.get(), abandon);
         choice = {.options = with_best(pilot, options), .unseen_light = pilot.merging_alone};
     });
     return choice;

@@ -1,6 +1,7 @@
 #include <bdpt/part/identity.h>
 
 #include "identity/desc_hasher.h"
+#include "render/identity_inputs.h"
 #include "scene/scene_names.h"
 #include "scene/world.h"
 
@@ -24,41 +25,7 @@
 namespace bdpt {
 namespace {
 
-/// Adds all options that affect bits of samples.
-void add_options(std::vector<IdentityComponent>& result, const RenderOptions& options)
-{
-    for_each_option(options, [&result](const auto& option, const auto& value) {
-        using T = std::remove_cvref_t<decltype(value)>;
-        if (option.info.role != OptionRole::image) {
-            return;
-        }
-        const std::string name = "option: " + std::string(option.name);
-        if constexpr (std::is_same_v<T, std::shared_ptr<const SampleRates>>) {
-            if (value) {
-                result.push_back({.name = name, .value = hash_text(value->exponents())});
-            }
-        } else {
-            result.push_back({.name = name, .value = option_text(value)});
-        }
-    });
-}
-
-void add_camera(std::vector<IdentityComponent>& result, const CameraDesc& camera)
-{
-    for_each_field(camera, [&result](const auto& field, const auto& value) {
-        using T = std::remove_cvref_t<decltype(value)>;
-        const std::string name = "camera: " + std::string(field.name);
-        if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<float>>) {
-            return;  // name and aspect ratio intended by the author
-        } else if constexpr (std::is_arithmetic_v<T>) {
-            result.push_back({.name = name, .value = option_text(value)});
-        } else {
-            result.push_back({.name = name, .value = hash_text(value)});
-        }
-    });
-}
-
-/// Adds names, which affect only id images.
+/// Names are in no image but those of ids.
 void add_names(std::vector<IdentityComponent>& result, const SharedSceneDesc& scene, AovSet aovs)
 {
     if (!asks_for_ids(aovs)) {
@@ -98,6 +65,39 @@ std::string values_text(std::string_view there, std::string_view here)
 }
 
 }  // namespace
+
+void add_options(std::vector<IdentityComponent>& result, const RenderOptions& options)
+{
+    for_each_option(options, [&result](const auto& option, const auto& value) {
+        using T = std::remove_cvref_t<decltype(value)>;
+        if (option.info.role != OptionRole::image) {
+            return;
+        }
+        const std::string name = "option: " + std::string(option.name);
+        if constexpr (std::is_same_v<T, std::shared_ptr<const SampleRates>>) {
+            if (value) {
+                result.push_back({.name = name, .value = hash_text(value->exponents())});
+            }
+        } else {
+            result.push_back({.name = name, .value = option_text(value)});
+        }
+    });
+}
+
+void add_camera(std::vector<IdentityComponent>& result, const CameraDesc& camera)
+{
+    for_each_field(camera, [&result](const auto& field, const auto& value) {
+        using T = std::remove_cvref_t<decltype(value)>;
+        const std::string name = "camera: " + std::string(field.name);
+        if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<float>>) {
+            return;  // its name, and the shape of image that its author had in mind
+        } else if constexpr (std::is_arithmetic_v<T>) {
+            result.push_back({.name = name, .value = option_text(value)});
+        } else {
+            result.push_back({.name = name, .value = hash_text(value)});
+        }
+    });
+}
 
 Identity identity(const Scene& scene, const CameraDesc& camera, const RenderOptions& options)
 {

@@ -10,7 +10,7 @@
 #include "profile/time_recorder.h"
 #include "render/aov_pass.h"
 #include "render/check_options.h"
-#include "render/learned_visibility.h"
+#include "render/learned_light.h"
 #include "render/noise_watch.h"
 #include "render/open_camera.h"
 #include "render/pass.h"
@@ -150,8 +150,8 @@ public:
         check_strategy_memory(options_, camera_desc_);
         identity_ = bdpt::identity(scene, camera_desc_, options_);
         camera_.emplace(open_camera(scene.world(), camera_desc_, options_));
-        visibility_ = learned_visibility(scene.world(), camera_desc_, options_);
-        integrator_ = make_integrator(scene.world(), *camera_, options_, visibility_.get());
+        learned_ = learned_light(scene.world(), camera_desc_, options_);
+        integrator_ = make_integrator(scene.world(), *camera_, options_, learned_.get());
         aov_pass_.emplace(scene.world(), *camera_, options_);
         pass_size_.emplace(*integrator_, options_);
     }
@@ -199,7 +199,7 @@ private:
     CameraDesc camera_desc_;
     Identity identity_;
     std::optional<MovingCamera> camera_;
-    std::unique_ptr<const EnvironmentVisibility> visibility_;
+    std::shared_ptr<const LearnedLight> learned_;
     std::unique_ptr<Integrator> integrator_;
     std::optional<AovPass> aov_pass_;
     RenderPart part_;

@@ -4,7 +4,7 @@
 #include "math/split_mix.h"
 #include "rates/rate_map.h"
 #include "render/check_options.h"
-#include "render/learned_visibility.h"
+#include "render/learned_light.h"
 #include "render/open_camera.h"
 #include "render/pass.h"
 #include "threads/threads.h"
@@ -91,9 +91,9 @@ private:
 };
 
 void render_group(const Scene& scene, const MovingCamera& camera, const RenderOptions& options,
-                  const EnvironmentVisibility* visibility, int group, PilotSums& sums)
+                  const LearnedLight* learned, int group, PilotSums& sums)
 {
-    const auto integrator = make_integrator(scene.world(), camera, options, visibility);
+    const auto integrator = make_integrator(scene.world(), camera, options, learned);
     RenderOptions without_aovs = options;
     without_aovs.film.aovs = {};
     const AovPass no_aovs(scene.world(), camera, without_aovs);
@@ -124,13 +124,13 @@ SampleRates sample_rates(const Scene& scene, const CameraDesc& camera_desc,
     options = pilot_options(chosen_options(scene, camera_desc, options));
     check_takes_rates(options.integrator);
     const MovingCamera camera = open_camera(scene.world(), camera_desc, options);
-    const auto visibility = learned_visibility(scene.world(), camera_desc, options);
+    const auto learned = learned_light(scene.world(), camera_desc, options);
     Threads threads(options.system.threads);
     PilotSums sums(options);
     threads.execute([&] {
         for (int group = 0; group < groups; ++group) {
             options.sampling.seed = split_mix(pilot_seed + static_cast<std::uint64_t>(group));
-            render_group(scene, camera, options, visibility.get(), group, sums);
+            render_group(scene, camera, options, learned.get(), group, sums);
         }
     });
     return rates_for(sums.evidence());

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "light/environment/environment_visibility.h"
 #include "light/intensity_profile.h"
+#include "light/learned/learned_light.h"
 #include "light/light.h"
 #include "math/alias_table.h"
 #include "scene/next_event_lights.h"
@@ -82,7 +82,10 @@ public:
                                               const DrawFine& draw_fine,
                                               const NextEventSampling& sampling, float time) const
     {
-        const auto choice = choose_for_context(receiver, u, draw_fine, sampling.lights);
+        const GroupShares::Shares* shares = learned_shares(receiver, sampling);
+        const auto choice = shares != nullptr
+                                ? choose_by_groups(receiver, u, draw_fine, *shares)
+                                : choose_for_context(receiver, u, draw_fine, sampling.lights);
         if (!choice) {
             return {};
         }
@@ -101,7 +104,15 @@ public:
     {
         return (*this)[id].pdf_incident(with_visibility(receiver, id, sampling), x0,
                                         sampling.environments) *
-               context_probability(id, receiver, sampling.lights);
+               next_event_probability(id, receiver, sampling);
+    }
+    /// The density's first half: of choosing light `id`.
+    [[nodiscard]] float next_event_probability(LightId id, const LightSampleContext& receiver,
+                                               const NextEventSampling& sampling) const
+    {
+        const GroupShares::Shares* shares = learned_shares(receiver, sampling);
+        return shares != nullptr ? next_event_.probability(id, receiver, *shares)
+                                 : context_probability(id, receiver, sampling.lights);
     }
 
     /// Chooses a light for the receiver, the first step of next-event estimation.
@@ -147,7 +158,10 @@ public:
                (sampling == LightSampling::automatic && prefers_tree_);
     }
 
-    /// Returns the light of rays that leave the scene.
+    /// The groups of lights that next-event estimation chooses from.
+    [[nodiscard]] const NextEventLights& next_event_lights() const { return next_event_; }
+
+    /// The light that rays find which leave the scene.
     [[nodiscard]] std::optional<LightId> environment() const { return environment_; }
     /// Returns the light of an emissive triangle; nullopt for others.
     [[nodiscard]] std::optional<LightId> of_triangle(std::uint32_t instance,
@@ -159,13 +173,30 @@ private:
     /// Maximum number of lights for which one float has enough digits for a choice and a point.
     static constexpr std::size_t few_lights = 64;
 
-    /// Returns the receiver, with its learned visibility if light `id` is an environment that has
-    /// it.
+    /// Returns the learned shares of the groups of lights; null if none were learned.
+    [[nodiscard]] static const GroupShares::Shares* learned_shares(
+        const LightSampleContext& receiver, const NextEventSampling& sampling)
+    {
+        return sampling.learned != nullptr && sampling.learned->groups
+                   ? &sampling.learned->groups->at(receiver.p)
+                   : nullptr;
+    }
+    template <typename DrawFine>
+    [[nodiscard]] std::optional<ChoiceAndNumbers> choose_by_groups(
+        const LightSampleContext& receiver, Vec2 u, const DrawFine& draw_fine,
+        const GroupShares::Shares& shares) const
+    {
+        const auto choice = next_event_.choose(receiver, fine_uniform(draw_fine()), shares);
+        return choice ? std::optional(ChoiceAndNumbers{choice->id, choice->probability, u})
+                      : std::nullopt;
+    }
+    /// The receiver, with what is visible from it if light `id` is an environment whose visibility
+    /// was learned.
     [[nodiscard]] LightSampleContext with_visibility(LightSampleContext receiver, LightId id,
                                                      const NextEventSampling& sampling) const
     {
-        if (sampling.visibility != nullptr && environment_ == id) {
-            receiver.visibility = &sampling.visibility->at(receiver.p);
+        if (sampling.learned != nullptr && sampling.learned->visibility && environment_ == id) {
+            receiver.visibility = &sampling.learned->visibility->at(receiver.p);
         }
         return receiver;
     }

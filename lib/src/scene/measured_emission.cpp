@@ -13,7 +13,7 @@ namespace bdpt {
 int max_emission_samples(std::span<const MaterialId> material_ids,
                          std::span<const PlacedMesh> placed, std::span<const Material> materials)
 {
-    constexpr double budget = 0x1p22;
+    constexpr double budget = 0x1p18;
     std::set<std::pair<const MeshDesc*, MaterialId>> counted;
     std::size_t textured = 0;
     for (std::size_t i = 0; i < material_ids.size(); ++i) {

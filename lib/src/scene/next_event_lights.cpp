@@ -76,6 +76,24 @@ std::optional<NextEventLights::Choice> NextEventLights::choose(const LightSample
                   .probability = choice.probability * static_cast<float>(rest)};
 }
 
+std::optional<NextEventLights::Choice> NextEventLights::choose(
+    const LightSampleContext& receiver, double u, const GroupShares::Shares& shares) const noexcept
+{
+    constexpr double below_one = 1.0 - 0x1p-53;
+    const std::size_t last = group_count() - 1;
+    std::size_t group = 0;
+    // The last group takes what rounding leaves.
+    while (group < last && u >= static_cast<double>(shares[group])) {
+        u -= static_cast<double>(shares[group++]);
+    }
+    const double within = std::min(u / static_cast<double>(shares[group]), below_one);
+    auto choice = choose_of_group(group, receiver, within);
+    if (choice) {
+        choice->probability *= shares[group];
+    }
+    return choice;
+}
+
 std::optional<NextEventLights::Choice> NextEventLights::choose_placed(
     const LightSampleContext& receiver, double u) const noexcept
 {
@@ -94,6 +112,21 @@ float NextEventLights::probability(LightId id, const LightSampleContext& receive
         case Slot::Group::infinite:
             return infinite_table_.probability(slot.number) *
                    static_cast<float>(1.0 - placed_share_);
+        case Slot::Group::none:
+            break;
+    }
+    return 0.0f;
+}
+
+float NextEventLights::probability(LightId id, const LightSampleContext& receiver,
+                                   const GroupShares::Shares& shares) const noexcept
+{
+    const Slot slot = slots_[static_cast<std::size_t>(id)];
+    switch (slot.group) {
+        case Slot::Group::placed:
+            return tree_.probability(slot.number, receiver) * shares[infinite_.size()];
+        case Slot::Group::infinite:
+            return shares[slot.number];
         case Slot::Group::none:
             break;
     }

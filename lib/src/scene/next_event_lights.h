@@ -1,5 +1,6 @@
 #pragma once
 
+#include "light/learned/group_shares.h"
 #include "light/light.h"
 #include "light/tree/light_tree.h"
 #include "math/alias_table.h"
@@ -33,7 +34,39 @@ public:
                                                       double u) const noexcept;
     [[nodiscard]] float probability(LightId id, const LightSampleContext& receiver) const noexcept;
 
-    /// Returns the number of lights that have a position and power.
+    // Group g is the g-th light at infinity; the last group holds the placed lights, if there are
+    // any.
+
+    [[nodiscard]] std::size_t group_count() const noexcept
+    {
+        return infinite_.size() + (placed_.empty() ? 0U : 1U);
+    }
+    /// Tests whether the light is in a group.
+    [[nodiscard]] bool has_power(LightId id) const noexcept
+    {
+        return slots_[static_cast<std::size_t>(id)].group != Slot::Group::none;
+    }
+    /// Returns the group of a light that has power.
+    [[nodiscard]] std::size_t group_of(LightId id) const noexcept
+    {
+        const Slot slot = slots_[static_cast<std::size_t>(id)];
+        return slot.group == Slot::Group::infinite ? slot.number : infinite_.size();
+    }
+    /// Chooses within a group.
+    [[nodiscard]] std::optional<Choice> choose_of_group(std::size_t group,
+                                                        const LightSampleContext& receiver,
+                                                        double u) const noexcept
+    {
+        return group < infinite_.size() ? std::optional(Choice{infinite_[group], 1.0f})
+                                        : choose_placed(receiver, u);
+    }
+    /// Overloads with these shares of the groups.
+    [[nodiscard]] std::optional<Choice> choose(const LightSampleContext& receiver, double u,
+                                               const GroupShares::Shares& shares) const noexcept;
+    [[nodiscard]] float probability(LightId id, const LightSampleContext& receiver,
+                                    const GroupShares::Shares& shares) const noexcept;
+
+    /// Returns the number of placed lights that have power.
     [[nodiscard]] std::size_t placed_count() const noexcept { return placed_.size(); }
     /// Tests whether there are both lights with a position and lights at infinity.
     [[nodiscard]] bool has_both_kinds() const noexcept

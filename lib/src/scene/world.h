@@ -8,6 +8,7 @@
 #include "material/material.h"
 #include "math/footprint.h"
 #include "scene/enclosing_volumes.h"
+#include "scene/learned_memo.h"
 #include "scene/light_set.h"
 #include "scene/media.h"
 #include "scene/scene_geometry.h"
@@ -120,6 +121,8 @@ public:
     [[nodiscard]] const Volumes& volumes() const { return volumes_; }
     /// Returns the medium at a point that lies on no surface.
     [[nodiscard]] MediumId medium_at(Vec3 p) const;
+    /// Returns the memo of the light pilot, the only mutable state of a world.
+    [[nodiscard]] LearnedMemo& learned() const noexcept { return learned_; }
     /// Returns likely mistakes in the scene, one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
@@ -188,6 +191,7 @@ private:
     std::vector<std::string> warnings_;
     std::shared_ptr<const Lit> lit_;
     const LightSet* lights_ = nullptr;  // points into `lit_`
+    mutable LearnedMemo learned_;
 };
 
 }  // namespace bdpt

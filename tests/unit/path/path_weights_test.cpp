@@ -1,6 +1,6 @@
 #include "camera/camera.h"
 #include "catch.hpp"
-#include "light/environment/environment_visibility.h"
+#include "light/learned/learned_light.h"
 #include "many_lights.h"
 #include "path/connect.h"
 #include "path/densities.h"
@@ -172,26 +172,34 @@ TEST_CASE("next-event estimation has the density that others are weighed against
     Image sky{.width = 32, .height = 16, .pixels = std::vector<Rgb>(512, Rgb(0.5f))};
     sky.pixels[70] = Rgb(50.0f);
     builder.light(EnvironmentLightDesc{.radiance = std::move(sky)});
+    builder.light(DirectionalLightDesc{.direction = {0.3f, -1.0f, 0.2f}});
     const World world(std::move(builder.desc));
+    REQUIRE(world.lights().next_event_lights().group_count() == 3);
     const Camera camera(test::room_camera(), 16, 16);
     const bool knows = GENERATE(false, true);
     CAPTURE(knows);
-    // Of each tile of the sky, and everywhere, something else: a place of its own is a factor of
-    // its own.
+    // Of each tile of the sky, of each group, and everywhere, something else: a place of its own is
+    // a factor of its own.
     std::vector<EnvironmentVisibility::Trial> trials;
+    std::vector<GroupShares::Finding> findings;
     for (std::uint32_t i = 0; i < 100000; ++i) {
         const Vec3 p(static_cast<float>(i % 7) / 3.0f - 1.0f,
                      static_cast<float>(i % 11) / 5.0f - 1.0f,
                      static_cast<float>(i % 13) / 6.0f - 1.0f);
         trials.push_back(
             {.p = p, .tile = i % 128, .visible = (i / 128 + i % 7) % (2 + i % 5) == 0});
+        findings.push_back({.p = p, .group = i % 3, .value = static_cast<float>(i % 7 * (i % 11))});
     }
-    const EnvironmentVisibility visibility(trials);
-    REQUIRE(visibility.cells() > 50);
+    const LearnedLight learned{.visibility = EnvironmentVisibility(trials),
+                               .groups = GroupShares(findings, 3)};
+    REQUIRE(learned.visibility->cells() > 50);
+    REQUIRE(learned.groups->cells() > 50);
     const NextEventSampling sampling{.environments = EnvironmentSampling::compensated,
                                      .lights = LightSampling::tree,
-                                     .visibility = knows ? &visibility : nullptr};
+                                     .learned = knows ? &learned : nullptr};
     int changed = 0;
+    int other_choices = 0;
+    int full = 0;
     Subpath path(5);
     RayCounts rays;
     int compared = 0;
@@ -228,13 +236,27 @@ TEST_CASE("next-event estimation has the density that others are weighed against
             // The density of the point is that of the light's own tests, but for rounding.
             const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
             const float of_point = light.pdf_incident(receiver, point, sampling.environments).value;
-            if (knows && light.is_infinite()) {
+            const float chosen =
+                world.lights().next_event_probability(found.light, receiver, sampling);
+            REQUIRE(chosen == Approx(found.probability).epsilon(1e-5));
+            if (knows) {
+                const float unlearned =
+                    world.lights().context_probability(found.light, receiver, sampling.lights);
+                other_choices += std::abs(chosen / unlearned - 1.0f) > 0.05f ? 1 : 0;
+                float sum = 0.0f;
+                for (std::uint32_t id = 0; id < world.lights().size(); ++id) {
+                    sum += world.lights().next_event_probability(LightId{id}, receiver, sampling);
+                }
+                REQUIRE(sum <= 1.0f + 1e-4f);
+                full += sum > 1.0f - 1e-4f ? 1 : 0;
+            }
+            if (knows && light.is_infinite() && !light.is_delta()) {
                 changed +=
                     std::abs(density / (of_point * found.probability) - 1.0f) > 0.05f ? 1 : 0;
             } else {
                 REQUIRE(density == Approx(of_point * found.probability).epsilon(1e-5));
             }
-            if (light.is_infinite()) {
+            if (light.is_infinite() && !light.is_delta()) {
                 REQUIRE(density == Approx(found.pdf().value).epsilon(1e-5));
                 ++from_sky;
             }
@@ -247,6 +269,9 @@ TEST_CASE("next-event estimation has the density that others are weighed against
     CHECK(from_sky > 200);
     CHECK(through > 50);  // glass and paper
     CHECK((changed > 100) == knows);
+    CHECK((other_choices > compared / 2) == knows);
+    CHECK((full > compared / 2) ==
+          knows);  // else some light that the tree meets cannot shine there
 }
 
 }  // namespace bdpt::path_weights_test

@@ -33,13 +33,13 @@ Sampler light_sampler(const RenderOptions& options, int x, int y, std::int64_t i
 
 BidirectionalIntegrator::BidirectionalIntegrator(const World& world, const MovingCamera& camera,
                                                  const RenderOptions& options,
-                                                 const EnvironmentVisibility* visibility)
+                                                 const LearnedLight* learned)
     : world_(world),
       camera_(camera),
       options_(options),
       schedule_(options_),
       filter_(options.film.filter),
-      strategies_(options, visibility),
+      strategies_(options, learned),
       cache_(LightPathCounts(options), options)
 {}
 

@@ -20,8 +20,7 @@ class SampleTimer;
 class BidirectionalIntegrator final : public Integrator {
 public:
     BidirectionalIntegrator(const World& world, const MovingCamera& camera,
-                            const RenderOptions& options,
-                            const EnvironmentVisibility* visibility = nullptr);
+                            const RenderOptions& options, const LearnedLight* learned = nullptr);
     [[nodiscard]] std::int64_t max_samples_in_pass() const override;
     [[nodiscard]] std::int64_t begin_pass(SampleRange samples) override;
     [[nodiscard]] RenderStats render_chunk(std::int64_t part, SampleRange samples,

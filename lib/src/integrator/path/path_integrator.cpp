@@ -61,8 +61,7 @@ bool has_delta_light(const LightSet& lights)
 }  // namespace
 
 PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
-                               const RenderOptions& options,
-                               const EnvironmentVisibility* visibility)
+                               const RenderOptions& options, const LearnedLight* learned)
     : world_(world),
       camera_(camera),
       options_(options),
@@ -74,7 +73,7 @@ PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
                                                                     : EnvironmentSampling::plain,
           .lights = options.sampling.lights,
           .samples = options.sampling.light_samples,
-          .visibility = options.integrator == IntegratorKind::mis ? visibility : nullptr},
+          .learned = options.integrator == IntegratorKind::mis ? learned : nullptr},
       light_samples_(static_cast<float>(options.sampling.light_samples)),
       samples_lights_(options.integrator != IntegratorKind::pt || has_delta_light(world.lights()))
 {

@@ -18,7 +18,7 @@ namespace bdpt {
 class PathIntegrator final : public Integrator {
 public:
     PathIntegrator(const World& world, const MovingCamera& camera, const RenderOptions& options,
-                   const EnvironmentVisibility* visibility = nullptr);
+                   const LearnedLight* learned = nullptr);
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
 

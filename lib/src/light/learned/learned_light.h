@@ -1,0 +1,19 @@
+#pragma once
+
+#include "light/environment/environment_visibility.h"
+#include "light/learned/group_shares.h"
+
+#include <optional>
+
+namespace bdpt {
+
+/// The directions and lights from which light arrives, by position, as learned by a pilot.
+/// Next-event estimation samples by them; they cannot bias an image, whatever they say.
+struct LearnedLight {
+    /// Visibility of the environment; nullopt if it is equally visible everywhere, or nowhere.
+    std::optional<EnvironmentVisibility> visibility{};
+    /// Shares of groups of lights; nullopt if there is only one group, or no light was found.
+    std::optional<GroupShares> groups{};
+};
+
+}  // namespace bdpt

@@ -42,11 +42,8 @@ public:
     [[nodiscard]] Rgb power() const;
     [[nodiscard]] LightBounds bounds() const;
 
-    /// Tests whether both triangles belong to the same instance of a mesh.
-    [[nodiscard]] bool is_of_same_surface(const TriangleLight& other) const
-    {
-        return mesh_ == other.mesh_;
-    }
+    /// The mesh that it is a triangle of, in one place.
+    [[nodiscard]] const PlacedMesh& surface() const { return *mesh_; }
 
 private:
     struct Point {

@@ -69,9 +69,8 @@ GroundLamps::GroundLamps(const LightSet& lights, const GroundOccluders& occluder
         const float lamps = light_at(lights, occluders, place, height);
         shares[place] = lamps / (lamps + elsewhere);
     });
-    // Uses the maximum around each place, because the estimate of a single one may have missed a
-    // light.
-    constexpr float min_chance = 1.0f / 16.0f;
+    // The greatest share around each place, for the estimate of one may have missed a lamp.
+    constexpr float min_chance = 1.0f / 128.0f;
     constexpr float certain_share = 0.125f;
     constexpr std::size_t side = GroundOccluders::side;
     chances_.resize(shares.size());

@@ -2,8 +2,10 @@
 
 #include "geometry/rounding.h"
 #include "math/rgb.h"
+#include "math/shifted_points.h"
 
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +76,7 @@ GroundShadow::GroundShadow(const World& world, const RenderOptions& options)
     if (!lights.has_placed()) {
         return;
     }
+    find_shining_meshes();
     float elsewhere = sky_ ? sky_->irradiance() : 0.0f;
     for (const LightId id : suns_) {
         const auto light = lights[id].sample_incident({.p = Vec3(0.0f), .normal = up}, Vec2(0.5f),
@@ -82,6 +85,18 @@ GroundShadow::GroundShadow(const World& world, const RenderOptions& options)
     }
     has_other_lights_ = elsewhere > 0.0f;
     lamps_.emplace(lights, *occluders_, height_, elsewhere);
+}
+
+void GroundShadow::find_shining_meshes()
+{
+    const LightSet& lights = world_.lights();
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        if (const auto* triangle = std::get_if<TriangleLight>(&lights[LightId{i}].model())) {
+            Box& box = shining_[&triangle->surface()];
+            const LightBounds bounds = triangle->bounds();
+            box = {.min = glm::min(box.min, bounds.min), .max = glm::max(box.max, bounds.max)};
+        }
+    }
 }
 
 std::optional<SegmentEnd> GroundShadow::meet(const CameraRay& ray) const
@@ -135,16 +150,17 @@ void GroundShadow::add_sky(const Point& point, GroundLight& sum) const
     if (!(shares.exposed > 0.0f)) {
         return;
     }
-    constexpr float samples_of_all = 4.0f;  // samples if all of the sky may be blocked
+    constexpr float samples_of_all = 3.0f;  // if all of the sky may be blocked
     const float wanted = samples_of_all * shares.exposed / (shares.open + shares.exposed);
     // Fewer than one sample is one with that probability.
     const int samples = static_cast<int>(std::ceil(wanted));
     const float chance = std::min(wanted, 1.0f);
     const float weight = 1.0f / (chance * static_cast<float>(samples));
+    point.sampler.start(SampleUse::ground, number_of_ray(0, 0));
+    const Vec2 first = point.sampler.next_2d();
     for (int i = 0; i < samples; ++i) {
-        const std::uint32_t number = number_of_ray(0, i);
-        point.sampler.start(SampleUse::ground, number);
-        Vec2 u = point.sampler.next_2d();
+        Vec2 u = shifted_point(first, static_cast<std::uint32_t>(i),
+                               static_cast<std::uint32_t>(samples));
         if (!(u.x < chance)) {
             continue;
         }
@@ -154,8 +170,8 @@ void GroundShadow::add_sky(const Point& point, GroundLight& sum) const
             continue;
         }
         ++point.rays.aov;
-        const Rgb open =
-            world_.transmittance_to_infinity(point.end, sample.to_light, point.segment(number));
+        const Rgb open = world_.transmittance_to_infinity(point.end, sample.to_light,
+                                                          point.segment(number_of_ray(0, i)));
         add(sum, {luminance(sample.irradiance), luminance(sample.irradiance * open)}, weight);
     }
 }
@@ -249,22 +265,27 @@ bool GroundShadow::hides_itself(const Point& point, LightId id, const IncidentSa
     }
     // Other surfaces on the way do not matter.
     constexpr int max_surfaces = 64;
-    SegmentEnd from = point.end;
+    const Box& box = shining_.find(&triangle->surface())->second;
+    SegmentEnd from = light.end;
     for (int i = 0; i < max_surfaces; ++i) {
         ++point.rays.aov;
-        const auto hit = world_.first_hit(from, light.wi, segment);
+        const auto hit = world_.first_hit(from, -light.wi, segment);
         if (!hit || hit->sphere != no_sphere) {
             return false;
         }
-        const float so_far = dot(hit->at.point.p - point.end.p, light.wi);
-        if (so_far + hit->at.point.error + light.end.error >= light.distance) {
-            return false;
+        const Vec3 p = hit->at.point.p;
+        const float error = hit->at.point.error;
+        const bool is_inside = glm::all(glm::greaterThanEqual(p, box.min - error)) &&
+                               glm::all(glm::lessThanEqual(p, box.max + error));
+        if (!is_inside || p.y <= height_) {
+            return false;  // and so is all that follows
         }
         const auto met = lights.of_triangle(hit->instance, hit->triangle);
-        if (met && triangle->is_of_same_surface(std::get<TriangleLight>(lights[*met].model()))) {
+        if (met &&
+            &std::get<TriangleLight>(lights[*met].model()).surface() == &triangle->surface()) {
             return true;
         }
-        from = {.p = hit->at.point.p, .error = hit->at.point.error, .ng = hit->at.ng};
+        from = {.p = p, .error = error, .ng = hit->at.ng};
     }
     return false;
 }

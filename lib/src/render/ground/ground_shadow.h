@@ -14,7 +14,9 @@
 #include <bdpt/render_stats.h>
 
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace bdpt {
@@ -46,6 +48,13 @@ private:
     /// Tests whether a surface of the light itself occludes this point on it from the ground.
     [[nodiscard]] bool hides_itself(const Point& point, LightId id, const IncidentSample& light,
                                     SegmentKey segment) const;
+    void find_shining_meshes();
+
+    /// Where a mesh shines.
+    struct Box {
+        Vec3 min{std::numeric_limits<float>::infinity()};
+        Vec3 max{-std::numeric_limits<float>::infinity()};
+    };
 
     const World& world_;
     float height_;
@@ -54,6 +63,7 @@ private:
     std::vector<LightId> suns_;  // all other lights at infinity
     std::optional<GroundLamps> lamps_;
     bool has_other_lights_ = false;
+    std::unordered_map<const PlacedMesh*, Box> shining_;  // of meshes that emit
 };
 
 }  // namespace bdpt

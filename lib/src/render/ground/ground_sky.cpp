@@ -21,10 +21,24 @@ Vec3 direction_of(float azimuth, float sine, float cosine)
     return {sine * phi.sin, cosine, sine * phi.cos};
 }
 
+template <std::size_t count>
+double sum_of(const std::array<float, count>& numbers)
+{
+    double sum = 0.0;
+    for (const float number : numbers) {
+        sum += static_cast<double>(number);
+    }
+    return sum;
+}
+
 }  // namespace
 
 GroundSky::GroundSky(const EnvironmentLight& sky, const GroundOccluders& occluders)
-    : sky_(sky), occluders_(occluders), weights_(columns), irradiances_(strips)
+    : sky_(sky),
+      occluders_(occluders),
+      cells_(strips * rows),
+      weights_(strips),
+      irradiances_(strips)
 {
     for (std::size_t row = 0; row <= rows; ++row) {
         const float sine =
@@ -46,9 +60,7 @@ GroundSky::GroundSky(const EnvironmentLight& sky, const GroundOccluders& occlude
         for (std::size_t strip = 0; strip < strips; ++strip) {
             const GroundOccluders::Rows blocked = skyline[strip];
             exposed += irradiances_[strip][blocked.end] - irradiances_[strip][blocked.begin];
-            for (std::size_t column = 0; column < columns_of_strip; ++column) {
-                weight += weight_between(strip * columns_of_strip + column, blocked);
-            }
+            weight += weights_[strip][blocked.end] - weights_[strip][blocked.begin];
             place.weights[strip] = static_cast<float>(weight);
         }
         place.weight = place.weights.back();
@@ -94,8 +106,6 @@ void GroundSky::fill_cells()
     // A cell whose points are all dark may have light between them if its neighbours do.
     constexpr float min_share = 0.01f;
     tbb::parallel_for(std::size_t{0}, columns, [&](std::size_t column) {
-        RowSums& sums = weights_[column];
-        sums[0] = 0.0;
         for (std::size_t row = 0; row < rows; ++row) {
             float most = 0.0f;
             for (const std::size_t x :
@@ -105,10 +115,16 @@ void GroundSky::fill_cells()
                     most = std::max(most, means[x][y]);
                 }
             }
-            const float weight = std::max(means[column][row], min_share * most);
-            sums[row + 1] = sums[row] + static_cast<double>(weight);
+            cells(column / columns_of_strip, row)[column % columns_of_strip] =
+                std::max(means[column][row], min_share * most);
         }
     });
+    for (std::size_t strip = 0; strip < strips; ++strip) {
+        RowSums& sums = weights_[strip];
+        for (std::size_t row = 0; row < rows; ++row) {
+            sums[row + 1] = sums[row] + sum_of(cells(strip, row));
+        }
+    }
     for (std::size_t column = 0; column < columns; ++column) {
         RowSums& strip = irradiances_[column / columns_of_strip];
         double above = 0.0;
@@ -122,47 +138,46 @@ void GroundSky::fill_cells()
 GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
 {
     const Place& from = places_[place];
-    // Choose one of the strips that may be blocked and a column of it, and keep the remaining
-    // random number.
+    constexpr Sample nothing{.to_light = {0.0f, 1.0f, 0.0f}};
+    // A strip of those that may be blocked, by the first number.
     const float target = std::min(u.x, below_one) * from.weight;
     const auto found = std::upper_bound(from.weights.begin(), from.weights.end() - 1, target);
     const auto strip = static_cast<std::size_t>(found - from.weights.begin());
     const GroundOccluders::Rows blocked = occluders_.skyline(place)[strip];
-    double left = static_cast<double>(target - (strip > 0 ? from.weights[strip - 1] : 0.0f));
-    std::size_t column = strip * columns_of_strip;
-    double weight = 0.0;
-    double before = left;
-    for (std::size_t i = 0; i < columns_of_strip; ++i) {
-        const double next = weight_between(strip * columns_of_strip + i, blocked);
-        if (!(next > 0.0)) {
-            continue;
-        }
-        column = strip * columns_of_strip + i;
-        weight = next;
-        before = left;
-        left -= next;
-        if (left < 0.0) {
-            break;
-        }
-    }
+    // A row of it, by the second.
+    const RowSums& sums = weights_[strip];
+    const double weight = sums[blocked.end] - sums[blocked.begin];
     if (!(weight > 0.0)) {
-        return {.to_light = {0.0f, 1.0f, 0.0f}};
+        return nothing;
     }
-    const auto across = std::min(static_cast<float>(before / weight), below_one);
-    // Choose a row of the column.
-    const RowSums& sums = weights_[column];
     const double height = sums[blocked.begin] + static_cast<double>(u.y) * weight;
     const auto above =
         std::upper_bound(sums.begin() + blocked.begin + 1, sums.begin() + blocked.end, height) - 1;
     const auto row =
         std::min(static_cast<std::size_t>(above - sums.begin()), std::size_t{blocked.end} - 1U);
-    const double of_cell = sums[row + 1] - sums[row];
-    if (!(of_cell > 0.0)) {
-        return {.to_light = {0.0f, 1.0f, 0.0f}};
+    const double of_row = sums[row + 1] - sums[row];
+    if (!(of_row > 0.0)) {
+        return nothing;
     }
     const auto along =
-        std::min(static_cast<float>(std::max(height - sums[row], 0.0) / of_cell), below_one);
-    // Sampling is uniform in projected solid angle within a cell.
+        std::min(static_cast<float>(std::max(height - sums[row], 0.0) / of_row), below_one);
+    // A cell of both, by what is left of the first.
+    const Cells& row_of_cells = cells(strip, row);
+    const double of_cells = sum_of(row_of_cells);
+    const float before = strip > 0 ? from.weights[strip - 1] : 0.0f;
+    double left = static_cast<double>(target - before) / weight * of_cells;
+    std::size_t cell = 0;
+    while (cell + 1 < columns_of_strip && left >= static_cast<double>(row_of_cells[cell])) {
+        left -= static_cast<double>(row_of_cells[cell]);
+        ++cell;
+    }
+    const auto of_cell = static_cast<double>(row_of_cells[cell]);
+    if (!(of_cell > 0.0)) {
+        return nothing;
+    }
+    const auto across = std::min(static_cast<float>(left / of_cell), below_one);
+    const std::size_t column = strip * columns_of_strip + cell;
+    // In a cell all of the projected solid angle is the same.
     const float sine_squared =
         sines_squared_[row] + along * (sines_squared_[row + 1] - sines_squared_[row]);
     const float azimuth =
@@ -171,8 +186,9 @@ GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
                                        std::sqrt(std::max(1.0f - sine_squared, 0.0f)));
     const float projected =
         pi / static_cast<float>(columns) * (sines_squared_[row + 1] - sines_squared_[row]);
-    const auto over_density = static_cast<float>(static_cast<double>(from.weight) *
-                                                 static_cast<double>(projected) / of_cell);
+    const auto over_density =
+        static_cast<float>(static_cast<double>(from.weight) / of_row * (of_cells / of_cell) *
+                           static_cast<double>(projected));
     return {.to_light = to_light, .irradiance = over_density * sky_.radiance(to_light)};
 }
 

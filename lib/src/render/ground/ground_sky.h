@@ -49,16 +49,23 @@ private:
     };
 
     void fill_cells();
-    [[nodiscard]] double weight_between(std::size_t column, GroundOccluders::Rows of) const
+    /// The weights in sampling of the cells of a strip in one row.
+    using Cells = std::array<float, columns_of_strip>;
+    [[nodiscard]] Cells& cells(std::size_t strip, std::size_t row)
     {
-        return weights_[column][of.end] - weights_[column][of.begin];
+        return cells_[strip * rows + row];
+    }
+    [[nodiscard]] const Cells& cells(std::size_t strip, std::size_t row) const
+    {
+        return cells_[strip * rows + row];
     }
 
     const EnvironmentLight& sky_;
     const GroundOccluders& occluders_;
-    std::array<float, rows + 1> sines_squared_{};  ///< at the polar angles where rows begin
-    std::vector<RowSums> weights_;                 ///< sampling weights of cells, by column
-    std::vector<RowSums> irradiances_;             ///< by strip
+    std::array<float, rows + 1> sines_squared_{};  ///< of the polar angle where rows begin
+    std::vector<Cells> cells_;
+    std::vector<RowSums> weights_;      ///< of the cells, by strip
+    std::vector<RowSums> irradiances_;  ///< by strip
     float irradiance_ = 0.0f;
     std::vector<Place> places_;
 };

@@ -111,9 +111,9 @@ CommandLine::CommandLine()
     program.commands.back().short_footer = render_short_footer;
     add("view", "Show a scene in the browser, to find view, light and look", view_footer,
         add_view_command_options, view);
-    program.commands.back().essentials = {"file",         "--spp",    "--size",     "--camera",
-                                          "--view",       "--env",    "--exposure", "--integrator",
-                                          "--background", "--listen", "--open"};
+    program.commands.back().essentials = {
+        {"file"},       {"--spp"},        {"--size"},       {"--camera"}, {"--view"}, {"--env"},
+        {"--exposure"}, {"--integrator"}, {"--background"}, {"--listen"}, {"--open"}};
     program.commands.back().short_footer = view_short_footer;
     add("plan", "Share a render among many processes or machines", plan_footer, add_plan_options,
         plan);

@@ -68,17 +68,22 @@ std::vector<std::string> words_for_cli(const std::vector<std::string>& words)
 /// Options registered with CLI11, which separates the words; `Option::store` parses the values.
 class CliOptions {
 public:
-    /// Adds options; help shows the names `shown`; empty: all of them.
-    void add(CLI::App& app, OptionList& list, std::span<const std::string_view> shown = {})
+    /// Help shows the options `shown`, without sections; empty: all of them.
+    void add(CLI::App& app, OptionList& list, std::span<const Essential> shown = {})
     {
         for (Option& option : list.all()) {
             CLI::Option* added = add(app, option);
-            const bool is_hidden = !shown.empty() && std::find(shown.begin(), shown.end(),
-                                                               option.name()) == shown.end();
-            if (is_hidden) {
+            const auto found = std::find_if(shown.begin(), shown.end(), [&](const Essential& one) {
+                return one.name == option.name();
+            });
+            if (shown.empty()) {
+                if (!option.section.empty()) {
+                    added->group(option.section);
+                }
+            } else if (found == shown.end()) {
                 added->group("");
-            } else if (!option.section.empty()) {
-                added->group(option.section);
+            } else if (!found->brief.empty()) {
+                added->description(std::string(found->brief));
             }
             added->required(option.required);
             added_.emplace_back(&option, added);
@@ -147,7 +152,7 @@ struct CommandLineParser {
             const bool is_short = detail == HelpDetail::essentials;
             options.emplace_back().add(
                 *added, command.options,
-                is_short ? std::span(command.essentials) : std::span<const std::string_view>());
+                is_short ? std::span(command.essentials) : std::span<const Essential>());
             if (!command.essentials.empty()) {
                 added->add_flag(std::string(help_all), all_flag,
                                 "Print the help of all options, with examples and exit codes");

@@ -18,9 +18,9 @@ struct Command {
     std::string summary;  ///< one line
     std::string footer;   ///< printed below the options in its help: examples, exit codes
     OptionList options;
-    /// Names of the options that --help shows; --help-all shows the others, too. Empty: all.
-    std::vector<std::string_view> essentials{};
-    std::string short_footer{};  ///< replaces `footer` below the essentials
+    /// What its help shows of the options, in one section; --help-all shows all. Empty: all.
+    std::vector<Essential> essentials{};
+    std::string short_footer{};  ///< in place of `footer`, below the essentials
 };
 
 /// Level of detail of a help text.

@@ -88,7 +88,13 @@ struct Option {
     [[nodiscard]] std::string spelled(std::string text) const;
 };
 
-/// The options of a command, in the order of its help, and the texts given for them.
+/// An option that the short help of a command shows.
+struct Essential {
+    std::string_view name;
+    std::string_view brief{};  ///< in place of what the option says it does; empty: that
+};
+
+/// The options of a command, in the order of its help, and what was given for them.
 class OptionList {
 public:
     /// Starts a section of that title for options added from now on.

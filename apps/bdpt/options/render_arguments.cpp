@@ -224,11 +224,37 @@ const char* const render_short_footer = R"(Examples:
 
 "bdpt render --help-all" has all options, more examples and the exit codes.)";
 
-std::vector<std::string_view> render_essentials()
+std::vector<Essential> render_essentials()
 {
-    return {"file",   "others",       "--output", "--spp",   "--time",     "--noise",
-            "--size", "--camera",     "--view",   "--from",  "--look-at",  "--fov",
-            "--env",  "--background", "--ground", "--orbit", "--exposure", "--denoise"};
+    return {
+        {"file"},
+        {"others", "More scenes; {name} in names of outputs is the name of the scene"},
+        {"--output",
+         "An image: .png, .jpg or .webp (tone-mapped), .exr or .hdr (linear). May be repeated. "
+         "Default: the name of the scene with .png"},
+        {"--exposure",
+         "Exposure: by the image (auto), by the light that falls in (light), or fixed"},
+        {"--background",
+         "Seen in place of the environment, which still lights the scene: nothing, a colour or a "
+         "photograph"},
+        {"--denoise", "Denoise the image by Open Image Denoise 2"},
+        {"--spp"},
+        {"--size", "Image size. Default: the largest within 1280x720"},
+        {"--time", "Time to render for, like 90s, 2m or 1.5h"},
+        {"--noise", "Stop when the noise is that low, like 2%"},
+        {"--ground", "shadow: catch the shadow of the scene below it; needs --background"},
+        {"--camera"},
+        {"--view",
+         "Frame all of the scene: front, right, back, left, top, bottom, three-quarter, or angles "
+         "[degrees]"},
+        {"--from"},
+        {"--look-at"},
+        {"--fov"},
+        {"--env",
+         "Environment map: an equirectangular image, none, default (a soft sky) or studio (soft "
+         "boxes)"},
+        {"--orbit", "Turntable: N views, into files with #### in their names"},
+    };
 }
 
 void add_scene_file(OptionList& options, RenderRequest& request)

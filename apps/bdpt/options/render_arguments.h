@@ -105,8 +105,8 @@ struct RenderRequest {
 extern const char* const render_footer;
 extern const char* const render_short_footer;
 
-/// Returns the names of the options that people need first.
-[[nodiscard]] std::vector<std::string_view> render_essentials();
+/// The options that people need first.
+[[nodiscard]] std::vector<Essential> render_essentials();
 
 /// Adds the options of `bdpt render`.
 void add_render_options(OptionList& options, RenderRequest& request);

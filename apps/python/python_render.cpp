@@ -29,6 +29,7 @@
 #include "options/values/output_files.h"
 #include "python_files.h"
 #include "python_render.h"
+#include "report/image/backplate.h"
 #include "report/image/denoised.h"
 #include "report/image/image_files.h"
 #include "report/image/shown_exposure.h"
@@ -137,6 +138,7 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
 
 Render empty_render(const PythonScene& scene, const Task& task)
 {
+    app::check_backplate(task.arguments.display);
     return {.part = {},
             .notes = {.goal = SampleSet(task.arguments.samples), .metadata = task.metadata},
             .backdrop = task.arguments.display.backdrop,
@@ -247,7 +249,7 @@ Render read_part(const fs::path& file)
     Render render{.part = {}, .notes = info.notes};
     io::MemoryBudget memory(app::memory_limit(std::nullopt));
     io::merge_part(render.part, info, &memory);
-    render.backdrop = app::display_of_parts(info.notes.metadata, {}).backdrop;
+    render.backdrop = app::display_of_parts(info, {}).backdrop;
     render.seconds = info.notes.metadata.render_seconds;
     return render;
 }

@@ -260,6 +260,29 @@ def test_images_are_saved_as_the_command_saves_them(command, cornell_box, tmp_pa
     assert difference.returncode == 0, difference.stdout
 
 
+def test_a_photograph_lies_behind_renders(cornell_box, tmp_path):
+    photo = tmp_path / "photo.png"
+    look = dict(exposure=0, tone_map="none")
+    bdpt.render(cornell_box, spp=1, **SMALL).save(photo, **look)
+    view = dict(spp=1, from_=(0, 1, 12), look_at=(0, 1, 0), **SMALL)
+    plain = bdpt.render(cornell_box, background="transparent", **view)
+    expected = plain.to_srgb(background=photo, **look)
+    is_open = plain.layers["alpha"][..., 0] == 0
+    assert is_open.any() and not is_open.all()
+    own = bdpt.render(cornell_box, spp=1, **SMALL).to_srgb(**look)
+    assert (expected[is_open] == own[is_open]).all()
+    assert (bdpt.render(cornell_box, background=photo, **view).to_srgb(**look) == expected).all()
+    for render in bdpt.orbit(cornell_box, 2, background=photo, **view):
+        assert (render.to_srgb(**look)[0, 0] == own[0, 0]).all()
+
+
+def test_a_photograph_that_is_not_there_is_missed_before_the_render(cornell_box):
+    for begin in (bdpt.render, bdpt.Renderer):
+        with pytest.raises(bdpt.Error, match="absent.png: no such file") as raised:
+            begin(cornell_box, background="absent.png", **SMALL)
+        assert raised.value.code == 3
+
+
 def test_an_image_is_not_saved_over_what_its_scene_is_made_of(tmp_path):
     scene = json.loads((SCENES / "cornell-box.gltf").read_text())
     data = base64.b64decode(scene["buffers"][0]["uri"].partition("base64,")[2])

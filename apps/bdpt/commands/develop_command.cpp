@@ -50,6 +50,9 @@ DisplayArguments display_of(DisplayArguments display, const LayeredImage& image,
     }
     if (!display.backdrop) {
         display.backdrop = image.backdrop;
+        if (display.backdrop && !display.backdrop->photo.empty()) {
+            display.backdrop->photo = photo_of(display.backdrop->photo, file);
+        }
     }
     check_metered(display.exposure, image.metadata, file.string());
     return display;

@@ -161,8 +161,7 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
     Console& console = session.console;
     const std::vector<PartInfo>& parts = collection.parts;
     check_strategies(arguments, parts.front());
-    const DisplayArguments display =
-        display_of_parts(parts.front().notes.metadata, arguments.display);
+    const DisplayArguments display = display_of_parts(parts.front(), arguments.display);
     check_transparency(display, arguments.outputs);
     check_backplate(display);
     RenderPart sum;

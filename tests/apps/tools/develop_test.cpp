@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -171,6 +172,59 @@ TEST_CASE("a photograph lies behind what is rendered, in all of its pixels", "[d
             }
         }
     }
+}
+
+TEST_CASE("a photograph lies behind every image of a command", "[develop]")
+{
+    const Darkroom room;
+    room.render({"-o", "photo.png", "--camera", "1", "--exposure", "0", "--env", "none"});
+    const std::vector<std::uint8_t> photo = read_png(room.path("photo.png")).rgb;
+    const Words behind{"--background", "photo.png", "--exposure", "0"};
+    room.render(joined(behind, {"--orbit", "2", "-o", "o.#.png", "-o", "o.#.exr"}));
+    room.render(joined(behind, {"--cameras", "all", "-o", "c.{camera}.png"}));
+    std::filesystem::copy_file(room.path("cube.gltf"), room.path("other.gltf"));
+    room.render(joined(behind, {"other.gltf", "-o", "s.{name}.png"}));
+    for (const char* name : {"c.front.png", "c.side.png", "s.cube.png", "s.other.png"}) {
+        CAPTURE(name);
+        const std::vector<std::uint8_t> shown = read_png(room.path(name)).rgb;
+        CHECK(std::equal(shown.begin(), shown.begin() + 3, photo.begin()));  // in a corner
+    }
+    const std::vector<std::uint8_t> first = read_png(room.path("o.1.png")).rgb;
+    const std::vector<std::uint8_t> second = read_png(room.path("o.2.png")).rgb;
+    CHECK(first != second);
+    for (const char* number : {"1", "2"}) {
+        const auto name = std::string("o.") + number;
+        const std::vector<std::uint8_t> shown = read_png(room.path(name + ".png")).rgb;
+        const std::vector<float> alpha = read_exr_channel(room.path(name + ".exr"), "A");
+        int open = 0;
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            if (alpha[i / 3] == 0.0f) {
+                REQUIRE(shown[i] == photo[i]);
+                ++open;
+            }
+        }
+        CHECK(open > 100);
+    }
+}
+
+TEST_CASE("a photograph is found beside the image that names it", "[develop]")
+{
+    const Darkroom room;
+    room.render({"-o", "photo.png", "--camera", "1", "--exposure", "0", "--env", "none"});
+    room.render(
+        {"-o", "a.png", "-o", "a.exr", "--part", "a.part.exr", "--background", "photo.png"});
+    const std::filesystem::path folder = room.path("moved");
+    std::filesystem::create_directory(folder);
+    for (const char* name : {"photo.png", "a.exr", "a.part.exr"}) {
+        std::filesystem::rename(room.path(name), folder / name);
+    }
+    room.succeed({"develop", "moved/a.exr", "-o", "b.png"});
+    CHECK(read_png(room.path("a.png")).values == read_png(room.path("b.png")).values);
+    room.succeed({"merge", "moved/a.part.exr", "-o", "c.png"});
+    CHECK(read_png(room.path("a.png")).values == read_png(room.path("c.png")).values);
+    std::filesystem::remove(folder / "photo.png");
+    CHECK(room.refused({"moved/a.exr", "-o", "d.png"}, 3).find("photo.png: no such file") !=
+          std::string::npos);
 }
 
 TEST_CASE("a photograph of other proportions fills the frame", "[develop]")

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <system_error>
 #include <vector>
 
 namespace bdpt::app {
@@ -111,6 +112,14 @@ void check_backplate(const DisplayArguments& display)
     if (display.backdrop && !display.backdrop->photo.empty()) {
         static_cast<void>(io::read_image(display.backdrop->photo));
     }
+}
+
+std::filesystem::path photo_of(const std::filesystem::path& named,
+                               const std::filesystem::path& image)
+{
+    std::error_code ignored;
+    const std::filesystem::path beside = image.parent_path() / named;
+    return !exists(named, ignored) && exists(beside, ignored) ? beside : named;
 }
 
 }  // namespace bdpt::app

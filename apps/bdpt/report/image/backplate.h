@@ -3,6 +3,7 @@
 #include <bdpt/image.h>
 #include <bdpt/io/exr.h>
 
+#include <filesystem>
 #include <optional>
 
 #include "options/groups/display_arguments.h"
@@ -24,5 +25,9 @@ namespace bdpt::app {
 
 /// Throws `Error`, before anything is rendered, if the file of a photograph cannot be read.
 void check_backplate(const DisplayArguments& display);
+
+/// The photograph that the metadata of `image` name: where the name leads, else beside the image.
+[[nodiscard]] std::filesystem::path photo_of(const std::filesystem::path& named,
+                                             const std::filesystem::path& image);
 
 }  // namespace bdpt::app

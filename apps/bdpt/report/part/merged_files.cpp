@@ -17,6 +17,7 @@
 
 #include "options/groups/strategy_arguments.h"
 #include "options/values/output_files.h"
+#include "report/image/backplate.h"
 #include "report/image/image_files.h"
 #include "report/image/shown_exposure.h"
 #include "report/strategy_files.h"
@@ -63,13 +64,17 @@ std::string settings_of(const std::string& text, std::int64_t samples,
 
 }  // namespace
 
-DisplayArguments display_of_parts(const io::ImageMetadata& metadata, DisplayArguments display)
+DisplayArguments display_of_parts(const io::PartInfo& part, DisplayArguments display)
 {
+    const io::ImageMetadata& metadata = part.notes.metadata;
     const ordered_json settings = parsed_settings(metadata.settings);
     std::optional<Backdrop> own;
     if (settings.is_object() && settings.contains("background") &&
         settings["background"].is_string()) {
         own = parse_backdrop(settings["background"].get<std::string>());
+        if (own && !own->photo.empty()) {
+            own->photo = photo_of(own->photo, part.file);
+        }
     }
     if (display.backdrop && !own) {
         throw Error(ErrorCode::invalid_input,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <bdpt/io/denoise.h>
-#include <bdpt/io/image_metadata.h>
 #include <bdpt/io/part_file.h>
 #include <bdpt/part/render_part.h>
 
@@ -14,11 +13,10 @@
 
 namespace bdpt::app {
 
-/// Returns the display options of images of parts: parts without the environment behind them get
-/// the backdrop requested when they were rendered, or that of `asked`. Throws `Error`
+/// How images of parts like `part` are shown: parts without the environment behind them get the
+/// backdrop that was asked for when they were rendered, or that of `asked`. Throws `Error`
 /// (invalid_input) for a backdrop behind parts that show the environment.
-[[nodiscard]] DisplayArguments display_of_parts(const io::ImageMetadata& metadata,
-                                                DisplayArguments asked);
+[[nodiscard]] DisplayArguments display_of_parts(const io::PartInfo& part, DisplayArguments asked);
 
 /// Checks that files can be written, like `check_outputs` and `check_strategy_files`, and that no
 /// file of an image is a part of any.

@@ -18,7 +18,7 @@ struct Command {
     std::string summary;  ///< one line
     std::string footer;   ///< printed below the options in its help: examples, exit codes
     OptionList options;
-    /// What its help shows of the options, in one section; --help-all shows all. Empty: all.
+    /// The options that its help shows, in one section; --help-all shows all. Empty: all.
     std::vector<Essential> essentials{};
     std::string short_footer{};  ///< in place of `footer`, below the essentials
 };

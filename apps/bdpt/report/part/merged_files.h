@@ -13,8 +13,8 @@
 
 namespace bdpt::app {
 
-/// How images of parts like `part` are shown: parts without the environment behind them get the
-/// backdrop that was asked for when they were rendered, or that of `asked`. Throws `Error`
+/// Returns the display options of images of parts like `part`: parts without the environment behind
+/// them get the backdrop of their render, or that of `asked`. Throws `Error`
 /// (invalid_input) for a backdrop behind parts that show the environment.
 [[nodiscard]] DisplayArguments display_of_parts(const io::PartInfo& part, DisplayArguments asked);
 

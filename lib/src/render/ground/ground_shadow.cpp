@@ -150,7 +150,7 @@ void GroundShadow::add_sky(const Point& point, GroundLight& sum) const
     if (!(shares.exposed > 0.0f)) {
         return;
     }
-    constexpr float samples_of_all = 3.0f;  // if all of the sky may be blocked
+    constexpr float samples_of_all = 4.0f;  // samples if all of the sky may be blocked
     const float wanted = samples_of_all * shares.exposed / (shares.open + shares.exposed);
     // Fewer than one sample is one with that probability.
     const int samples = static_cast<int>(std::ceil(wanted));

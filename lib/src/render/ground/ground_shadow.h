@@ -50,7 +50,7 @@ private:
                                     SegmentKey segment) const;
     void find_shining_meshes();
 
-    /// Where a mesh shines.
+    /// Bounds of the emissive triangles of a mesh.
     struct Box {
         Vec3 min{std::numeric_limits<float>::infinity()};
         Vec3 max{-std::numeric_limits<float>::infinity()};
@@ -63,7 +63,7 @@ private:
     std::vector<LightId> suns_;  // all other lights at infinity
     std::optional<GroundLamps> lamps_;
     bool has_other_lights_ = false;
-    std::unordered_map<const PlacedMesh*, Box> shining_;  // of meshes that emit
+    std::unordered_map<const PlacedMesh*, Box> shining_;  // bounds of meshes that emit
 };
 
 }  // namespace bdpt

@@ -242,7 +242,7 @@ TEST_CASE("a part file that lies about itself is refused before it costs memory"
         {R"("size":[17,11])", R"("size":[9e9,1])"},
         {R"("region":[3,2,15,10])", R"("region":[3,2,16,10])"},
         {R"("region":[3,2,15,10])", R"("region":[3,2,15,2 ])"},
-        {R"("layers":[0,1,2,3,6,7,10])", R"("layers":[0,1,2,6,7,10  ])"},
+        {R"("layers":[0,1,2,3,6,10,7])", R"("layers":[0,1,2,6,10,7  ])"},
         {R"("strategies":[[0,2])", R"("strategies":[[0,9])"},
         {R"("format":1)", R"("format":2)"},
         {R"("clamped":)", R"("clamPed":)"},

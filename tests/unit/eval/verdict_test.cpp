@@ -241,7 +241,7 @@ TEST_CASE("defects and lost light fail")
 TEST_CASE("light that only one strategy can make is at stake, or unchecked")
 {
     // Of two edges, made by s = 0 alone (path tracers see it), or by s = 2 alone (they do not).
-    for (const int s : {0, 2}) {
+    for (int s = 0; s < 3; ++s) {
         Evidence evidence(grid, 2, 4);
         for (int i = 0; i < 4; ++i) {
             const RadianceSums none(grid, 2);
@@ -312,7 +312,7 @@ TEST_CASE("what is said to be detectable is detected nine times out of ten")
     const int batches = static_cast<int>(trusted_samples / (16 * bdpt_samples));
     constexpr int runs = 12;
     const VerifyReport sound = judge_toy({}, batches);
-    for (const int s : {0, 2}) {
+    for (int s = 0; s < 3; ++s) {
         const StrategyFinding& claimed = finding(sound, {.s = s, .t = 3 - s});
         ToyFault fault;
         // So that the mean of the image changes by that.

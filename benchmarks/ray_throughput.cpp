@@ -64,7 +64,7 @@ std::uint64_t replay(const RayLogs& logs)
     return count;
 }
 
-RayTotals totals_of(const RayLogs& logs)
+RayTotals compute_totals(const RayLogs& logs)
 {
     RayTotals totals;
     for (const auto& log : logs) {
@@ -89,7 +89,7 @@ RayLogs record_rays(const Subject& subject, const RenderOptions& options)
 RayThroughput measure_throughput(const Subject& subject, const RenderOptions& options,
                                  const RayLogs& logs, int rounds)
 {
-    RayThroughput result{.totals = totals_of(logs)};
+    RayThroughput result{.totals = compute_totals(logs)};
     const auto seconds = in_turn(2, rounds, [&](std::size_t variant, int) {
         const double begin = eval::cpu_seconds();
         if (variant == 0) {
@@ -111,7 +111,7 @@ LoopThroughput measure_loop(const AllTriangles& triangles, const RayLogs& logs)
 {
     constexpr std::uint64_t max_tests = 400'000'000;  // a second or two
     const std::uint64_t max_rays = std::max<std::uint64_t>(max_tests / triangles.size(), 64);
-    const std::uint64_t step = totals_of(logs).rays / max_rays + 1;
+    const std::uint64_t step = compute_totals(logs).rays / max_rays + 1;
     std::vector<const RecordedRay*> rays;
     std::vector<bool> expected;
     std::uint64_t number = 0;

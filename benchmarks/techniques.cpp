@@ -30,7 +30,7 @@ std::vector<Strategy> splats(const RenderOptions& options)
     return result;
 }
 
-std::vector<eval::Variant> variants_of(const RenderOptions& defaults)
+std::vector<eval::Variant> make_variants(const RenderOptions& defaults)
 {
     std::vector<eval::Variant> variants{{"default", defaults}};
     const auto add = [&](const std::string& name) -> RenderOptions& {
@@ -60,7 +60,7 @@ void measure(const std::string& file, const Settings& settings)
 {
     const Subject subject = load_subject(file, settings.subject);
     const eval::Reference reference = make_reference(subject, settings.subject.reference_samples);
-    const std::vector<eval::Variant> variants = variants_of(subject.options);
+    const std::vector<eval::Variant> variants = make_variants(subject.options);
     const std::vector<eval::Score> scores =
         compare_at_equal_time(subject.bench_scene(), reference, variants, settings.contest);
     const eval::Score& base = scores.front();

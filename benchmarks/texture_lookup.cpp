@@ -120,7 +120,7 @@ void report(const char* name, const Settings& settings, double megabytes,
     std::fflush(stdout);
 }
 
-double megabytes_of(std::span<const TexelImage> images)
+double count_megabytes(std::span<const TexelImage> images)
 {
     double bytes = 0.0;
     for (const TexelImage& image : images) {
@@ -129,7 +129,7 @@ double megabytes_of(std::span<const TexelImage> images)
     return bytes / 1e6;
 }
 
-float sum_of(Vec4 value)
+float compute_sum(Vec4 value)
 {
     return value.x + value.y + value.z;
 }
@@ -138,16 +138,14 @@ void measure_own(const TexelImage& image, const Settings& settings)
 {
     const auto none = Vec2(0.0f);
     const Texture plain({}, image, Encoding::srgb);
-    const double megabytes = megabytes_of(std::span(&image, 1));
-    report("bilinear", settings, megabytes, [&](Vec2 uv) {
-        return sum_of(plain.lookup({uv, none}));
-    });
+    const double megabytes = count_megabytes(std::span(&image, 1));
+    report("bilinear", settings, megabytes,
+           [&](Vec2 uv) { return compute_sum(plain.lookup({uv, none})); });
 
     const TexelImage huge_image = with_huge_pages(image);
     const Texture huge({}, huge_image, Encoding::srgb);
-    report("bilinear, huge pages", settings, megabytes, [&](Vec2 uv) {
-        return sum_of(huge.lookup({uv, none}));
-    });
+    report("bilinear, huge pages", settings, megabytes,
+           [&](Vec2 uv) { return compute_sum(huge.lookup({uv, none})); });
 
     MipMaps maps([](int count, const auto& work) { work(0, count); });
     const auto coarser = maps.of(0, image, Encoding::srgb);
@@ -155,9 +153,8 @@ void measure_own(const TexelImage& image, const Settings& settings)
     UvFootprint pixel;
     const float step = 1.0f / static_cast<float>(settings.pixels);
     pixel[0] = {.along = Vec2(step, 0.0f), .across = Vec2(0.0f, step)};
-    report("mip-mapped", settings, megabytes + megabytes_of(coarser), [&](Vec2 uv) {
-        return sum_of(mipped.lookup({uv, none}, &pixel));
-    });
+    report("mip-mapped", settings, megabytes + count_megabytes(coarser),
+           [&](Vec2 uv) { return compute_sum(mipped.lookup({uv, none}, &pixel)); });
 }
 
 void measure_texture_system(const TexelImage& image, const Settings& settings,

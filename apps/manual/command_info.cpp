@@ -66,7 +66,7 @@ OptionInfo option_info(const app::Option& option)
 
 }  // namespace
 
-std::string summary_of(const std::string& text)
+std::string extract_summary(const std::string& text)
 {
     std::string shown;
     int depth = 0;
@@ -81,7 +81,7 @@ std::string summary_of(const std::string& text)
     return shown.substr(0, std::min(shown.find(". "), shown.find("; ")));
 }
 
-CommandInfo info_of(const app::Program& program)
+CommandInfo describe_program(const app::Program& program)
 {
     const OptionInfo help{.names = {"-h", "--help"},
                           .value = "",
@@ -102,14 +102,14 @@ CommandInfo info_of(const app::Program& program)
             .footer = paragraphs(program.footer)};
 }
 
-std::vector<CommandInfo> commands_of(const app::Program& program)
+std::vector<CommandInfo> describe_commands(const app::Program& program)
 {
     std::vector<CommandInfo> commands;
     for (const app::Command& command : program.commands) {
         CommandInfo& info = commands.emplace_back();
         info.name = command.name;
         info.text = command.summary;
-        info.options.push_back(info_of(program).options.front());
+        info.options.push_back(describe_program(program).options.front());
         if (!command.essentials.empty()) {
             info.options.push_back({.names = {"--help-all"},
                                     .value = "",

@@ -33,12 +33,12 @@ struct CommandInfo {
 };
 
 /// The first sentence of `text`, without what is in brackets: a line of a menu.
-[[nodiscard]] std::string summary_of(const std::string& text);
+[[nodiscard]] std::string extract_summary(const std::string& text);
 
 /// The program itself: its name, its options, its footer.
-[[nodiscard]] CommandInfo info_of(const app::Program& program);
+[[nodiscard]] CommandInfo describe_program(const app::Program& program);
 
 /// Its commands, in the order of the help text.
-[[nodiscard]] std::vector<CommandInfo> commands_of(const app::Program& program);
+[[nodiscard]] std::vector<CommandInfo> describe_commands(const app::Program& program);
 
 }  // namespace bdpt::manual

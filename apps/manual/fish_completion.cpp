@@ -34,7 +34,7 @@ std::string option_line(const CommandInfo& command, const OptionInfo& option)
     if (!words.empty()) {
         line += " -a " + fish_quoted(words);
     }
-    return line + " -d " + fish_quoted(summary_of(option.text)) + "\n";
+    return line + " -d " + fish_quoted(extract_summary(option.text)) + "\n";
 }
 
 }  // namespace

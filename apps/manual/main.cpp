@@ -30,8 +30,8 @@ void write(const std::filesystem::path& file, const std::string& text)
 void write_all(const std::filesystem::path& folder)
 {
     const app::CommandLine line;
-    const CommandInfo program = info_of(line.program);
-    const std::vector<CommandInfo> commands = commands_of(line.program);
+    const CommandInfo program = describe_program(line.program);
+    const std::vector<CommandInfo> commands = describe_commands(line.program);
     write(folder / "man1/bdpt.1", man_page(program, commands));
     for (const CommandInfo& command : commands) {
         const bool is_more_than_help = command.options.size() > 1;

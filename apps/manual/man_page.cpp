@@ -88,7 +88,7 @@ std::string options(const CommandInfo& command)
     return result;
 }
 
-std::string synopsis_of(const CommandInfo& command)
+std::string format_synopsis(const CommandInfo& command)
 {
     std::string result = fmt::format("\\fBbdpt {}\\fR [\\fIOPTION\\fR]...", command.name);
     for (const OptionInfo& argument : command.arguments) {
@@ -154,7 +154,7 @@ std::string man_page(const CommandInfo& program, std::span<const CommandInfo> co
 std::string man_page(const CommandInfo& command)
 {
     std::string result = header("bdpt-" + command.name, command.text);
-    result += synopsis_of(command) + description(command);
+    result += format_synopsis(command) + description(command);
     if (!command.arguments.empty()) {
         result += ".SH ARGUMENTS\n";
         for (const OptionInfo& argument : command.arguments) {

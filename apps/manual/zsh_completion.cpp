@@ -51,7 +51,7 @@ std::string arguments(const CommandInfo& command)
                                  : is_long                      ? "="
                                                                 : "";
             result += fmt::format("        '*{}{}[{}]{}' \\\n", name, equals,
-                                  zsh_quoted(summary_of(option.text)), value);
+                                  zsh_quoted(extract_summary(option.text)), value);
         }
     }
     for (const OptionInfo& argument : command.arguments) {

@@ -47,7 +47,7 @@ PythonScene with_scene(const PythonScene& original, Scene scene, std::string env
 
 /// Returns the index of the only material of that name. Throws `Error`: not_found, or invalid_input
 /// if there are several.
-std::size_t number_of(const PythonScene& scene, const std::string& name)
+std::size_t find_number(const PythonScene& scene, const std::string& name)
 {
     const std::vector<MaterialDesc>& materials = scene.stage.scene.description().materials;
     const auto is_it = [&name](const MaterialDesc& material) { return material.name == name; };
@@ -64,11 +64,11 @@ std::size_t number_of(const PythonScene& scene, const std::string& name)
 
 using NameOrNumber = std::variant<std::size_t, std::string>;
 
-std::size_t number_of(const PythonScene& scene, const NameOrNumber& material)
+std::size_t find_number(const PythonScene& scene, const NameOrNumber& material)
 {
     const std::size_t* const number = std::get_if<std::size_t>(&material);
     if (number == nullptr) {
-        return number_of(scene, std::get<std::string>(material));
+        return find_number(scene, std::get<std::string>(material));
     }
     const std::size_t count = scene.stage.scene.description().materials.size();
     if (*number >= count) {
@@ -87,17 +87,18 @@ std::vector<std::string> material_names(const PythonScene& scene)
     return names;
 }
 
-std::shared_ptr<ArrayMaterial> material_of(const PythonScene& scene, const NameOrNumber& material)
+std::shared_ptr<ArrayMaterial> make_array_material(const PythonScene& scene,
+                                                   const NameOrNumber& material)
 {
-    return std::make_shared<ArrayMaterial>(
-        ArrayMaterial{.desc = scene.stage.scene.description().materials[number_of(scene, material)],
-                      .textures = {}});
+    return std::make_shared<ArrayMaterial>(ArrayMaterial{
+        .desc = scene.stage.scene.description().materials[find_number(scene, material)],
+        .textures = {}});
 }
 
 PythonScene with_material(const PythonScene& scene, const NameOrNumber& which,
                           const std::shared_ptr<ArrayMaterial>& material)
 {
-    const std::size_t number = number_of(scene, which);
+    const std::size_t number = find_number(scene, which);
     const Scene& old = scene.stage.scene;
     const Unlocked unlocked;
     if (material->textures.empty()) {
@@ -140,7 +141,7 @@ void bind_edits(nb::module_& module)
     nb::cast<nb::class_<PythonScene>>(scene)
         .def_prop_ro("materials", &material_names,
                      "Names of all materials, by number; '' where the file has none.")
-        .def("material", &material_of, nb::arg("material"),
+        .def("material", &make_array_material, nb::arg("material"),
              "A copy of the material of that name or number. It keeps the textures of the scene "
              "where its own are None.")
         .def("with_material", &with_material, nb::arg("material"), nb::arg("changed"),

@@ -38,7 +38,7 @@ fs::path to_path(nb::handle value)
     return nb::cast<fs::path>(path);
 }
 
-std::optional<nb::bytes> contents_of(nb::handle value)
+std::optional<nb::bytes> read_contents(nb::handle value)
 {
     if (nb::hasattr(value, "__fspath__") || PyUnicode_Check(value.ptr()) != 0) {
         return std::nullopt;

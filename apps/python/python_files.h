@@ -18,7 +18,7 @@ void write_bytes(const std::filesystem::path& file, const nanobind::bytes& conte
 
 /// Returns contents in memory: bytes, objects with their interface, or the result of read(). None:
 /// `value` is a path.
-[[nodiscard]] std::optional<nanobind::bytes> contents_of(nanobind::handle value);
+[[nodiscard]] std::optional<nanobind::bytes> read_contents(nanobind::handle value);
 
 /// Tests whether `value` is a file object with write().
 [[nodiscard]] bool is_writable_object(nanobind::handle value);

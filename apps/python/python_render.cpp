@@ -81,7 +81,7 @@ app::Viewpoint first_viewpoint(const PythonScene& scene, app::RenderArguments ar
 /// Returns the view of a turntable that render() renders. Throws `Error` if there are several.
 app::SequenceView only_view(const app::RenderArguments& arguments)
 {
-    const std::vector<app::SequenceView> views = views_of(arguments, {});
+    const std::vector<app::SequenceView> views = make_views(arguments, {});
     if (views.size() != 1) {
         throw Error(ErrorCode::usage,
                     fmt::format("orbit: render() renders one of the {} views, which frames says, "
@@ -95,7 +95,7 @@ app::SequenceView only_view(const app::RenderArguments& arguments)
 
 Task prepare(PythonScene& scene, const nb::kwargs& options)
 {
-    const Words own = words_of(options, Call::render);
+    const Words own = to_words(options, Call::render);
     Task task{.arguments = understand_render(combined(scene.words, own)),
               .camera = scene.stage.camera,
               .metadata = {}};
@@ -105,7 +105,7 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
     app::Viewpoint seen = first;
     if (arguments.sequence) {
         const app::SequenceView view = only_view(arguments);
-        arguments = arguments_of(arguments, view);
+        arguments = make_view_arguments(arguments, view);
         seen = sequence_viewpoint(scene.stage, first, arguments);
         if (arguments.sequence->motion == app::TurntableMotion::object) {
             const Unlocked unlocked;
@@ -130,7 +130,7 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
         app::Console silent(arguments.printed.format, app::Verbosity::quiet);
         arguments = with_choice(std::move(arguments), scene.stage, silent);
     }
-    task.metadata = metadata_of(arguments, scene.stage, settings_of(arguments, scene.stage));
+    task.metadata = make_metadata(arguments, scene.stage, make_settings(arguments, scene.stage));
     scene.stage.size = own_size;
     scene.stage.camera = std::move(own_camera);
     return task;
@@ -145,7 +145,7 @@ Render empty_render(const PythonScene& scene, const Task& task)
             .inputs = app::input_files(task.arguments, scene.stage)};
 }
 
-RenderControl control_of(const nb::object& progress)
+RenderControl make_control(const nb::object& progress)
 {
     RenderControl control;
     control.stop = Workers::all().stop();
@@ -160,7 +160,7 @@ Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kw
     const Task task = prepare(scene, options);
     const app::RenderArguments& arguments = task.arguments;
     Render result = empty_render(scene, task);
-    RenderControl control = control_of(progress);
+    RenderControl control = make_control(progress);
     control.time_limit = arguments.goal.seconds;
     control.noise_goal = arguments.goal.noise.value_or(0.0);
     const Unlocked unlocked;
@@ -172,11 +172,11 @@ Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kw
 
 std::vector<Layer> all_layers(const RenderPart& part)
 {
-    return app::layers_of(part.film, part.aovs, part.ids);
+    return app::develop_layers(part.film, part.aovs, part.ids);
 }
 
 /// Returns the ids of each kind, by name.
-std::map<std::string, std::map<std::string, std::uint32_t>> ids_of(const Render& render)
+std::map<std::string, std::map<std::string, std::uint32_t>> collect_ids(const Render& render)
 {
     std::map<std::string, std::map<std::string, std::uint32_t>> result;
     for (const IdManifest& manifest : render.part.ids.manifests()) {
@@ -187,7 +187,7 @@ std::map<std::string, std::map<std::string, std::uint32_t>> ids_of(const Render&
     return result;
 }
 
-std::map<std::string, FloatArray> layers_of(const Render& render)
+std::map<std::string, FloatArray> collect_layers(const Render& render)
 {
     std::map<std::string, FloatArray> arrays;
     for (Layer& layer : all_layers(render.part)) {
@@ -236,7 +236,7 @@ nb::object to_srgb(const Render& render, const nb::kwargs& options)
     const std::vector<fs::path> file{"image.png"};  // never written
     nb::object array;
     with_file_options(
-        render, understand_save(words_of(options, Call::save)), file,
+        render, understand_save(to_words(options, Call::save)), file,
         [&](app::ImageFileOptions how) {
             array = to_array(app::screen_image(render.part.film.develop(), std::move(how)));
         });
@@ -308,7 +308,7 @@ std::pair<std::optional<std::string>, nb::kwargs> split_format(const nb::kwargs&
 void save(const Render& render, const nb::object& file, const nb::kwargs& options)
 {
     const auto [format, others] = split_format(options);
-    const SaveArguments asked = understand_save(words_of(others, Call::save));
+    const SaveArguments asked = understand_save(to_words(others, Call::save));
     if (!is_writable_object(file)) {
         if (format) {
             throw Error(ErrorCode::usage,
@@ -353,9 +353,9 @@ void bind_render(nb::module_& module)
             nb::rv_policy::reference,
             "Linear radiance [nit], Rec. 709: an array of float32 (height, width, 3), row 0 at the "
             "top.")
-        .def_prop_ro("layers", &layers_of, nb::rv_policy::reference,
+        .def_prop_ro("layers", &collect_layers, nb::rv_policy::reference,
                      "Layers of aov=..., by name: arrays of float32 (height, width, channels).")
-        .def_prop_ro("ids", &ids_of,
+        .def_prop_ro("ids", &collect_ids,
                      "What the ids in layers of aov='object' and aov='material' stand for, such as "
                      "ids['CryptoObject']['lamp']: numbers whose bits are those of floats in "
                      "layers['CryptoObject00'].")
@@ -366,7 +366,7 @@ void bind_render(nb::module_& module)
             "spp", [](const Render& render) { return render.part.samples.count(); },
             "How many samples of each pixel it has.")
         .def_prop_ro(
-            "noise", [](const Render& render) { return noise_of(render.part.film); },
+            "noise", [](const Render& render) { return estimate_noise(render.part.film); },
             "Relative standard error that 95 % of all tiles of 16 x 16 pixels are not above.")
         .def_prop_ro(
             "settings", [](const Render& render) { return render.notes.metadata.settings; },

@@ -46,7 +46,7 @@ struct Task {
 
 /// Returns a control that checks for Ctrl-C between passes and calls `progress`, unless that is
 /// None.
-[[nodiscard]] RenderControl control_of(const nanobind::object& progress);
+[[nodiscard]] RenderControl make_control(const nanobind::object& progress);
 
 /// Head of the declaration of save(), for `declaration`.
 inline constexpr const char* saving_head =

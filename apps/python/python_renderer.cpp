@@ -28,14 +28,14 @@ public:
 
     void render(std::int64_t samples, const nb::object& progress)
     {
-        const RenderControl control = control_of(progress);
+        const RenderControl control = make_control(progress);
         const Unlocked unlocked;
         renderer_->render(samples, control);
     }
 
     void finish(const nb::object& progress)
     {
-        RenderControl control = control_of(progress);
+        RenderControl control = make_control(progress);
         control.time_limit = seconds_;
         control.noise_goal = noise_;
         const Unlocked unlocked;

@@ -70,12 +70,12 @@ PythonScene load_bytes(const nb::bytes& contents, const Words& words)
 
 PythonScene load(const nb::object& source, const nb::kwargs& options)
 {
-    const Words words = words_of(options, Call::load);
-    const std::optional<nb::bytes> contents = contents_of(source);
+    const Words words = to_words(options, Call::load);
+    const std::optional<nb::bytes> contents = read_contents(source);
     return contents ? load_bytes(*contents, words) : load_file(to_path(source), words);
 }
 
-std::tuple<std::string, Words> state_of(const PythonScene& scene)
+std::tuple<std::string, Words> get_state(const PythonScene& scene)
 {
     if (!scene.origin) {
         throw nb::type_error(
@@ -115,7 +115,7 @@ void bind_scene(nb::module_& module)
         .def_prop_ro(
             "isa", [](const PythonScene& scene) { return isa_name(scene.stage.scene.isa()); },
             "Instruction set that its rays are traced with.")
-        .def("__getstate__", &state_of)
+        .def("__getstate__", &get_state)
         .def("__setstate__",
              [](PythonScene& scene, const std::tuple<std::string, Words>& state) {
                  new (&scene) PythonScene(load_file(std::get<0>(state), std::get<1>(state)));

@@ -46,7 +46,7 @@ bool belongs(const app::Option& option, Call call)
 
 /// Calls `visit(option)` for each option of `call`.
 template <typename Visitor>
-void for_each_option_of(Call call, const Visitor& visit)
+void visit_options(Call call, const Visitor& visit)
 {
     SaveRequest save;
     app::RenderRequest render;
@@ -61,7 +61,7 @@ void for_each_option_of(Call call, const Visitor& visit)
 }
 
 /// Returns "look_at" for --look-at. "from" is a keyword of Python.
-std::string keyword_of(const app::Option& option)
+std::string to_keyword(const app::Option& option)
 {
     std::string keyword = option.name().substr(2);
     std::replace(keyword.begin(), keyword.end(), '-', '_');
@@ -69,19 +69,19 @@ std::string keyword_of(const app::Option& option)
 }
 
 /// Returns the options by keyword.
-std::map<std::string, app::Option> options_of(Call call)
+std::map<std::string, app::Option> collect_options(Call call)
 {
     std::map<std::string, app::Option> options;
-    for_each_option_of(call, [&options](const app::Option& option) {
-        options.emplace(keyword_of(option), option);
+    visit_options(call, [&options](const app::Option& option) {
+        options.emplace(to_keyword(option), option);
     });
     return options;
 }
 
-std::vector<std::string> keywords_of(Call call)
+std::vector<std::string> collect_keywords(Call call)
 {
     std::vector<std::string> keywords;
-    for (const auto& [keyword, option] : options_of(call)) {
+    for (const auto& [keyword, option] : collect_options(call)) {
         keywords.push_back(keyword);
     }
     return keywords;
@@ -99,7 +99,7 @@ bool has_items(nb::handle value)
     return iterator != nullptr;
 }
 
-std::string text_of(nb::handle value)
+std::string to_text(nb::handle value)
 {
     if (nb::hasattr(value, "__fspath__")) {
         return nb::cast<std::string>(nb::module_::import_("os").attr("fspath")(value));
@@ -107,15 +107,15 @@ std::string text_of(nb::handle value)
     return nb::cast<std::string>(nb::str(value));
 }
 
-std::string text_of(const app::Option& option, nb::handle value)
+std::string to_text(const app::Option& option, nb::handle value)
 {
     if (!has_items(value)) {
-        return text_of(value);
+        return to_text(value);
     }
     const char between = option.info.separator != '\0' ? option.info.separator : ',';
     std::string text;
     for (const nb::handle item : nb::iter(value)) {
-        text += (text.empty() ? "" : std::string(1, between)) + text_of(item);
+        text += (text.empty() ? "" : std::string(1, between)) + to_text(item);
     }
     return text;
 }
@@ -137,7 +137,7 @@ std::string literals(const std::vector<std::string>& words)
 }
 
 /// Returns the Python type of the values of `option`.
-std::string type_of(const app::Option& option)
+std::string format_type(const app::Option& option)
 {
     const app::ValueInfo& info = option.info;
     if (option.is_flag()) {
@@ -164,7 +164,7 @@ std::string type_of(const app::Option& option)
                        info.separator != '\0' ? "" : "str | ", real);
 }
 
-const char* function_of(Call call)
+const char* format_call(Call call)
 {
     return call == Call::load ? "load()" : call == Call::render ? "render()" : "save()";
 }
@@ -172,14 +172,14 @@ const char* function_of(Call call)
 [[noreturn]] void fail_unknown(const std::string& keyword, Call call)
 {
     for (const Call other : {Call::load, Call::render, Call::save}) {
-        if (options_of(other).contains(keyword)) {
+        if (collect_options(other).contains(keyword)) {
             throw Error(ErrorCode::usage, fmt::format("{} is an option of {}, not of {}", keyword,
-                                                      function_of(other), function_of(call)));
+                                                      format_call(other), format_call(call)));
         }
     }
-    const auto meant = app::closest(keyword, keywords_of(call));
+    const auto meant = app::closest(keyword, collect_keywords(call));
     throw Error(ErrorCode::usage,
-                fmt::format("{} has no option {}{}", function_of(call), keyword,
+                fmt::format("{} has no option {}{}", format_call(call), keyword,
                             meant ? fmt::format(" (did you mean {}?)", *meant) : ""));
 }
 
@@ -217,7 +217,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 13> exclusiv
 }};
 
 /// Returns "--fov" for "--fov=30".
-std::string_view name_of(std::string_view word)
+std::string_view parse_name(std::string_view word)
 {
     return word.substr(0, word.find('='));
 }
@@ -234,11 +234,11 @@ bool exclude(std::string_view one, std::string_view other)
 bool change_view(const Words& words)
 {
     bool changed = false;
-    for_each_option_of(Call::load, [&](const app::Option& option) {
+    visit_options(Call::load, [&](const app::Option& option) {
         const bool is_of_view = option.uses.python_render && option.name() != "--size";
         changed = changed ||
                   (is_of_view && std::any_of(words.begin(), words.end(), [&](const auto& word) {
-                       return name_of(word) == option.name();
+                       return parse_name(word) == option.name();
                    }));
     });
     return changed;
@@ -248,9 +248,10 @@ Words combined(const Words& of_load, const Words& of_render)
 {
     Words words;
     for (const std::string& word : of_load) {
-        const bool replaced = std::any_of(
-            of_render.begin(), of_render.end(),
-            [&word](const std::string& other) { return exclude(name_of(word), name_of(other)); });
+        const bool replaced =
+            std::any_of(of_render.begin(), of_render.end(), [&word](const std::string& other) {
+                return exclude(parse_name(word), parse_name(other));
+            });
         if (!replaced) {
             words.push_back(word);
         }
@@ -259,9 +260,9 @@ Words combined(const Words& of_load, const Words& of_render)
     return words;
 }
 
-Words words_of(const nb::kwargs& options, Call call)
+Words to_words(const nb::kwargs& options, Call call)
 {
-    const std::map<std::string, app::Option> known = options_of(call);
+    const std::map<std::string, app::Option> known = collect_options(call);
     Words words;
     for (const auto& [key, value] : options) {
         auto keyword = nb::cast<std::string>(key);
@@ -276,7 +277,7 @@ Words words_of(const nb::kwargs& options, Call call)
         }
         const bool flag = option.is_flag() && value.ptr() == Py_True;
         words.push_back(flag ? option.name()
-                             : fmt::format("{}={}", option.name(), text_of(option, value)));
+                             : fmt::format("{}={}", option.name(), to_text(option, value)));
     }
     return words;
 }
@@ -301,8 +302,8 @@ SaveArguments understand_save(const Words& words)
 std::string declaration(std::string_view head, Call call, std::string_view result)
 {
     std::string text(head);
-    for_each_option_of(call, [&text](const app::Option& option) {
-        text += fmt::format(", {}: {} | None = None", keyword_of(option), type_of(option));
+    visit_options(call, [&text](const app::Option& option) {
+        text += fmt::format(", {}: {} | None = None", to_keyword(option), format_type(option));
     });
     return fmt::format("{}) -> {}", text, result);
 }
@@ -310,9 +311,9 @@ std::string declaration(std::string_view head, Call call, std::string_view resul
 std::string documentation(std::string_view text, Call call)
 {
     std::string result = wrapped(std::string(text), 0) + "\nOptions:\n";
-    for_each_option_of(call, [&result](const app::Option& option) {
+    visit_options(call, [&result](const app::Option& option) {
         const std::string value = option.is_flag() ? "True" : option.value;
-        result += fmt::format("    {}: {}\n{}", keyword_of(option), value, wrapped(option.help, 8));
+        result += fmt::format("    {}: {}\n{}", to_keyword(option), value, wrapped(option.help, 8));
     });
     return result;
 }

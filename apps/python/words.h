@@ -23,7 +23,7 @@ enum class Call { load, render, save };
 
 /// Returns the words for `options`. Throws `Error` (usage) for options that do not belong to
 /// `call`, saying where they belong.
-[[nodiscard]] Words words_of(const nanobind::kwargs& options, Call call);
+[[nodiscard]] Words to_words(const nanobind::kwargs& options, Call call);
 
 /// Tests whether one of `words` chooses a camera, or changes its position or its lens.
 [[nodiscard]] bool change_view(const Words& words);

@@ -35,7 +35,7 @@ void check_job(const std::string& file)
         written.write(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
     Options second;
     load_job(again, second.list);
-    fuzz::promise(words_of(first.list).size() == words_of(second.list).size(),
+    fuzz::promise(to_words(first.list).size() == to_words(second.list).size(),
                   "a job is read as written", text);
     static_cast<void>(checked(first.request, first.list));
 }

@@ -66,7 +66,7 @@ void check_plan(const std::string& file)
     const auto again =
         written.write(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
     fuzz::promise(read_plan(again) == plan, "a plan is read as written", text);
-    const SampleSet samples = samples_of(plan);
+    const SampleSet samples = collect_samples(plan);
     std::size_t parts = 0;
     for (const auto& of_image : parts_by_image(plan)) {
         parts += of_image.size();

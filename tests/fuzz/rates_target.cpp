@@ -18,8 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::promise(rates.exponents().size() == static_cast<std::size_t>(rates.width()) *
                                                       static_cast<std::size_t>(rates.height()),
                       "each pixel has a rate");
-        fuzz::promise(rates.least() >= SampleRates::rate_of(SampleRates::min_exponent) &&
-                          rates.greatest() <= SampleRates::rate_of(SampleRates::max_exponent),
+        fuzz::promise(rates.least() >= SampleRates::to_rate(SampleRates::min_exponent) &&
+                          rates.greatest() <= SampleRates::to_rate(SampleRates::max_exponent),
                       "rates are in range");
     } catch (const Error& error) {
         fuzz::check_refusal(error);

@@ -108,7 +108,7 @@ TEST_CASE("the shadow on the ground is that of a floor under direct light", "[gr
     for (const Case& test : cases()) {
         SceneBuilder things = test.lights;
         add_things(things);
-        const Shadow shadow = shadow_of(things.desc, view, ground_options(side, 256));
+        const Shadow shadow = compute_shadow(things.desc, view, ground_options(side, 256));
         SceneBuilder bare_floor = test.lights;
         add_floor(bare_floor);
         const Image bare = direct_light(bare_floor);
@@ -162,10 +162,10 @@ TEST_CASE("a pixel has the mean shadow of the pixels that it could be", "[ground
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
         RenderOptions one = ground_options(1, 2048);
         one.sampling.seed = seed;
-        sum += mean_of(shadow_of(builder.desc, camera_above(), one).opacity) / 8.0;
+        sum += compute_mean(compute_shadow(builder.desc, camera_above(), one).opacity) / 8.0;
     }
-    const Shadow many = shadow_of(builder.desc, camera_above(), ground_options(64, 16));
-    CHECK(sum == Approx(mean_of(many.opacity)).epsilon(0.01));
+    const Shadow many = compute_shadow(builder.desc, camera_above(), ground_options(64, 16));
+    CHECK(sum == Approx(compute_mean(many.opacity)).epsilon(0.01));
 }
 
 }  // namespace bdpt::test::ground_shadow_test

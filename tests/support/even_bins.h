@@ -14,7 +14,7 @@ namespace bdpt::test {
 /// Returns the bin of numbers in [0, 1) in a grid of `steps` for each; numbers that rounding moved
 /// out of range count with their neighbours.
 template <std::size_t N>
-[[nodiscard]] std::size_t bin_of(const std::array<double, N>& numbers, int steps)
+[[nodiscard]] std::size_t find_bin(const std::array<double, N>& numbers, int steps)
 {
     std::size_t bin = 0;
     for (const double x : numbers) {

@@ -42,7 +42,7 @@ struct Shadow {
     std::vector<float> opacity;
 };
 
-inline Shadow shadow_of(const RenderResult& result)
+inline Shadow compute_shadow(const RenderResult& result)
 {
     Shadow shadow;
     for (const Layer& layer : result.aovs.develop(result.film)) {
@@ -53,12 +53,13 @@ inline Shadow shadow_of(const RenderResult& result)
     return shadow;
 }
 
-inline Shadow shadow_of(SceneDesc scene, const CameraDesc& camera, const RenderOptions& options)
+inline Shadow compute_shadow(SceneDesc scene, const CameraDesc& camera,
+                             const RenderOptions& options)
 {
-    return shadow_of(render(Scene(std::move(scene)), camera, options));
+    return compute_shadow(render(Scene(std::move(scene)), camera, options));
 }
 
-inline double mean_of(const std::vector<float>& values)
+inline double compute_mean(const std::vector<float>& values)
 {
     double sum = 0.0;
     for (const float value : values) {

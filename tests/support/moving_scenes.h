@@ -14,7 +14,7 @@ namespace bdpt::test {
 
 /// Returns `steps` later values of `pose`, a function of the time in [0, 1].
 template <typename T>
-std::vector<T> motion_of(int steps, const std::function<T(float)>& pose)
+std::vector<T> make_motion(int steps, const std::function<T(float)>& pose)
 {
     std::vector<T> result;
     for (int i = 1; i <= steps; ++i) {
@@ -33,7 +33,7 @@ inline void move_last(SceneBuilder& builder, int steps, const std::function<Mat4
 {
     InstanceDesc& instance = builder.desc.instances.back();
     instance.world_from_object = pose(0.0f);
-    instance.motion = motion_of<Mat4>(steps, pose);
+    instance.motion = make_motion<Mat4>(steps, pose);
 }
 
 /// Makes a mesh deform: `move` maps a point of its first pose to its position at a time. Normals
@@ -49,9 +49,8 @@ inline void deform(MeshDesc& mesh, int steps, const std::function<Vec3(Vec3, flo
         return positions;
     };
     mesh.positions = moved(0.0f);
-    mesh.motion = motion_of<MeshPose>(steps, [&](float time) {
-        return MeshPose{moved(time), mesh.normals, mesh.tangents};
-    });
+    mesh.motion = make_motion<MeshPose>(
+        steps, [&](float time) { return MeshPose{moved(time), mesh.normals, mesh.tangents}; });
 }
 
 /// Returns a scene with one of each: an emitter that moves, turns and grows, a mirrored sphere that
@@ -109,7 +108,7 @@ inline CameraDesc moving(CameraDesc camera)
                            Vec3(0.0f, 0.3f, 1.0f));
     };
     camera.world_from_camera = pose(0.0f);
-    camera.motion = motion_of<Mat4>(3, pose);
+    camera.motion = make_motion<Mat4>(3, pose);
     return camera;
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr int max_batches = 1 << 24;
 
 /// Rounds up to a number of batches.
-int batches_of(double wanted)
+int to_batches(double wanted)
 {
     return static_cast<int>(std::min(std::ceil(wanted), static_cast<double>(max_batches)));
 }
@@ -22,7 +22,7 @@ int needed(const BatchEvidence& other, std::size_t cell, double rest)
     const double least = other.variance[cell] == 0.0 ? 0.0
                          : rest > 0.0                ? other.variance[cell] / rest
                                                      : std::numeric_limits<double>::infinity();
-    return std::max(other.batches[cell], batches_of(least));
+    return std::max(other.batches[cell], to_batches(least));
 }
 
 /// Numbers of batches of the cells `which`, and their cost.
@@ -60,10 +60,10 @@ Choice cheapest(const BatchEvidence& a, const BatchEvidence& b, double variance,
     for (const std::size_t i : which) {
         first = std::max({first, static_cast<double>(a.batches[i]), a.variance[i] / variance});
     }
-    Choice best = with_first(a, b, variance, which, batches_of(first));
+    Choice best = with_first(a, b, variance, which, to_batches(first));
     for (int step = 0; step < 80 && first < max_batches; ++step) {
         first *= 1.1;
-        const Choice choice = with_first(a, b, variance, which, batches_of(first));
+        const Choice choice = with_first(a, b, variance, which, to_batches(first));
         if (choice.work < best.work) {
             best = choice;
         }

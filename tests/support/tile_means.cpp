@@ -13,7 +13,7 @@ CellBatches batches_of_cells(const RenderOptions& options)
                                                        : CellBatches::separate;
 }
 
-PixelRect pixels_of(std::size_t cell)
+PixelRect find_pixels(std::size_t cell)
 {
     constexpr int size = TileMeans::side / TileMeans::grid;
     const int x = static_cast<int>(cell) % TileMeans::grid * size;
@@ -22,7 +22,7 @@ PixelRect pixels_of(std::size_t cell)
 }
 
 /// Returns the mean of the pixels `rect` in an image whose first pixel is at (`x0`, `y0`).
-double mean_of(const Image& image, const PixelRect& rect, int x0, int y0)
+double compute_mean(const Image& image, const PixelRect& rect, int x0, int y0)
 {
     double sum = 0.0;
     for (int y = rect.y0; y < rect.y1; ++y) {
@@ -87,14 +87,14 @@ void TileMeans::add_batch(std::size_t cell)
     RenderOptions options = options_of_batch(static_cast<int>(moments_[cell].count()));
     const bool alone = batches_of_cells(options) == CellBatches::separate;
     const PixelRect rendered =
-        alone ? pixels_of(cell) : PixelRect{.x0 = 0, .y0 = 0, .x1 = side, .y1 = side};
+        alone ? find_pixels(cell) : PixelRect{.x0 = 0, .y0 = 0, .x1 = side, .y1 = side};
     options.film.crop = rendered;
     const RenderResult result = render(scene_, camera_, options);
     rays_ += result.stats.rays.total();
     const Image image = result.film.develop();
     for (std::size_t i = 0; i < cells; ++i) {
         if (!alone || i == cell) {
-            moments_[i].add(mean_of(image, pixels_of(i), rendered.x0, rendered.y0));
+            moments_[i].add(compute_mean(image, find_pixels(i), rendered.x0, rendered.y0));
         }
     }
 }

@@ -80,7 +80,7 @@ int run_render_words(const RenderRequest& request, OptionList& options,
         // With the job's options as words, commands that render missing samples need not name the
         // job.
         words.resize(2);
-        const std::vector<std::string> more = words_of(options);
+        const std::vector<std::string> more = to_words(options);
         words.insert(words.end(), more.begin(), more.end());
     }
     if (!request.saved_job.empty() && scenes.size() == 1) {

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-std::vector<fs::path> outputs_of(const DevelopArguments& arguments)
+std::vector<fs::path> choose_outputs(const DevelopArguments& arguments)
 {
     if (!arguments.outputs.empty()) {
         return arguments.outputs;
@@ -39,8 +39,8 @@ std::vector<fs::path> outputs_of(const DevelopArguments& arguments)
 
 /// Returns the display options of `image`: with the backdrop of its render, replaced by that of
 /// `display` if given.
-DisplayArguments display_of(DisplayArguments display, const LayeredImage& image,
-                            const fs::path& file)
+DisplayArguments choose_display(DisplayArguments display, const LayeredImage& image,
+                                const fs::path& file)
 {
     if (display.backdrop && !image.backdrop) {
         throw Error(ErrorCode::invalid_input,
@@ -51,7 +51,7 @@ DisplayArguments display_of(DisplayArguments display, const LayeredImage& image,
     if (!display.backdrop) {
         display.backdrop = image.backdrop;
         if (display.backdrop && !display.backdrop->photo.empty()) {
-            display.backdrop->photo = photo_of(display.backdrop->photo, file);
+            display.backdrop->photo = find_photo(display.backdrop->photo, file);
         }
     }
     check_metered(display.exposure, image.metadata, file.string());
@@ -68,7 +68,7 @@ bool has_layer(const LayeredImage& image, const char* name)
 
 int run_develop(const DevelopArguments& arguments)
 {
-    const std::vector<fs::path> outputs = outputs_of(arguments);
+    const std::vector<fs::path> outputs = choose_outputs(arguments);
     const std::string file = arguments.file.string();
     check_outputs(outputs, FileSet({arguments.file}));
     Console console(arguments.printed.format, arguments.printed.verbosity);
@@ -78,7 +78,7 @@ int run_develop(const DevelopArguments& arguments)
     for (const std::string& warning : image.warnings) {
         console.warning(fmt::format("{}: {}", file, warning));
     }
-    const DisplayArguments display = display_of(arguments.display, image, arguments.file);
+    const DisplayArguments display = choose_display(arguments.display, image, arguments.file);
     check_transparency(display, outputs);
     if (display.backdrop) {
         check_not_read(outputs, FileSet({display.backdrop->photo}));

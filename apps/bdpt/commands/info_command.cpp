@@ -71,7 +71,7 @@ SceneReport report_facts(const std::string& file, const io::ReadLimits& limits,
     return report;
 }
 
-SceneReport report_of(const InfoArguments& arguments, const io::GltfOptions& options)
+SceneReport read_report(const InfoArguments& arguments, const io::GltfOptions& options)
 {
     try {
         io::LoadedScene loaded = io::load_gltf(arguments.file, options);
@@ -121,7 +121,7 @@ int run_info(const InfoArguments& arguments, const OptionList& given)
     std::string text;
     ordered_json json = ordered_json::object();
     if (!arguments.file.empty()) {
-        const SceneReport report = report_of(arguments, options);
+        const SceneReport report = read_report(arguments, options);
         text = to_text(report);
         json = to_json(report);
     }

@@ -33,7 +33,7 @@ void write_directions(const InspectArguments& arguments, const PreparedScene& st
     io::ImageMetadata metadata;
     metadata.version = BDPT_VERSION;
     metadata.created = std::chrono::system_clock::now();
-    if (type_of(*arguments.directions) == ImageType::png) {
+    if (find_type(*arguments.directions) == ImageType::png) {
         io::PngOptions png;
         png.metadata = metadata;
         io::write_png(file, direction_sheet(maps, options.sampling.light_samples), png);

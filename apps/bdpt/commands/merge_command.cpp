@@ -82,7 +82,7 @@ std::string message_of_missing(const MergeArguments& asked, const Plan& plan,
 ordered_json judge_noise(const MergeArguments& arguments, const RenderPart& sum,
                          const PartInfo& part, Console& console)
 {
-    const double noise = noise_of(sum.film);
+    const double noise = estimate_noise(sum.film);
     ordered_json fields{{"noise", noise_json(noise)}};
     if (!arguments.noise) {
         return fields;
@@ -103,7 +103,7 @@ ordered_json judge_noise(const MergeArguments& arguments, const RenderPart& sum,
 }
 
 /// Returns the placeholders that distinguish the files of images.
-const char* places_of(const PlanImage& image)
+const char* find_placeholders(const PlanImage& image)
 {
     if (image.frame && image.camera) {
         return "#### and {camera}";
@@ -113,12 +113,13 @@ const char* places_of(const PlanImage& image)
 
 /// Returns `asked` for each image to merge. Throws `Error` (usage) for file names without the
 /// placeholders that distinguish the images.
-std::vector<MergeArguments> images_of(const MergeArguments& asked, const std::optional<Plan>& plan)
+std::vector<MergeArguments> split_by_image(const MergeArguments& asked,
+                                           const std::optional<Plan>& plan)
 {
     if (!plan) {
         return {asked};
     }
-    const SampleSet goal = samples_of(*plan);
+    const SampleSet goal = collect_samples(*plan);
     const std::vector<std::vector<fs::path>> parts = parts_by_image(*plan);
     const fs::path folder = resolved(".", *asked.plan);
     std::vector<MergeArguments> result;
@@ -131,11 +132,11 @@ std::vector<MergeArguments> images_of(const MergeArguments& asked, const std::op
             image.parts.push_back(file_of_plan(part, folder));
         }
         const auto place = [&](fs::path& file) {
-            const fs::path pattern = std::exchange(file, file_of(file, plan->images[i]));
+            const fs::path pattern = std::exchange(file, expand_pattern(file, plan->images[i]));
             if (!files.insert(file).second && is_sequence(*plan)) {
                 throw OptionError(fmt::format(
                     "{}: expected {} in the name, because the plan has {}", pattern.string(),
-                    places_of(plan->images[i]), counted(plan->images.size(), "image")));
+                    find_placeholders(plan->images[i]), counted(plan->images.size(), "image")));
             }
         };
         std::for_each(image.outputs.begin(), image.outputs.end(), place);
@@ -214,7 +215,7 @@ MergedImage merge_image(const MergeArguments& arguments, const MergeSession& ses
 {
     Console& console = session.console;
     if (session.plan) {
-        console.begin_image(label_of(*session.plan, arguments.image));
+        console.begin_image(make_label(*session.plan, arguments.image));
     }
     const PartCollection collection = collect_parts(arguments, session.plan, console);
     for (const std::string& note : collection.notes) {
@@ -262,7 +263,7 @@ int run_merge(const MergeArguments& asked)
 {
     const std::optional<Plan> plan =
         asked.plan ? std::optional(read_plan(*asked.plan)) : std::nullopt;
-    const std::vector<MergeArguments> images = images_of(asked, plan);
+    const std::vector<MergeArguments> images = split_by_image(asked, plan);
     check_merged_files(images);
     if (plan) {
         for (const MergeArguments& image : images) {

@@ -54,7 +54,7 @@ fs::path planned_path(const fs::path& path, const fs::path& folder)
 std::vector<std::string> chosen_words(const RenderOptions& options, Isa isa)
 {
     std::vector<std::string> words{fmt::format("--isa={}", isa_name(isa)),
-                                   fmt::format("--integrator={}", name_of(options.integrator))};
+                                   fmt::format("--integrator={}", to_name(options.integrator))};
     if (info(options.integrator).traces_light_paths) {
         words.push_back(fmt::format("--light-paths={}", options.bidirectional.light_paths));
         if (options.bidirectional.connections) {
@@ -76,7 +76,7 @@ struct FirstImage {
 FirstImage first_image(const RenderArguments& asked, const SequenceView& view,
                        const PreparedScene& stage, Console& console)
 {
-    const RenderArguments chosen = with_choice(arguments_of(asked, view), stage, console);
+    const RenderArguments chosen = with_choice(make_view_arguments(asked, view), stage, console);
     return {chosen, identity(stage.scene, stage.camera, chosen.options)};
 }
 
@@ -88,8 +88,8 @@ Identity identity_of_tasks(Plan plan, const fs::path& file, const PreparedScene&
     std::vector<std::string> shared = shared_words(plan, file);
     shared.push_back("--part=" + plan.tasks.front().part.string());
     const RenderArguments asked = render_arguments(shared);
-    const SequenceView view = views_of(asked, cameras_of(plan)).front();
-    RenderArguments arguments = with_choice(arguments_of(asked, view), stage, console);
+    const SequenceView view = make_views(asked, collect_cameras(plan)).front();
+    RenderArguments arguments = with_choice(make_view_arguments(asked, view), stage, console);
     arguments.options.sampling.rates = chosen.sampling.rates;
     arguments.options.sampling.samples = chosen.sampling.samples;
     return identity(stage.scene, stage.camera, arguments.options);
@@ -144,13 +144,13 @@ std::int64_t number_of_tasks(const PlanArguments& arguments, const RenderOptions
     return *arguments.parts;
 }
 
-PlanImage image_of(const RenderArguments& asked, const SequenceView& view)
+PlanImage make_plan_image(const RenderArguments& asked, const SequenceView& view)
 {
     PlanImage image;
     if (asked.sequence) {
         image.frame = view.frame;
         image.camera = view.camera ? std::optional(view.camera_name) : std::nullopt;
-        image.seed = arguments_of(asked, view).options.sampling.seed;
+        image.seed = make_view_arguments(asked, view).options.sampling.seed;
     }
     return image;
 }
@@ -165,8 +165,8 @@ void check_files(const PlanArguments& arguments, const FileSet& inputs)
 }
 
 /// Returns the plan without its images, tasks and engine.
-Plan plan_of(const PlanArguments& arguments, const fs::path& folder, const RenderOptions& chosen,
-             Isa isa)
+Plan make_plan(const PlanArguments& arguments, const fs::path& folder, const RenderOptions& chosen,
+               Isa isa)
 {
     const RenderArguments& asked = arguments.render;
     Plan plan{.scene = planned_path(asked.file, folder),
@@ -223,12 +223,12 @@ PreparedScene load_first_image(const RenderArguments& asked, Console& console)
     if (one.sequence) {
         one.sequence->cameras = SequenceCameras::one;
     }
-    const SequenceView frame = views_of(one, {}).front();
-    PreparedScene stage = prepare_with_progress(arguments_of(one, frame), console);
+    const SequenceView frame = make_views(one, {}).front();
+    PreparedScene stage = prepare_with_progress(make_view_arguments(one, frame), console);
     console.end_progress();
-    const SequenceView view = views_of(asked, camera_names(stage)).front();
+    const SequenceView view = make_views(asked, camera_names(stage)).front();
     Viewpoint seen = sequence_viewpoint(stage, {stage.camera, stage.size, stage.is_framed},
-                                        arguments_of(asked, view));
+                                        make_view_arguments(asked, view));
     stage.camera = std::move(seen.camera);
     stage.size = seen.size;
     return stage;
@@ -305,13 +305,13 @@ int run_plan(const PlanArguments& arguments)
     const FileSet inputs = input_files(asked, stage);
     check_files(arguments, inputs);
     tell_findings(console, stage);
-    const std::vector<SequenceView> views = views_of(asked, camera_names(stage));
+    const std::vector<SequenceView> views = make_views(asked, camera_names(stage));
     const FirstImage first = first_image(asked, views.front(), stage, console);
     const RenderOptions& options = first.arguments.options;
-    Plan plan = plan_of(arguments, folder, options, stage.scene.isa());
+    Plan plan = make_plan(arguments, folder, options, stage.scene.isa());
     plan.images.clear();
     for (const SequenceView& view : views) {
-        plan.images.push_back(image_of(asked, view));
+        plan.images.push_back(make_plan_image(asked, view));
     }
     plan.tasks = split_plan(plan, options.sampling.samples,
                             number_of_tasks(arguments, options, views.size(), stage, console),

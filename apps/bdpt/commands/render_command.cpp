@@ -64,7 +64,7 @@ PreparedScene load(const RenderArguments& arguments, Console& console)
 }
 
 /// Returns the plan of a task, if any.
-std::optional<Plan> plan_of(const RenderArguments& asked)
+std::optional<Plan> read_task_plan(const RenderArguments& asked)
 {
     return asked.part && asked.part->plan ? std::optional(read_plan(*asked.part->plan))
                                           : std::nullopt;
@@ -79,8 +79,8 @@ struct Assignment {
 /// Returns the images of one task of a plan of several images.
 Assignment planned_assignment(const RenderArguments& asked, const Plan& plan)
 {
-    const PlanTask& task = task_of(plan, *asked.part->plan, asked.part->task);
-    std::vector<SequenceView> views = views_of(asked, cameras_of(plan));
+    const PlanTask& task = find_task(plan, *asked.part->plan, asked.part->task);
+    std::vector<SequenceView> views = make_views(asked, collect_cameras(plan));
     if (views.size() != plan.images.size()) {
         throw Error(ErrorCode::invalid_input,
                     fmt::format("{}: is no plan of bdpt plan: it has {} images, and its words {}",
@@ -120,7 +120,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         console.warning(*warning);
     }
     std::optional<PreparedScene> stage;
-    const std::optional<Plan> plan = plan_of(asked);
+    const std::optional<Plan> plan = read_task_plan(asked);
     const bool has_planned_sequence = plan && is_sequence(*plan);
     std::optional<Assignment> assignment;
     if (has_planned_sequence) {
@@ -130,14 +130,14 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         stage = load(asked, console);
     }
     if (!assignment) {
-        assignment =
-            Assignment{views_of(asked, stage ? camera_names(*stage) : std::vector<std::string>())};
+        assignment = Assignment{
+            make_views(asked, stage ? camera_names(*stage) : std::vector<std::string>())};
     }
     const std::vector<SequenceView>& views = assignment->views;
     const auto check_all = [&] {
         const FileSet inputs = stage ? input_files(asked, *stage) : input_files(asked);
         for (const SequenceView& view : views) {
-            static_cast<void>(check_files(arguments_of(asked, view), inputs));
+            static_cast<void>(check_files(make_view_arguments(asked, view), inputs));
         }
     };
     check_all();
@@ -157,8 +157,8 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         if (interrupt.signal()) {
             break;
         }
-        RenderArguments image = arguments_of(asked, view);
-        console.begin_image(label_of(image));
+        RenderArguments image = make_view_arguments(asked, view);
+        console.begin_image(make_label(image));
         interrupt.set_temporaries(temporary_paths(check_files(image, input_files(asked))));
         std::optional<PartKeeper> keeper;
         if (image.part) {
@@ -204,7 +204,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         stage->size = seen.size;
         render_view(image, *stage, keeper,
                     {console, interrupt, display ? &*display : nullptr,
-                     denoiser ? &*denoiser : nullptr, words_of(words, view)});
+                     denoiser ? &*denoiser : nullptr, add_view_words(words, view)});
         stage->load_seconds = 0.0;
         stage->build_seconds = 0.0;
     }

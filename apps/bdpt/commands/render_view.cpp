@@ -164,7 +164,7 @@ ImageFileOptions image_file_options(const RenderArguments& arguments, const Prep
                                      .y = region.y0,
                                      .full_width = stage.size.width,
                                      .full_height = stage.size.height};
-    std::vector<Layer> layers = layers_of(result.film, result.aovs, result.ids);
+    std::vector<Layer> layers = develop_layers(result.film, result.aovs, result.ids);
     if (result.profile) {
         layers.push_back(time_layer(*result.profile));
     }
@@ -203,7 +203,7 @@ void note_noise(Console& console, const RenderArguments& arguments, double noise
 /// Returns ", exposure 1.25 EV" for a file that has one.
 std::string exposure_text(const std::filesystem::path& file, const std::optional<float>& exposure)
 {
-    const std::optional<ImageType> type = type_of(file);
+    const std::optional<ImageType> type = find_type(file);
     return exposure && type && is_for_screens(*type)
                ? fmt::format(", exposure {:.2f} EV", *exposure)
                : "";
@@ -230,7 +230,7 @@ void note_done(Console& console, const RenderArguments& arguments, const RenderR
     for (const std::filesystem::path& file : files) {
         names += (names.empty() ? "" : ", ") + file.string() + exposure_text(file, images.exposure);
     }
-    console.note(fmt::format("{}: {}: wrote {}", label_text(label_of(arguments)), work, names));
+    console.note(fmt::format("{}: {}: wrote {}", label_text(make_label(arguments)), work, names));
 }
 
 void report_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
@@ -243,7 +243,7 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
     ordered_json fields{{"samples", result.film.sample_count()},
                         {"seconds", result.seconds},
                         {"outputs", std::move(outputs)}};
-    const double noise = noise_of(result.film);
+    const double noise = estimate_noise(result.film);
     fields["noise"] = noise_json(noise);
     note_noise(console, arguments, noise);
     const std::optional<double> goal = arguments.goal.noise;
@@ -265,7 +265,7 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
 
 }  // namespace
 
-ImageLabel label_of(const RenderArguments& arguments)
+ImageLabel make_label(const RenderArguments& arguments)
 {
     if (!arguments.sequence_view) {
         return {};
@@ -286,7 +286,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     const RenderArguments arguments = with_choice(asked, stage, console);
     const std::chrono::duration<double> choosing =
         std::chrono::steady_clock::now() - choosing_start;
-    ordered_json settings = settings_of(arguments, stage);
+    ordered_json settings = make_settings(arguments, stage);
     if (asked.options.integrator == IntegratorKind::automatic) {
         settings["chosen_by"] = "auto";
     }
@@ -304,7 +304,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
             "(--max-depth)",
             100.0 * light_beyond, arguments.options.transport.max_depth));
     }
-    const io::ImageMetadata metadata = metadata_of(arguments, stage, settings);
+    const io::ImageMetadata metadata = make_metadata(arguments, stage, settings);
     if (arguments.rates && arguments.rates->saved) {
         save_rates(*arguments.rates->saved, *arguments.options.sampling.rates, metadata);
     }
@@ -316,7 +316,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     }
     const double cpu_seconds = done.part.cpu_seconds;
     const std::string samples = done.part.samples.text();
-    const RenderResult result = result_of(std::move(done));
+    const RenderResult result = to_result(std::move(done));
     warn_of_defects(console, result.film.defects());
     if (result.profile) {
         console.event("profile", profile_json(*result.profile));

@@ -25,7 +25,7 @@ struct RenderSession {
 };
 
 /// Returns the label of the image of `arguments`, for messages.
-[[nodiscard]] ImageLabel label_of(const RenderArguments& arguments);
+[[nodiscard]] ImageLabel make_label(const RenderArguments& arguments);
 
 /// Renders the view of `stage`'s camera, continuing the part of `keeper` if there is one, and
 /// writes all files that `asked` names. Once it has begun, the session may be stopped, and the

@@ -41,7 +41,7 @@ std::optional<std::vector<IntegratorKind>> parse_integrators(const std::string& 
     while (begin <= text.size()) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const auto kind =
-            enumerator_of<IntegratorKind>(lower_case(text.substr(begin, end - begin)));
+            parse_enumerator<IntegratorKind>(lower_case(text.substr(begin, end - begin)));
         if (!kind) {
             return std::nullopt;
         }

@@ -169,7 +169,7 @@ struct CommandLineParser {
 };
 
 /// Returns the help command for `command`; null: for the program.
-std::string help_of(const CLI::App* command)
+std::string format_help_command(const CLI::App* command)
 {
     return command != nullptr ? fmt::format("bdpt {} --help", command->get_name()) : "bdpt --help";
 }
@@ -197,7 +197,7 @@ std::string complaint(const CLI::ParseError& error)
 std::string explain(const Program& program, const CLI::App& app, const CLI::App* command,
                     const CLI::ParseError& error)
 {
-    const std::string help = help_of(command);
+    const std::string help = format_help_command(command);
     const std::vector<std::string> extras = app.remaining(true);
     if (extras.empty()) {
         const bool no_command =

@@ -47,7 +47,7 @@ DevelopArguments checked(const DevelopRequest& request, const OptionList& option
         options.reject_value("--denoise", "no value: a picture has no layers");
     }
     for (const std::filesystem::path& output : result.outputs) {
-        const std::optional<ImageType> type = type_of(output);
+        const std::optional<ImageType> type = find_type(output);
         if (type && !is_for_screens(*type)) {
             throw OptionError(
                 fmt::format("{}: develop writes pictures for screens: name it .png, .jpg or .webp",

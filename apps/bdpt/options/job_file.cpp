@@ -23,7 +23,7 @@ constexpr const char* format_key = "bdpt_job";
 constexpr const char* schema_key = "$schema";  // for editors
 
 /// Returns "light_samples" for --light-samples.
-std::string key_of(const Option& option)
+std::string to_key(const Option& option)
 {
     std::string key = option.name();
     key.erase(0, key.find_first_not_of('-'));
@@ -48,7 +48,7 @@ bool is_number(const Option& option)
 }
 
 /// Returns the command-line text for `value`.
-std::string text_of(const Option& option, const JsonValue& value)
+std::string to_text(const Option& option, const JsonValue& value)
 {
     if (option.info.separator != '\0' && value.is_array()) {
         std::string text;
@@ -76,7 +76,7 @@ std::string resolved_path(const std::string& path, const fs::path& folder)
 void take(Option& option, const JsonValue& value, const fs::path& folder)
 {
     const auto add = [&](const JsonValue& element) {
-        std::string text = option.spelled(text_of(option, element));
+        std::string text = option.spelled(to_text(option, element));
         if (is_path(option, text)) {
             text = resolved_path(text, folder);
         }
@@ -95,10 +95,10 @@ void take(Option& option, const JsonValue& value, const fs::path& folder)
 }
 
 /// Returns the option with the name `key` in jobs, or null.
-Option* option_of(OptionList& options, const std::string& key)
+Option* find_option(OptionList& options, const std::string& key)
 {
     for (Option& option : options.all()) {
-        if (option.uses.job && key_of(option) == key) {
+        if (option.uses.job && to_key(option) == key) {
             return &option;
         }
     }
@@ -111,7 +111,7 @@ Option* option_of(OptionList& options, const std::string& key)
     std::vector<std::string> keys;
     for (const Option& option : options.all()) {
         if (option.uses.job) {
-            keys.push_back(key_of(option));
+            keys.push_back(to_key(option));
         }
     }
     const std::optional<std::string> meant = closest(key, keys);
@@ -132,7 +132,7 @@ void check_format(const JsonValue& job)
 }
 
 /// Returns `text`, accepted by the option, as JSON; paths are relative to `folder`.
-ordered_json json_of(const Option& option, const std::string& text, const fs::path& folder)
+ordered_json to_json(const Option& option, const std::string& text, const fs::path& folder)
 {
     if (is_path(option, text)) {
         const fs::path path = text;
@@ -161,7 +161,7 @@ ordered_json json_of(const Option& option, const std::string& text, const fs::pa
 }
 
 /// Returns the JSON schema of the values of `option`.
-ordered_json schema_of(const Option& option)
+ordered_json make_schema(const Option& option)
 {
     const ValueInfo& info = option.info;
     ordered_json schema = ordered_json::object();
@@ -211,7 +211,7 @@ void load_job(const fs::path& file, OptionList& options)
     const JsonValue job = JsonValue::read(file);
     check_format(job);
     const fs::path folder = file.parent_path();
-    Option& scene = *option_of(options, "file");
+    Option& scene = *find_option(options, "file");
     scene.texts.clear();
     std::vector<const Option*> given;
     for (const Option& option : options.all()) {
@@ -223,7 +223,7 @@ void load_job(const fs::path& file, OptionList& options)
         if (key == format_key || key == schema_key) {
             continue;
         }
-        Option* option = option_of(options, key);
+        Option* option = find_option(options, key);
         if (option == nullptr) {
             fail_unknown(options, key, value);
         }
@@ -251,14 +251,14 @@ std::string job_text(const OptionList& options, const fs::path& file)
         if (!option.uses.job || !option.given()) {
             continue;
         }
-        const std::string key = key_of(option);
+        const std::string key = to_key(option);
         if (!option.repeats) {
-            job[key] = json_of(option, option.texts.back(), folder);
+            job[key] = to_json(option, option.texts.back(), folder);
             continue;
         }
         job[key] = ordered_json::array();
         for (const std::string& text : option.texts) {
-            job[key].push_back(json_of(option, text, folder));
+            job[key].push_back(to_json(option, text, folder));
         }
     }
     return job.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
@@ -271,7 +271,7 @@ std::string job_schema(const OptionList& options)
         {schema_key, {{"type", "string"}}}};
     for (const Option& option : options.all()) {
         if (option.uses.job) {
-            members[key_of(option)] = schema_of(option);
+            members[to_key(option)] = make_schema(option);
         }
     }
     const ordered_json schema{
@@ -286,7 +286,7 @@ std::string job_schema(const OptionList& options)
     return schema.dump(2) + "\n";
 }
 
-std::vector<std::string> words_of(const OptionList& options)
+std::vector<std::string> to_words(const OptionList& options)
 {
     std::vector<std::string> words;
     for (const Option& option : options.all()) {

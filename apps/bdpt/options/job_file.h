@@ -31,6 +31,6 @@ void load_job(const std::filesystem::path& file, OptionList& options);
 [[nodiscard]] std::string job_schema(const OptionList& options);
 
 /// Returns the given `options` as words of a command line.
-[[nodiscard]] std::vector<std::string> words_of(const OptionList& options);
+[[nodiscard]] std::vector<std::string> to_words(const OptionList& options);
 
 }  // namespace bdpt::app

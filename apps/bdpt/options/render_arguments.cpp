@@ -55,7 +55,7 @@ void add_how(OptionList& options, RenderRequest& request)
     options.section("How to render", {.python_render = true});
     add_fields(options, render.system);
     options.section("How to render", of_render);
-    const auto isas = choices_of(all_isas, isa_name);
+    const auto isas = make_choices(all_isas, isa_name);
     options
         .add("--isa", "sse2|sse4.2|avx|avx2|avx512|native",
              "Instruction set of Embree. Images are equal to the bit only for equal sets: on a "
@@ -148,7 +148,7 @@ void add_process_options(OptionList& options, RenderRequest& request)
 }
 
 /// Returns the goal of the render.
-Goal goal_of(const RenderRequest& request)
+Goal choose_goal(const RenderRequest& request)
 {
     Goal goal = request.arguments.goal;
     goal.seconds = request.seconds.value_or(goal.seconds);
@@ -161,7 +161,7 @@ Goal goal_of(const RenderRequest& request)
     return goal;
 }
 
-SampleRange samples_of(const RenderRequest& request, const Goal& goal)
+SampleRange choose_samples(const RenderRequest& request, const Goal& goal)
 {
     // With --time alone, more samples than anyone has time for.
     constexpr std::int64_t no_limit = std::int64_t{1} << 30;
@@ -339,8 +339,8 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
     result.part = checked(request.part, options);
     result.sequence = checked(request.sequence, options);
     check_combinations(options, result.camera);
-    result.goal = goal_of(request);
-    result.samples = samples_of(request, result.goal);
+    result.goal = choose_goal(request);
+    result.samples = choose_samples(request, result.goal);
     if (request.adaptive || request.rates.file) {
         result.rates = request.rates;
     }

@@ -20,7 +20,7 @@ struct Run {
     std::size_t last = 0;
 };
 
-std::vector<Run> runs_of(const std::vector<std::size_t>& numbers)
+std::vector<Run> find_runs(const std::vector<std::size_t>& numbers)
 {
     std::vector<Run> runs;
     for (const std::size_t number : numbers) {
@@ -45,7 +45,7 @@ std::string image_text(const PlanImage& image)
 
 }  // namespace
 
-SampleSet samples_of(const Plan& plan)
+SampleSet collect_samples(const Plan& plan)
 {
     // Sorted, so that each range is added at the end.
     std::vector<SampleRange> ranges;
@@ -66,7 +66,7 @@ bool is_sequence(const Plan& plan)
     return plan.images.front().seed.has_value();
 }
 
-std::vector<std::string> cameras_of(const Plan& plan)
+std::vector<std::string> collect_cameras(const Plan& plan)
 {
     std::vector<std::string> cameras;
     for (const PlanImage& image : plan.images) {
@@ -77,7 +77,7 @@ std::vector<std::string> cameras_of(const Plan& plan)
     return cameras;
 }
 
-fs::path file_of(const fs::path& pattern, const PlanImage& image)
+fs::path expand_pattern(const fs::path& pattern, const PlanImage& image)
 {
     const fs::path file = image.frame ? with_number(pattern, *image.frame) : pattern;
     return image.camera ? with_camera(file, *image.camera) : file;
@@ -89,7 +89,7 @@ std::vector<std::vector<fs::path>> parts_by_image(const Plan& plan)
     for (const PlanTask& task : plan.tasks) {
         for (std::size_t i = 0; i < task.images; ++i) {
             const std::size_t image = task.first_image + i;
-            parts[image].push_back(file_of(task.part, plan.images[image]));
+            parts[image].push_back(expand_pattern(task.part, plan.images[image]));
         }
     }
     return parts;
@@ -110,7 +110,7 @@ std::vector<std::size_t> tasks_for(const Plan& plan, const std::vector<SampleSet
     return result;
 }
 
-ImageLabel label_of(const Plan& plan, std::size_t image)
+ImageLabel make_label(const Plan& plan, std::size_t image)
 {
     return {.frame = plan.images[image].frame,
             .camera = plan.images[image].camera,
@@ -121,7 +121,7 @@ ImageLabel label_of(const Plan& plan, std::size_t image)
 std::string images_text(const Plan& plan, const std::vector<std::size_t>& images)
 {
     constexpr std::size_t max_runs = 8;
-    const std::vector<Run> runs = runs_of(images);
+    const std::vector<Run> runs = find_runs(images);
     std::string text;
     for (std::size_t i = 0; i < std::min(runs.size(), max_runs); ++i) {
         text += (text.empty() ? "" : ", ") + image_text(plan.images[runs[i].first]);
@@ -135,7 +135,7 @@ std::string images_text(const Plan& plan, const std::vector<std::size_t>& images
 std::string numbers_text(const std::vector<std::size_t>& numbers)
 {
     std::string result;
-    for (const Run& run : runs_of(numbers)) {
+    for (const Run& run : find_runs(numbers)) {
         result += result.empty() ? "" : ",";
         result += run.first == run.last ? fmt::format("{}", run.first)
                                         : fmt::format("{}-{}", run.first, run.last);

@@ -55,20 +55,20 @@ struct Plan {
 };
 
 /// Returns all samples that the tasks render of an image.
-[[nodiscard]] SampleSet samples_of(const Plan& plan);
+[[nodiscard]] SampleSet collect_samples(const Plan& plan);
 
 /// Tests whether the plan was made for the images of a sequence, even for a single one.
 [[nodiscard]] bool is_sequence(const Plan& plan);
 
 /// Returns the cameras of a plan of all cameras, in their order; else none.
-[[nodiscard]] std::vector<std::string> cameras_of(const Plan& plan);
+[[nodiscard]] std::vector<std::string> collect_cameras(const Plan& plan);
 
 /// Returns the file of `image` by its `pattern`.
-[[nodiscard]] std::filesystem::path file_of(const std::filesystem::path& pattern,
-                                            const PlanImage& image);
+[[nodiscard]] std::filesystem::path expand_pattern(const std::filesystem::path& pattern,
+                                                   const PlanImage& image);
 
 /// Returns the label of image `image`, for messages.
-[[nodiscard]] ImageLabel label_of(const Plan& plan, std::size_t image);
+[[nodiscard]] ImageLabel make_label(const Plan& plan, std::size_t image);
 
 /// Returns "frame 3, frame 5 to frame 9" for indices of images in ascending order.
 [[nodiscard]] std::string images_text(const Plan& plan, const std::vector<std::size_t>& images);

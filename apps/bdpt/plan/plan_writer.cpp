@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-std::vector<std::string> texts_of(const std::vector<fs::path>& paths)
+std::vector<std::string> to_texts(const std::vector<fs::path>& paths)
 {
     std::vector<std::string> result;
     for (const fs::path& path : paths) {
@@ -68,9 +68,9 @@ std::string to_text(const Plan& plan)
                       {"environment", ordered_json()},
                       {"render", plan.render_options},
                       {"merge", plan.merge_options},
-                      {"outputs", texts_of(plan.outputs)},
+                      {"outputs", to_texts(plan.outputs)},
                       {"strategies", ordered_json()},
-                      {"engine_files", texts_of(plan.engine_files)},
+                      {"engine_files", to_texts(plan.engine_files)},
                       {"images", ordered_json::array()},
                       {"tasks", ordered_json::array()},
                       {"files", to_json(plan.files)},

@@ -31,17 +31,17 @@ bool has(const Names& names, std::string_view word)
     return std::find(names.begin(), names.end(), word) != names.end();
 }
 
-std::string name_of(const std::string& word)
+std::string parse_name(const std::string& word)
 {
     return word.substr(0, word.find('='));
 }
 
 /// Returns the last value of the option `name`.
-std::optional<std::string> value_of(const Words& words, std::string_view name)
+std::optional<std::string> find_value(const Words& words, std::string_view name)
 {
     std::optional<std::string> result;
     for (std::size_t i = 0; i < words.size(); ++i) {
-        if (name_of(words[i]) != name) {
+        if (parse_name(words[i]) != name) {
             continue;
         }
         if (words[i].size() > name.size()) {
@@ -59,7 +59,7 @@ void check_render_words(const Words& words)
     for (std::size_t i = 2; i < words.size(); ++i) {
         if (has(of_a_process, words[i])) {
             ++i;  // its value
-        } else if (!has(of_a_process, name_of(words[i])) && !has(flags_of_a_process, words[i])) {
+        } else if (!has(of_a_process, parse_name(words[i])) && !has(flags_of_a_process, words[i])) {
             throw OptionError(
                 fmt::format("--plan cannot be combined with {}, only with --task, --threads, "
                             "--max-memory, --stats, --ktx-library, --restart, --quiet and --json",
@@ -71,7 +71,7 @@ void check_render_words(const Words& words)
 bool names_output(const std::string& word)
 {
     const bool short_options = word.size() > 1 && word[0] == '-' && word[1] != '-';
-    return name_of(word) == "--output" || (short_options && word.find('o') != std::string::npos);
+    return parse_name(word) == "--output" || (short_options && word.find('o') != std::string::npos);
 }
 
 void append(Words& words, Words more)
@@ -83,11 +83,11 @@ void append(Words& words, Words more)
 Words render_words(const Words& words, const Plan& plan, const fs::path& file)
 {
     check_render_words(words);
-    const std::optional<std::string> number = value_of(words, "--task");
+    const std::optional<std::string> number = find_value(words, "--task");
     if (!number) {
         throw OptionError("--plan needs --task N");
     }
-    const PlanTask& task = task_of(plan, file, *number);
+    const PlanTask& task = find_task(plan, file, *number);
     Words result(words.begin(), words.begin() + 2);
     append(result, shared_words(plan, file));
     result.push_back("--samples=" + SampleSet(task.samples).text());
@@ -118,7 +118,7 @@ std::vector<std::string> with_planned_words(std::vector<std::string> words)
 {
     const bool render = words.size() > 1 && words[1] == "render";
     const bool merge = words.size() > 1 && words[1] == "merge";
-    const std::optional<std::string> file = value_of(words, "--plan");
+    const std::optional<std::string> file = find_value(words, "--plan");
     if (!(render || merge) || !file || has(words, "--help") || has(words, "-h")) {
         return words;
     }
@@ -126,7 +126,7 @@ std::vector<std::string> with_planned_words(std::vector<std::string> words)
     return render ? render_words(words, plan, *file) : merge_words(words, plan, *file);
 }
 
-const PlanTask& task_of(const Plan& plan, const fs::path& file, const std::string& asked)
+const PlanTask& find_task(const Plan& plan, const fs::path& file, const std::string& asked)
 {
     std::string number = asked;
     constexpr std::string_view variable = "env:";

@@ -15,8 +15,8 @@ namespace bdpt::app {
 
 /// Returns the requested task of `plan`, which is in `file`: by its index, or by "env:NAME", an
 /// environment variable with the index. Throws `OptionError`.
-[[nodiscard]] const PlanTask& task_of(const Plan& plan, const std::filesystem::path& file,
-                                      const std::string& asked);
+[[nodiscard]] const PlanTask& find_task(const Plan& plan, const std::filesystem::path& file,
+                                        const std::string& asked);
 
 /// Returns the words after `bdpt render` that all tasks of `plan`, which is in `file`, share: the
 /// scene and the options, without samples and files that are written.

@@ -22,7 +22,7 @@ std::string bench_text(const eval::SceneResult& scene, double seconds)
                                        one.speed_up->factor)
                          : "-";
         result +=
-            fmt::format("  {:<6}{:>8}{:>11.2e}{:>24}{:>12.3g}{:>12}{}\n", name_of(one.integrator),
+            fmt::format("  {:<6}{:>8}{:>11.2e}{:>24}{:>12.3g}{:>12}{}\n", to_name(one.integrator),
                         one.equal_time.samples, error.median, range, one.efficiency, factor,
                         one.equal_time.near_noise ? "  reference too noisy"
                         : one.floor               ? "  cannot find all light"

@@ -27,7 +27,7 @@ struct Phrase {
     std::string_view after;
 };
 
-Phrase phrase_of(std::string_view field)
+Phrase find_phrase(std::string_view field)
 {
     if (field == "position") {
         return {" at ", ""};
@@ -58,7 +58,7 @@ struct LightText {
         std::string text = fmt::format("{} \"{}\"", short_kind<Light>, light.name);
         for_each_field(light, [&text]<typename T>(const auto& field, const T& value) {
             if constexpr (std::is_same_v<T, Vec3>) {
-                const auto [before, after] = phrase_of(field.name);
+                const auto [before, after] = find_phrase(field.name);
                 text += fmt::format("{}{}{}", before, to_text(value), after);
             } else if constexpr (std::is_arithmetic_v<T>) {
                 text += field.name == "radius" ? radius_text(value)

@@ -17,9 +17,9 @@ void save_rates(const std::filesystem::path& file, const SampleRates& rates,
     }
     eval::ErrorMap map{.width = rates.width(), .height = rates.height(), .values = {}};
     for (const std::int8_t exponent : rates.exponents()) {
-        map.values.push_back(SampleRates::rate_of(exponent));
+        map.values.push_back(SampleRates::to_rate(exponent));
     }
-    const float most = SampleRates::rate_of(SampleRates::max_exponent);
+    const float most = SampleRates::to_rate(SampleRates::max_exponent);
     io::write_png(file, eval::false_color(map, {.scale = most, .title = "samples per round"}),
                   {.metadata = metadata});
 }

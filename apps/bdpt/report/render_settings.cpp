@@ -71,12 +71,12 @@ ordered_json rates_json(const RenderArguments& arguments)
 
 }  // namespace
 
-ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& stage)
+ordered_json make_settings(const RenderArguments& arguments, const PreparedScene& stage)
 {
     const RenderOptions& options = arguments.options;
     ordered_json settings{{"width", stage.size.width}, {"height", stage.size.height}};
     settings.update(transport_json(options));
-    settings["sampler"] = name_of(options.sampling.sampler);
+    settings["sampler"] = to_name(options.sampling.sampler);
     settings["seed"] = options.sampling.seed;
     if (options.sampling.rates) {
         settings["rates"] = rates_json(arguments);
@@ -112,7 +112,7 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
         settings["texture_filter"] = "mip";
     }
     const FilterOptions& filter = options.film.filter;
-    settings["filter"] = name_of(filter.kind);
+    settings["filter"] = to_name(filter.kind);
     settings["filter_radius"] = filter.radius.value_or(default_radius(filter.kind));
     if (options.film.crop) {
         const PixelRect& crop = *options.film.crop;
@@ -156,14 +156,14 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
     return settings;
 }
 
-io::ImageMetadata metadata_of(const RenderArguments& arguments, const PreparedScene& stage,
-                              const ordered_json& settings)
+io::ImageMetadata make_metadata(const RenderArguments& arguments, const PreparedScene& stage,
+                                const ordered_json& settings)
 {
     io::ImageMetadata metadata;
     metadata.version = BDPT_VERSION;
     metadata.scene = named(arguments, arguments.file);
     metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-    metadata.integrator = name_of(arguments.options.integrator);
+    metadata.integrator = to_name(arguments.options.integrator);
     metadata.seed = arguments.options.sampling.seed;
     metadata.camera = stage.camera;
     metadata.created = std::chrono::system_clock::now();

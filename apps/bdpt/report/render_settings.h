@@ -10,12 +10,12 @@
 namespace bdpt::app {
 
 /// Returns all settings that the image depends on.
-[[nodiscard]] nlohmann::ordered_json settings_of(const RenderArguments& arguments,
-                                                 const PreparedScene& stage);
+[[nodiscard]] nlohmann::ordered_json make_settings(const RenderArguments& arguments,
+                                                   const PreparedScene& stage);
 
 /// Returns the metadata of image files; samples and times are filled in after rendering.
-[[nodiscard]] io::ImageMetadata metadata_of(const RenderArguments& arguments,
-                                            const PreparedScene& stage,
-                                            const nlohmann::ordered_json& settings);
+[[nodiscard]] io::ImageMetadata make_metadata(const RenderArguments& arguments,
+                                              const PreparedScene& stage,
+                                              const nlohmann::ordered_json& settings);
 
 }  // namespace bdpt::app

@@ -145,7 +145,7 @@ ordered_json extension_json(const io::ExtensionUse& extension)
 }
 
 template <typename Items, typename Convert>
-ordered_json array_of(const Items& items, Convert convert)
+ordered_json make_array(const Items& items, Convert convert)
 {
     ordered_json result = ordered_json::array();
     for (const auto& item : items) {
@@ -268,14 +268,14 @@ ordered_json scene_json(const SceneReport& report)
     }
     result["materials"] = report.materials;
     result["emissive_materials"] =
-        array_of(report.emissive, [](const EmissiveMaterial& material) -> ordered_json {
+        make_array(report.emissive, [](const EmissiveMaterial& material) -> ordered_json {
             return {{"name", material.name}, {"emission", to_json(material.emission)}};
         });
-    result["texture_sizes"] = array_of(report.texture_sizes, [](const Size& size) {
+    result["texture_sizes"] = make_array(report.texture_sizes, [](const Size& size) {
         return ordered_json::array({size.width, size.height});
     });
-    result["cameras"] = array_of(report.cameras, camera_json);
-    result["lights"] = array_of(report.lights, light_json);
+    result["cameras"] = make_array(report.cameras, camera_json);
+    result["lights"] = make_array(report.lights, light_json);
     result["warnings"] = report.warnings;
     result["defaults"] = default_names(report.defaults);
     return result;
@@ -357,7 +357,7 @@ ordered_json to_json(const SceneReport& report)
     result["variants"] = facts.variant_names;
     result["animations"] = facts.animation_names;
     result.update(scene_json(report));
-    result["extensions"] = array_of(facts.extensions, extension_json);
+    result["extensions"] = make_array(facts.extensions, extension_json);
     result["renderable"] = !report.problem;
     result["problem"] = report.problem
                             ? ordered_json{{"code", static_cast<int>(report.problem->code)},

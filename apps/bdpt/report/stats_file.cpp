@@ -101,7 +101,7 @@ ordered_json stats_json(const RenderResult& result, const TimeSplit& time)
                       {"rays", rays_json(stats.rays, time.render)},
                       {"defects", defects_json(result.film.defects())},
                       {"clamp", clamp_json(result.film)}};
-    json["noise"] = noise_json(noise_of(result.film));
+    json["noise"] = noise_json(estimate_noise(result.film));
     if (result.profile) {
         json["profile"] = profile_json(*result.profile);
     }

@@ -36,7 +36,7 @@ std::string images_text(const VerifyReport& report)
     std::string result = fmt::format("{:<11}{:>12}{:>16}{:>10}\n", "integrator", "mean [nit]",
                                      "standard error", "defects");
     for (const eval::ImageFinding& image : report.images) {
-        result += fmt::format("{:<11}{:>12.6g}{:>16.2g}{:>10}\n", name_of(image.integrator),
+        result += fmt::format("{:<11}{:>12.6g}{:>16.2g}{:>10}\n", to_name(image.integrator),
                               image.radiance, image.error,
                               image.defects.invalid + image.defects.saturated);
     }
@@ -90,7 +90,7 @@ std::string integrators_text(const VerifyReport& report)
         if (finding.whole.found == 0.0 && finding.whole.expected == 0.0) {
             continue;
         }
-        result += fmt::format("{:<14}{:<8}{}\n", name_of(finding.integrator), finding.edges,
+        result += fmt::format("{:<14}{:<8}{}\n", to_name(finding.integrator), finding.edges,
                               comparison_text(finding.whole));
     }
     return result;
@@ -156,16 +156,16 @@ std::vector<std::string> failures(const VerifyReport& report)
             lines.push_back(fmt::format(
                 "{}: {} contributions were NaN, infinite or negative; the first at pixel ({}, {}), "
                 "sample {}",
-                name_of(image.integrator), image.defects.invalid, place->x, place->y,
+                to_name(image.integrator), image.defects.invalid, place->x, place->y,
                 place->sample_index));
         }
         if (image.defects.saturated > 0) {
             lines.push_back(fmt::format("{}: {} contributions were too great for the film",
-                                        name_of(image.integrator), image.defects.saturated));
+                                        to_name(image.integrator), image.defects.saturated));
         }
         if (loses_light(image)) {
             lines.push_back(fmt::format("{}: the paths and the image of a tile differ by {}",
-                                        name_of(image.integrator), percent(image.lost)));
+                                        to_name(image.integrator), percent(image.lost)));
         }
     }
     if (report.weights.wrong > 0) {
@@ -180,7 +180,7 @@ std::vector<std::string> failures(const VerifyReport& report)
     }
     for (const IntegratorFinding& finding : report.integrators) {
         add_failures(
-            fmt::format("{} against bdpt, {} edges", name_of(finding.integrator), finding.edges),
+            fmt::format("{} against bdpt, {} edges", to_name(finding.integrator), finding.edges),
             finding.whole, finding.channels, finding.tiles, report, lines);
     }
     for (const eval::MergeFinding& finding : report.merges) {

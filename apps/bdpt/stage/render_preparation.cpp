@@ -67,8 +67,8 @@ RenderOptions options_for(const RenderArguments& arguments, const PreparedScene&
     return options;
 }
 
-std::shared_ptr<const SampleRates> rates_of(const RenderArguments& arguments,
-                                            const PreparedScene& stage, Console& console)
+std::shared_ptr<const SampleRates> prepare_rates(const RenderArguments& arguments,
+                                                 const PreparedScene& stage, Console& console)
 {
     if (!arguments.rates->file) {
         const auto start = std::chrono::steady_clock::now();
@@ -159,7 +159,7 @@ RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stag
     }
     arguments.options = choice.options;
     if (arguments.rates && !arguments.options.sampling.rates) {
-        arguments.options.sampling.rates = rates_of(arguments, stage, console);
+        arguments.options.sampling.rates = prepare_rates(arguments, stage, console);
     }
     return arguments;
 }

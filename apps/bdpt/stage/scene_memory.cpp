@@ -11,12 +11,12 @@ constexpr std::uint64_t light_bytes = 2000;
 constexpr std::uint64_t emissive_triangle_bytes = 430;
 
 template <typename T>
-std::uint64_t size_of(const std::vector<T>& values)
+std::uint64_t compute_size(const std::vector<T>& values)
 {
     return values.size() * sizeof(T);
 }
 
-std::uint64_t bytes_of(const std::vector<TexelImage>& images)
+std::uint64_t count_bytes(const std::vector<TexelImage>& images)
 {
     std::uint64_t bytes = 0;
     for (const TexelImage& image : images) {
@@ -25,25 +25,27 @@ std::uint64_t bytes_of(const std::vector<TexelImage>& images)
     return bytes;
 }
 
-std::uint64_t bytes_of(const std::vector<MeshDesc>& meshes)
+std::uint64_t count_bytes(const std::vector<MeshDesc>& meshes)
 {
     std::uint64_t bytes = 0;
     for (const MeshDesc& mesh : meshes) {
-        bytes += size_of(mesh.positions) + size_of(mesh.normals) + size_of(mesh.tangents) +
-                 size_of(mesh.uvs[0]) + size_of(mesh.uvs[1]) + size_of(mesh.colors) +
-                 size_of(mesh.triangles);
+        bytes += compute_size(mesh.positions) + compute_size(mesh.normals) +
+                 compute_size(mesh.tangents) + compute_size(mesh.uvs[0]) +
+                 compute_size(mesh.uvs[1]) + compute_size(mesh.colors) +
+                 compute_size(mesh.triangles);
         for (const MeshPose& pose : mesh.motion) {
-            bytes += size_of(pose.positions) + size_of(pose.normals) + size_of(pose.tangents);
+            bytes += compute_size(pose.positions) + compute_size(pose.normals) +
+                     compute_size(pose.tangents);
         }
     }
     return bytes;
 }
 
-std::uint64_t bytes_of(const std::vector<VolumeDesc>& volumes)
+std::uint64_t count_bytes(const std::vector<VolumeDesc>& volumes)
 {
     std::uint64_t bytes = 0;
     for (const VolumeDesc& volume : volumes) {
-        bytes += size_of(volume.density);
+        bytes += compute_size(volume.density);
     }
     return bytes;
 }
@@ -68,12 +70,12 @@ void spend_building(io::MemoryBudget& memory, const SceneDesc& scene, Copies cop
         "what lights are chosen by",
         scene.lights.size() * light_bytes + emissive_triangles(scene) * emissive_triangle_bytes);
     if (scene.texture_filter == TextureFilter::mip_mapped) {
-        memory.spend("smaller copies of images", bytes_of(scene.images) / 3);
+        memory.spend("smaller copies of images", count_bytes(scene.images) / 3);
     }
     if (copies == Copies::two) {
         memory.spend("a copy of the scene, to find out how it should be lit",
-                     bytes_of(scene.images) + bytes_of(scene.meshes) + bytes_of(scene.volumes) +
-                         size_of(scene.instances));
+                     count_bytes(scene.images) + count_bytes(scene.meshes) +
+                         count_bytes(scene.volumes) + compute_size(scene.instances));
     }
 }
 

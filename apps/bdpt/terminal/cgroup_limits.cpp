@@ -43,7 +43,7 @@ bool has_controller(const Group& group, const std::string& name)
 
 /// Returns the folders of the group and of all enclosing ones. In a container the outermost visible
 /// one is mounted, whatever the path of the group says.
-std::vector<fs::path> folders_of(const Group& group, const fs::path& mount)
+std::vector<fs::path> list_folders(const Group& group, const fs::path& mount)
 {
     std::vector<fs::path> result{mount};
     std::error_code ignored;
@@ -115,7 +115,7 @@ CgroupLimits cgroup_limits(const fs::path& root)
                       mounts / (has_controller(group, "cpu") ? "cpu" : "memory")};
         }
         for (const fs::path& place : places) {
-            for (const fs::path& folder : folders_of(group, place)) {
+            for (const fs::path& folder : list_folders(group, place)) {
                 processors = std::min(processors, quota_in(folder));
                 memory = std::min(memory, memory_in(folder));
             }

@@ -27,7 +27,7 @@ enum class Format : std::uint8_t {
 struct Goal {
     std::optional<std::int64_t> samples;  ///< per pixel
     double seconds = std::numeric_limits<double>::infinity();
-    std::optional<double> noise{};  ///< as by noise_of()
+    std::optional<double> noise{};  ///< as by estimate_noise()
 };
 
 /// Progress of a task of many parts.

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns line `name` of a file with lines such as "MemAvailable:   23456 kB" [bytes].
-std::optional<std::uint64_t> line_of(const fs::path& file, const std::string& name)
+std::optional<std::uint64_t> read_line(const fs::path& file, const std::string& name)
 {
     std::ifstream stream(file);
     for (std::string word; stream >> word;) {
@@ -35,7 +35,7 @@ std::optional<std::uint64_t> address_space(const fs::path& root)
     if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
         return std::nullopt;
     }
-    const std::uint64_t used = line_of(root / "proc/self/status", "VmSize:").value_or(0);
+    const std::uint64_t used = read_line(root / "proc/self/status", "VmSize:").value_or(0);
     return limit.rlim_cur - std::min<std::uint64_t>(limit.rlim_cur, used);
 }
 
@@ -52,7 +52,7 @@ io::MemoryLimit machine_memory(const fs::path& root)
             least.source = source;
         }
     };
-    add(line_of(root / "proc/meminfo", "MemAvailable:"), "free memory of the machine");
+    add(read_line(root / "proc/meminfo", "MemAvailable:"), "free memory of the machine");
     add(cgroup_limits(root).memory, "memory limit of the container or control group");
     add(address_space(root), "address space of the process, ulimit -v");
     return least;

@@ -24,7 +24,7 @@ struct StreamFailure {
     }
 };
 
-StreamFailure& failure_of(std::FILE* stream)
+StreamFailure& find_failure(std::FILE* stream)
 {
     static StreamFailure of_output;
     static StreamFailure of_errors;
@@ -34,7 +34,7 @@ StreamFailure& failure_of(std::FILE* stream)
 /// Closes a stream; returns whether all output was written.
 bool close(std::FILE* stream)
 {
-    StreamFailure& failure = failure_of(stream);  // `stream` is invalid after fclose()
+    StreamFailure& failure = find_failure(stream);  // `stream` is invalid after fclose()
     errno = 0;
     const bool had_failed = std::ferror(stream) != 0;
     if (std::fclose(stream) != 0 || had_failed) {
@@ -61,7 +61,7 @@ void put(std::FILE* stream, std::string_view text)
     errno = 0;
     if (std::fwrite(text.data(), 1, text.size(), stream) != text.size() ||
         std::fflush(stream) != 0) {
-        failure_of(stream).note(errno);
+        find_failure(stream).note(errno);
     }
 }
 
@@ -75,7 +75,7 @@ std::optional<int> output_columns()
 int finish_standard_streams(int exit_code)
 {
     constexpr int lost = static_cast<int>(ErrorCode::output);
-    const StreamFailure& output_failure = failure_of(stdout);
+    const StreamFailure& output_failure = find_failure(stdout);
     if (!close(stdout) && exit_code == 0) {
         exit_code = lost;
         put(stderr, fmt::format("bdpt: error: standard output: cannot write: {}\n",

@@ -49,13 +49,13 @@ std::string valid_utf8(std::string_view text)
 }
 
 /// Returns the number of bytes of the UTF-8 character that begins with `lead`.
-std::size_t length_of(unsigned char lead)
+std::size_t count_bytes(unsigned char lead)
 {
     return lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
 }
 
 /// Decodes the single character in `bytes`.
-char32_t code_of(std::string_view bytes)
+char32_t decode_character(std::string_view bytes)
 {
     constexpr std::array<unsigned char, 5> lead_bits{0, 0x7f, 0x1f, 0x0f, 0x07};
     char32_t code = static_cast<unsigned char>(bytes[0]) & lead_bits.at(bytes.size());
@@ -72,8 +72,8 @@ std::string with_replaced(std::string_view text, const Replacement& replacement)
     std::string result;
     for (std::size_t i = 0; i < text.size();) {
         const std::string_view bytes =
-            text.substr(i, length_of(static_cast<unsigned char>(text[i])));
-        const char32_t code = code_of(bytes);
+            text.substr(i, count_bytes(static_cast<unsigned char>(text[i])));
+        const char32_t code = decode_character(bytes);
         result += is_printable(code) ? std::string(bytes) : replacement(code);
         i += bytes.size();
     }

@@ -21,8 +21,8 @@ void add_places(ordered_json& vertices, const std::vector<InspectedVertex>& path
     for (std::size_t i = 0; i < path.size(); ++i) {
         const bool is_infinite = path[i].kind == InspectedKind::infinite;
         const std::optional<Vec2> place =
-            is_infinite ? raster_of_direction(stage.camera, stage.size, path[i].position)
-                        : raster_of(stage.camera, stage.size, path[i].position);
+            is_infinite ? project_direction(stage.camera, stage.size, path[i].position)
+                        : project_point(stage.camera, stage.size, path[i].position);
         vertices[i]["raster"] =
             place ? ordered_json::array({place->x, place->y}) : ordered_json();
     }

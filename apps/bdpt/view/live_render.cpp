@@ -61,7 +61,7 @@ bool LiveRender::advance(const PassStops& stops)
 
 Matte shown_matte(const RenderArguments& arguments, const RenderPart& part)
 {
-    return arguments.display.backdrop ? matte_of(part.aovs.develop(part.film)) : Matte{};
+    return arguments.display.backdrop ? find_matte(part.aovs.develop(part.film)) : Matte{};
 }
 
 std::optional<CoarsePicture> coarse_picture(const RenderArguments& arguments,
@@ -92,7 +92,7 @@ std::optional<CoarsePicture> coarse_picture(const RenderArguments& arguments,
     }
     CoarsePicture picture{.image = result.film.develop()};
     if (arguments.display.backdrop) {
-        picture.matte = matte_of(result.aovs.develop(result.film));
+        picture.matte = find_matte(result.aovs.develop(result.film));
     }
     return picture;
 }

@@ -100,14 +100,14 @@ Pose LiveScene::pose() const
         return {.from = *arguments_.view.from, .look_at = *arguments_.view.look_at};
     }
     const CameraDesc& camera = stage_->camera;
-    const Pose one_away = pose_of(camera, 1.0f);
+    const Pose one_away = compute_pose(camera, 1.0f);
     const Vec3 forward = one_away.look_at - one_away.from;
     const auto hit = picked(stage_->size.width / 2, stage_->size.height / 2);
     const Bounds bounds = stage_->scene.bounds();
     const Vec3 target = hit.value_or(0.5f * (bounds.min + bounds.max));
     const float distance = glm::dot(target - one_away.from, forward);
     const float fallback = 0.5f * glm::length(bounds.max - bounds.min);
-    return pose_of(camera, distance > 0.0f ? distance : fallback > 0.0f ? fallback : 1.0f);
+    return compute_pose(camera, distance > 0.0f ? distance : fallback > 0.0f ? fallback : 1.0f);
 }
 
 }  // namespace bdpt::app

@@ -76,7 +76,7 @@ bool truth(const Json& value, std::string_view key)
     return value.get<bool>();
 }
 
-Move move_of(const Json& value)
+Move parse_move(const Json& value)
 {
     Move move;
     if (!value.is_object()) {
@@ -96,7 +96,7 @@ Move move_of(const Json& value)
     return move;
 }
 
-ViewLayer layer_of(const Json& value)
+ViewLayer parse_layer(const Json& value)
 {
     for (const ViewLayer layer : layers) {
         if (value.is_string() && value.get_ref<const std::string&>() == layer_name(layer)) {
@@ -107,7 +107,7 @@ ViewLayer layer_of(const Json& value)
 }
 
 /// Parses EV as in --exposure.
-std::string exposure_of(const Json& value)
+std::string parse_ev(const Json& value)
 {
     if (value.is_number()) {
         return fmt::format("{}", number(value, "exposure", -100.0, 100.0));
@@ -118,7 +118,7 @@ std::string exposure_of(const Json& value)
     return "auto";
 }
 
-ViewSettings settings_of(const Json& value)
+ViewSettings parse_settings(const Json& value)
 {
     ViewSettings settings;
     if (!value.is_object()) {
@@ -136,13 +136,13 @@ ViewSettings settings_of(const Json& value)
         } else if (key == "intensity") {
             settings.intensity = number(member, key, 0.0, 1e6);
         } else if (key == "exposure") {
-            settings.exposure = exposure_of(member);
+            settings.exposure = parse_ev(member);
         } else if (key == "curve") {
             settings.curve = text(member, key);
         } else if (key == "paused") {
             settings.paused = truth(member, key);
         } else if (key == "layer") {
-            settings.layer = layer_of(member);
+            settings.layer = parse_layer(member);
         } else if (key == "strategy") {
             const auto [s, t] = pair_of_wholes(member, key);
             settings.strategy = Strategy{.s = s, .t = t};
@@ -177,7 +177,7 @@ bool PageRequest::changes_picture() const
                          settings->intensity));
 }
 
-std::optional<std::uint32_t> sequence_of(std::string_view text)
+std::optional<std::uint32_t> parse_sequence(std::string_view text)
 {
     const Json value = Json::parse(text, nullptr, false);
     if (!value.is_object()) {
@@ -205,13 +205,13 @@ PageRequest parse_request(std::string_view message)
             request.sequence = static_cast<std::uint32_t>(
                 whole(member, key, std::numeric_limits<std::uint32_t>::max()));
         } else if (key == "move") {
-            request.move = move_of(member);
+            request.move = parse_move(member);
         } else if (key == "focus") {
             request.focus = pair_of_wholes(member, key);
         } else if (key == "reset") {
             request.reset = truth(member, key);
         } else if (key == "set") {
-            request.settings = settings_of(member);
+            request.settings = parse_settings(member);
         } else if (key == "inspect") {
             const auto [x, y] = pair_of_wholes(member, key);
             request.inspect = PixelSample{.x = x, .y = y, .index = 0};

@@ -50,6 +50,6 @@ struct PageRequest {
 
 /// Returns the number that the answer to `text` refers to, whatever else is wrong with it; none: it
 /// has no number.
-[[nodiscard]] std::optional<std::uint32_t> sequence_of(std::string_view text);
+[[nodiscard]] std::optional<std::uint32_t> parse_sequence(std::string_view text);
 
 }  // namespace bdpt::app

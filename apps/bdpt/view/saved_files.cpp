@@ -22,8 +22,8 @@ namespace {
 
 io::ImageMetadata metadata(const LiveRender& render, const PreparedScene& stage)
 {
-    nlohmann::ordered_json settings = settings_of(render.arguments(), stage);
-    io::ImageMetadata result = metadata_of(render.arguments(), stage, settings);
+    nlohmann::ordered_json settings = make_settings(render.arguments(), stage);
+    io::ImageMetadata result = make_metadata(render.arguments(), stage, settings);
     result.samples_per_pixel = render.renderer().samples();
     result.render_seconds = render.renderer().seconds();
     result.created = std::chrono::system_clock::now();
@@ -44,7 +44,7 @@ ImageFileOptions file_options(const LiveRender& render, const PreparedScene& sta
                                    .full_width = stage.size.width,
                                    .full_height = stage.size.height}},
                     .manifests = part.ids.manifests()},
-            .layers = layers_of(part.film, part.aovs, part.ids),
+            .layers = develop_layers(part.film, part.aovs, part.ids),
             .display = arguments.display,
             .denoiser = denoiser ? &*denoiser : nullptr,
             .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image};
@@ -71,7 +71,7 @@ Download saved_image(const LiveRender& render, const PreparedScene& stage,
             .content = {std::istreambuf_iterator<char>(file), {}}};
 }
 
-float exposure_of(const LiveRender& render, const PreparedScene& stage, const Image& image)
+float compute_exposure(const LiveRender& render, const PreparedScene& stage, const Image& image)
 {
     return shown_exposure(render.arguments().display.exposure, metadata(render, stage), image);
 }

@@ -22,7 +22,7 @@ struct Download {
                                    std::string_view extension);
 
 /// Returns the exposure [EV] of files for screens. Throws `Error`.
-[[nodiscard]] float exposure_of(const LiveRender& render, const PreparedScene& stage,
-                                const Image& image);
+[[nodiscard]] float compute_exposure(const LiveRender& render, const PreparedScene& stage,
+                                     const Image& image);
 
 }  // namespace bdpt::app

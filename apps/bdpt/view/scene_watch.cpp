@@ -8,7 +8,7 @@ namespace bdpt::app {
 
 namespace fs = std::filesystem;
 
-FileStamp stamp_of(const fs::path& file)
+FileStamp read_stamp(const fs::path& file)
 {
     std::error_code missing;
     FileStamp stamp;
@@ -27,7 +27,7 @@ void FileChanges::watch(const std::vector<fs::path>& files)
     for (const fs::path& file : files) {
         // Keeps the old stamp, as the file may have changed while it was read.
         const auto before = known_.find(file);
-        known.emplace(file, before != known_.end() ? before->second : stamp_of(file));
+        known.emplace(file, before != known_.end() ? before->second : read_stamp(file));
     }
     known_ = std::move(known);
     last_ = known_;
@@ -37,7 +37,7 @@ bool FileChanges::look()
 {
     Stamps now;
     for (const auto& [file, stamp] : known_) {
-        now.emplace(file, stamp_of(file));
+        now.emplace(file, read_stamp(file));
     }
     const bool rests = now == last_;
     last_ = std::move(now);

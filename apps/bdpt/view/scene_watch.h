@@ -20,7 +20,7 @@ struct FileStamp {
     [[nodiscard]] bool operator==(const FileStamp&) const = default;
 };
 
-[[nodiscard]] FileStamp stamp_of(const std::filesystem::path& file);
+[[nodiscard]] FileStamp read_stamp(const std::filesystem::path& file);
 
 /// Detects files that have changed and then stayed unchanged for a moment, as programs write them
 /// in several steps.

@@ -32,7 +32,7 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 
 /// Calls `work()`; returns its failure as a line.
 template <typename Work>
-std::optional<std::string> failure_of(const Work& work)
+std::optional<std::string> catch_failure(const Work& work)
 {
     try {
         work();
@@ -114,12 +114,12 @@ void Session::leave(ClientId client)
 void Session::ask(ClientId client, const std::string& message)
 {
     PageRequest request;
-    std::optional<std::string> wrong = failure_of([&] { request = parse_request(message); });
+    std::optional<std::string> wrong = catch_failure([&] { request = parse_request(message); });
     // A focus point may be refused, so the current picture is kept.
     const bool gives_up = request.changes_picture() && !request.focus;
     const Urgency urgency = gives_up ? Urgency::now : Urgency::soon;
     mailbox_.post(
-        [this, client, request, wrong, sequence = wrong ? sequence_of(message) : std::nullopt] {
+        [this, client, request, wrong, sequence = wrong ? parse_sequence(message) : std::nullopt] {
             if (wrong) {
                 nlohmann::ordered_json reply{{"error", *wrong}};
                 if (sequence) {
@@ -140,7 +140,7 @@ void Session::save(const std::string& name, int slot, std::function<void(Downloa
     mailbox_.post(
         [this, name, slot, done = std::move(done)] {
             Download file;
-            if (const auto wrong = failure_of([&] { file = saved(name, slot); })) {
+            if (const auto wrong = catch_failure([&] { file = saved(name, slot); })) {
                 file = {.status = 500, .type = "text/plain", .name = "", .content = *wrong};
             }
             done(std::move(file));
@@ -153,7 +153,7 @@ void Session::answer(ClientId client, const PageRequest& request)
     nlohmann::ordered_json reply{{"ack", request.sequence}};
     const ViewWords before = words_;
     const std::optional<Pose> pose_before = pose_;
-    const auto wrong = failure_of([&] {
+    const auto wrong = catch_failure([&] {
         if (!scene_.is_there()) {
             throw Error(ErrorCode::usage, "the scene is not loaded yet");
         }
@@ -353,7 +353,7 @@ Download Session::saved(const std::string& name, int slot)
 void Session::load()
 {
     files_changed_ = false;
-    if (const auto wrong = failure_of([&] { scene_.load(words_); })) {
+    if (const auto wrong = catch_failure([&] { scene_.load(words_); })) {
         file_message_ = *wrong;
         console_.warning(*wrong, Repeat::always);
     } else {
@@ -400,7 +400,7 @@ void Session::restart()
         return;
     }
     drop_renders();
-    if (const auto wrong = failure_of([&] { scene_.show(words_); })) {
+    if (const auto wrong = catch_failure([&] { scene_.show(words_); })) {
         message_ = *wrong;
         words_ = before;
         shown_words_ = before;
@@ -436,7 +436,7 @@ bool Session::step()
         return false;
     }
     bool busy = false;
-    const auto wrong = failure_of([&] {
+    const auto wrong = catch_failure([&] {
         if (coarse_.divisor() && layer_ == ViewLayer::picture) {
             busy = preview();
         } else {
@@ -522,7 +522,7 @@ bool Session::advance_pictures()
 bool Session::advance_strategies()
 {
     if (!strategies_) {
-        const auto wrong = failure_of([&] { begin_strategies(); });
+        const auto wrong = catch_failure([&] { begin_strategies(); });
         if (wrong) {
             message_ = *wrong;
             layer_ = ViewLayer::picture;

@@ -141,7 +141,7 @@ void Session::meter(const Image& image, const LiveRender* render)
 {
     const std::optional<Exposure>& asked = scene_.arguments().display.exposure;
     if (render != nullptr && !(asked && asked->base == ExposureBase::radiance)) {
-        automatic_exposure_ = exposure_of(*render, scene_.stage(), image);
+        automatic_exposure_ = compute_exposure(*render, scene_.stage(), image);
     } else {
         automatic_exposure_ = io::automatic_exposure(image);
     }
@@ -182,7 +182,7 @@ ViewState Session::state()
     state.vertical_fov = stage.camera.projection == Projection::orthographic
                              ? 0.0
                              : degrees(stage.camera.vertical_fov);
-    state.integrator_a = name_of(arguments.options.integrator);
+    state.integrator_a = to_name(arguments.options.integrator);
     state.integrator_b = integrator_b_;
     state.environments = {"scene", "default", "studio", "none"};
     if (const std::string own = first_words_.text("--env");
@@ -235,10 +235,10 @@ SlotState Session::slot_state(std::size_t slot) const
     state.noise = std::numeric_limits<double>::infinity();
     if (!render) {
         state.integrator =
-            slot == 1 ? integrator_b_ : std::string(name_of(scene_.arguments().options.integrator));
+            slot == 1 ? integrator_b_ : std::string(to_name(scene_.arguments().options.integrator));
         return state;
     }
-    state.integrator = name_of(render->renderer().options().integrator);
+    state.integrator = to_name(render->renderer().options().integrator);
     state.samples = render->renderer().samples();
     state.noise = render->noise();
     state.seconds = render->renderer().seconds();

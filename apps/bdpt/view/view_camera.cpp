@@ -15,7 +15,7 @@ struct Axes {
     Vec3 forward;
 };
 
-Axes axes_of(const CameraDesc& camera)
+Axes compute_axes(const CameraDesc& camera)
 {
     return {.right = glm::normalize(Vec3(camera.world_from_camera[0])),
             .up = glm::normalize(Vec3(camera.world_from_camera[1])),
@@ -23,9 +23,9 @@ Axes axes_of(const CameraDesc& camera)
 }
 
 /// Returns the position in the image of a point at an offset from the camera.
-std::optional<Vec2> raster_of_offset(const CameraDesc& camera, const Size& size, Vec3 offset)
+std::optional<Vec2> project_offset(const CameraDesc& camera, const Size& size, Vec3 offset)
 {
-    const Axes axes = axes_of(camera);
+    const Axes axes = compute_axes(camera);
     const float depth = glm::dot(offset, axes.forward);
     if (!(depth > 0.0f)) {
         return std::nullopt;
@@ -85,22 +85,21 @@ float view_height(const CameraDesc& camera, float distance)
                : 2.0f * std::tan(0.5f * camera.vertical_fov);
 }
 
-Pose pose_of(const CameraDesc& camera, float distance)
+Pose compute_pose(const CameraDesc& camera, float distance)
 {
     const Vec3 from(camera.world_from_camera[3]);
-    return {.from = from, .look_at = from + distance * axes_of(camera).forward};
+    return {.from = from, .look_at = from + distance * compute_axes(camera).forward};
 }
 
-std::optional<Vec2> raster_of(const CameraDesc& camera, const Size& size, Vec3 point)
+std::optional<Vec2> project_point(const CameraDesc& camera, const Size& size, Vec3 point)
 {
-    return raster_of_offset(camera, size, point - Vec3(camera.world_from_camera[3]));
+    return project_offset(camera, size, point - Vec3(camera.world_from_camera[3]));
 }
 
-std::optional<Vec2> raster_of_direction(const CameraDesc& camera, const Size& size, Vec3 direction)
+std::optional<Vec2> project_direction(const CameraDesc& camera, const Size& size, Vec3 direction)
 {
-    return camera.projection == Projection::orthographic
-               ? std::nullopt
-               : raster_of_offset(camera, size, direction);
+    return camera.projection == Projection::orthographic ? std::nullopt
+                                                         : project_offset(camera, size, direction);
 }
 
 }  // namespace bdpt::app

@@ -33,15 +33,16 @@ struct Move {
 [[nodiscard]] float view_height(const CameraDesc& camera, float distance);
 
 /// Returns the position of the camera, and its target at `distance`.
-[[nodiscard]] Pose pose_of(const CameraDesc& camera, float distance);
+[[nodiscard]] Pose compute_pose(const CameraDesc& camera, float distance);
 
 /// Returns the position of `point` in the image of `camera` [pixels]; none: it is not in front of
 /// the camera.
-[[nodiscard]] std::optional<Vec2> raster_of(const CameraDesc& camera, const Size& size, Vec3 point);
+[[nodiscard]] std::optional<Vec2> project_point(const CameraDesc& camera, const Size& size,
+                                                Vec3 point);
 
 /// Returns the position in the image of points infinitely far away in the unit direction
 /// `direction`.
-[[nodiscard]] std::optional<Vec2> raster_of_direction(const CameraDesc& camera, const Size& size,
-                                                      Vec3 direction);
+[[nodiscard]] std::optional<Vec2> project_direction(const CameraDesc& camera, const Size& size,
+                                                    Vec3 direction);
 
 }  // namespace bdpt::app

@@ -7,17 +7,14 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "report/values.h"
+
 namespace bdpt::app {
 namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json json_of(Vec3 v)
-{
-    return ordered_json::array({v.x, v.y, v.z});
-}
-
-ordered_json json_of(const SlotState& slot)
+ordered_json to_json(const SlotState& slot)
 {
     return {{"integrator", slot.integrator},
             {"samples", slot.samples},
@@ -27,7 +24,7 @@ ordered_json json_of(const SlotState& slot)
             {"done", slot.is_done}};
 }
 
-ordered_json json_of(const Scale& scale)
+ordered_json to_json(const Scale& scale)
 {
     ordered_json ticks = ordered_json::array();
     for (const Tick& tick : scale.ticks) {
@@ -36,7 +33,7 @@ ordered_json json_of(const Scale& scale)
     return {{"label", scale.label}, {"ticks", std::move(ticks)}};
 }
 
-ordered_json json_of(const Strategy& strategy)
+ordered_json to_json(const Strategy& strategy)
 {
     return ordered_json::array({strategy.s, strategy.t});
 }
@@ -55,8 +52,8 @@ void add_picture(ordered_json& json, const ViewState& state)
     json["size"] = {state.size.width, state.size.height};
     json["camera"] = {
         {"name", state.camera_name},
-        {"from", json_of(state.pose.from)},
-        {"look_at", json_of(state.pose.look_at)},
+        {"from", to_json(state.pose.from)},
+        {"look_at", to_json(state.pose.look_at)},
         {"fov", state.vertical_fov > 0.0 ? ordered_json(state.vertical_fov) : ordered_json()}};
     json["integrators"] = names_of_integrators();
     json["integrator_a"] = state.integrator_a;
@@ -77,16 +74,16 @@ void add_picture(ordered_json& json, const ViewState& state)
         json["layers"].push_back(layer_name(layer));
     }
     json["layer"] = layer_name(state.layer);
-    json["scale"] = state.scale ? json_of(*state.scale) : ordered_json();
+    json["scale"] = state.scale ? to_json(*state.scale) : ordered_json();
     json["strategies"] = ordered_json::array();
     for (const Strategy& strategy : state.strategies) {
-        json["strategies"].push_back(json_of(strategy));
+        json["strategies"].push_back(to_json(strategy));
     }
-    json["strategy"] = state.strategy ? json_of(*state.strategy) : ordered_json();
+    json["strategy"] = state.strategy ? to_json(*state.strategy) : ordered_json();
     json["paused"] = state.is_paused;
     json["slots"] = ordered_json::array();
     for (const SlotState& slot : state.slots) {
-        json["slots"].push_back(json_of(slot));
+        json["slots"].push_back(to_json(slot));
     }
     json["warnings"] = state.warnings;
     json["command"] = state.command;

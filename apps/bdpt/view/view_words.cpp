@@ -82,7 +82,7 @@ std::string ViewWords::command(std::int64_t samples) const
     RenderOptionList render;
     ending_after(samples).give_to(render.options);
     std::string line = "bdpt render";
-    for (const std::string& word : words_of(render.options)) {
+    for (const std::string& word : to_words(render.options)) {
         line += " " + shell_word(word);
     }
     return line;

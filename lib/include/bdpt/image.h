@@ -52,7 +52,7 @@ enum class TexelType : std::uint8_t {
 };
 
 /// Returns the bytes per value.
-[[nodiscard]] constexpr std::size_t size_of(TexelType type) noexcept
+[[nodiscard]] constexpr std::size_t count_value_bytes(TexelType type) noexcept
 {
     return type == TexelType::unorm8 ? 1 : type == TexelType::float32 ? 4 : 2;
 }

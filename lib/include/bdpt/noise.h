@@ -6,7 +6,7 @@
 /// @code{.cpp}
 /// void print_noise(const bdpt::Film& film)
 /// {
-///     const double noise = bdpt::noise_of(film);
+///     const double noise = bdpt::estimate_noise(film);
 ///     const std::int64_t samples = bdpt::samples_for_noise(noise, film.sample_count(), 0.01);
 ///     std::cout << 100.0 * noise << " %, and 1 % after " << samples << " samples a pixel\n";
 /// }
@@ -33,7 +33,7 @@ namespace bdpt {
 /// The estimate is valid for halves of equally many samples, which render() ensures whenever it
 /// measures the noise. Infinite if there are fewer than two samples, or if the image is black.
 /// Independent of the number of threads.
-[[nodiscard]] BDPT_EXPORT double noise_of(const Film& film);
+[[nodiscard]] BDPT_EXPORT double estimate_noise(const Film& film);
 
 /// Returns the first number of samples per pixel after `samples` at which a render measures its
 /// noise: 16, 24, 32, 48, 64, 96, ... (2^k and 3 * 2^(k - 1), for which both halves have

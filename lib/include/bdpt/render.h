@@ -39,7 +39,7 @@ struct Progress {
     std::int64_t samples_done = 0;   ///< per pixel
     std::int64_t samples_total = 0;  ///< per pixel
     double seconds = 0.0;            ///< time since render() was called [s]
-    /// Last measured noise_of() the film, at `noise_samples` samples per pixel.
+    /// Last measured estimate_noise() the film, at `noise_samples` samples per pixel.
     std::optional<double> noise{};
     std::int64_t noise_samples = 0;
 };
@@ -71,7 +71,7 @@ struct RenderControl {
     Profiling profiling = Profiling::off;
     /// No pass starts that would probably end after this time [s].
     double time_limit = std::numeric_limits<double>::infinity();
-    /// The render ends once noise_of() its film is at most this; 0: no goal. The noise is measured
+    /// The render ends once estimate_noise() its film is at most this; 0: no goal. The noise is measured
     /// after the first 16, 24, 32, 48, ... of the requested samples (next_noise_look) and not in
     /// between, so that threads, stops and parts change nothing. Stopping this way makes the image
     /// slightly too dark or too bright on average: by far less than the noise, as all tiles decide
@@ -156,7 +156,7 @@ struct PartResult {
 
 /// Converts a part to the result of render(), for callers that do not continue it.
 /// `RenderResult::samples` is the first range of the part's samples.
-[[nodiscard]] BDPT_EXPORT RenderResult result_of(PartResult done);
+[[nodiscard]] BDPT_EXPORT RenderResult to_result(PartResult done);
 
 /// Returns the memory that the strategy images of this render take [bytes], including the developed
 /// layers; 0 if none are requested. Throws `Error` (usage) for options out of range.

@@ -82,9 +82,10 @@ enum class EnvironmentSampling : std::uint8_t {
     /// "MIS Compensation"): BSDF sampling finds the rest well enough. Integrators that cannot rely
     /// on BSDF sampling for it use `plain`: nee, and bdpt when such strategies are disabled.
     compensated,
-    /// Like `compensated`, and by the fraction of the environment visible from a place, which
-    /// a short pilot learns from a fixed number of paths
-    /// (docs/decisions/0068-learned-visibility.md).
+    /// Like `compensated`, and by what a short pilot with a fixed number of paths learns for each
+    /// place: the visible fraction of the environment (docs/decisions/0068-learned-visibility.md),
+    /// and the shares of light from the environment, from suns and from placed lights
+    /// (docs/decisions/0071-learned-groups-of-lights.md).
     learned,
 };
 

@@ -77,13 +77,13 @@ SegmentEnd Camera::lens_end(Vec3 local_point) const
             .media = SideMedia::around(medium_)};
 }
 
-SolidAnglePdf Camera::pdf_of(float inv_cos) const
+SolidAnglePdf Camera::compute_pdf(float inv_cos) const
 {
     // For each point on the lens the film is seen as the plane of focus: A cos^-3 in its units.
     return {inv_cos * inv_cos * inv_cos / film_area_};
 }
 
-Vec2 Camera::raster_of(Vec3 lens, Vec3 d) const
+Vec2 Camera::compute_raster(Vec3 lens, Vec3 d) const
 {
     const Vec3 in_focus = lens + d * (focus_distance_ / -d.z);
     const Vec2 ndc = Vec2(in_focus.x, -in_focus.y) / (focus_distance_ * half_extent_);
@@ -107,7 +107,7 @@ CameraRay Camera::generate_ray(Vec2 raster, Vec2 u_lens) const
     return {.lens = lens_end(lens),
             .direction = world_from_camera_ * (local / length),
             .pdf_lens = pdf_lens_,
-            .pdf_direction = pdf_of(length / focus_distance_),
+            .pdf_direction = compute_pdf(length / focus_distance_),
             .pdf_plane = std::nullopt};
 }
 
@@ -141,12 +141,12 @@ std::optional<LensSample> Camera::sample_lens(Vec3 scene_point, Vec2 u_lens) con
     }
     const Vec3 lens = lens_point(u_lens);
     const Vec3 d = local - lens;
-    const Vec2 raster = raster_of(lens, d);
+    const Vec2 raster = compute_raster(lens, d);
     if (!is_visible(raster)) {
         return sampled;
     }
     const float distance = std::sqrt(dot(d, d));
-    const SolidAnglePdf pdf_direction = pdf_of(distance / -d.z);
+    const SolidAnglePdf pdf_direction = compute_pdf(distance / -d.z);
     // We = 1 / (A pi r^2 cos^4) [Pharr et al. 2016, sec. 16.1.1], so We cos is the density of
     // direction times that of the lens point.
     sampled.emplace();
@@ -172,11 +172,11 @@ std::optional<LensHit> Camera::hit_lens(Vec3 origin, Vec3 direction) const
     if (dot(lens, lens) > lens_radius_ * lens_radius_) {
         return std::nullopt;
     }
-    const Vec2 raster = raster_of(lens, -d);
+    const Vec2 raster = compute_raster(lens, -d);
     if (!is_visible(raster)) {
         return std::nullopt;
     }
-    const SolidAnglePdf pdf_direction = pdf_of(1.0f / d.z);
+    const SolidAnglePdf pdf_direction = compute_pdf(1.0f / d.z);
     return LensHit{.lens = lens_end(lens),
                    .distance = distance,
                    .raster = raster,

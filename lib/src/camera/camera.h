@@ -90,10 +90,10 @@ private:
     [[nodiscard]] SegmentEnd lens_end(Vec3 local_point) const;
     /// Returns the density of a direction at the lens, given its length per unit along the axis (1
     /// / cos).
-    [[nodiscard]] SolidAnglePdf pdf_of(float inv_cos) const;
+    [[nodiscard]] SolidAnglePdf compute_pdf(float inv_cos) const;
     /// Returns the raster position of the ray from a lens point in the local direction `d`
     /// [pixels].
-    [[nodiscard]] Vec2 raster_of(Vec3 lens, Vec3 d) const;
+    [[nodiscard]] Vec2 compute_raster(Vec3 lens, Vec3 d) const;
 
     Vec3 position_;
     MediumId medium_;

@@ -10,7 +10,7 @@ constexpr double half_sensor = 0.012;  // [m]
 
 }  // namespace
 
-double lens_radius_of(double f_number, double vertical_fov)
+double compute_lens_radius(double f_number, double vertical_fov)
 {
     const SinCos half = sin_cos(static_cast<float>(0.5 * vertical_fov));
     const double focal_length =
@@ -18,7 +18,7 @@ double lens_radius_of(double f_number, double vertical_fov)
     return focal_length / (2.0 * f_number);
 }
 
-double vertical_fov_of(double focal_length)
+double compute_vertical_fov(double focal_length)
 {
     const auto half =
         atan2_exact(static_cast<float>(half_sensor), static_cast<float>(focal_length));

@@ -38,7 +38,7 @@ Words magnitude(std::uint32_t bits)
     return {};
 }
 
-Words words_of(float value)
+Words to_words(float value)
 {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     const bool below_zero = (bits >> 31U) != 0;
@@ -56,13 +56,13 @@ ExactSum& ExactSum::operator=(const ExactSum& other) noexcept
 
 void ExactSum::add(float value) noexcept
 {
-    const Words words = words_of(value);
+    const Words words = to_words(value);
     add_words(words.low, words.high);
 }
 
 void ExactSum::add_alone(float value) noexcept
 {
-    const Words words = words_of(value);
+    const Words words = to_words(value);
     const std::uint64_t before = low_.load(std::memory_order_relaxed);
     const std::uint64_t low = before + words.low;
     low_.store(low, std::memory_order_relaxed);

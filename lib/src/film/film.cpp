@@ -11,7 +11,7 @@
 namespace bdpt {
 namespace {
 
-std::size_t half_of(std::int64_t sample_index)
+std::size_t find_half(std::int64_t sample_index)
 {
     return static_cast<std::size_t>(sample_index & 1);
 }
@@ -135,7 +135,7 @@ Rgb Film::clamp(Rgb value, int y, float scale) noexcept
 void Film::add_sample(int x, int y, std::int64_t sample_index, Rgb radiance, float scale) noexcept
 {
     if (accept(radiance, x, y, sample_index, scale)) {
-        samples_[half_of(sample_index)][index(x, y)].add_alone(radiance);
+        samples_[find_half(sample_index)][index(x, y)].add_alone(radiance);
     }
 }
 
@@ -152,7 +152,7 @@ void Film::prefetch_splat(Vec2 raster, std::int64_t sample_index) const noexcept
     if (!holds(raster)) {
         return;
     }
-    const Pixel& pixel = splats_[half_of(sample_index)]
+    const Pixel& pixel = splats_[find_half(sample_index)]
                                 [index(static_cast<int>(raster.x), static_cast<int>(raster.y))];
     constexpr int for_writing = 1;
     __builtin_prefetch(&pixel.rgb.front(), for_writing);
@@ -167,7 +167,7 @@ void Film::add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance, float
     const int x = static_cast<int>(raster.x);
     const int y = static_cast<int>(raster.y);
     if (accept(radiance, x, y, sample_index, scale)) {
-        splats_[half_of(sample_index)][index(x, y)].add(radiance);
+        splats_[find_half(sample_index)][index(x, y)].add(radiance);
     }
 }
 

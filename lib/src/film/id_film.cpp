@@ -53,7 +53,7 @@ bool IdFilm::needs_hits() const
                        [](const auto& pixels) { return !pixels.empty(); });
 }
 
-std::size_t IdFilm::begin_of(int row) const
+std::size_t IdFilm::row_begin(int row) const
 {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(region_.width());
 }
@@ -63,7 +63,7 @@ void IdFilm::add(int x, int y, std::span<SurfaceIds> met)
     if (met.empty()) {
         return;
     }
-    const std::size_t i = begin_of(y - region_.y0) + static_cast<std::size_t>(x - region_.x0);
+    const std::size_t i = row_begin(y - region_.y0) + static_cast<std::size_t>(x - region_.x0);
     for (std::size_t kind = 0; kind < id_kinds.size(); ++kind) {
         if (!pixels_[kind].empty()) {
             const auto id = members[kind];

@@ -17,7 +17,7 @@ constexpr std::array<const char*, id_kinds.size()> layer_names{"CryptoObject", "
 using Levels = std::array<float, 2 * IdFilm::levels>;
 
 /// Returns the levels by descending fraction. `ranked` is reusable storage.
-Levels levels_of(const IdCounts& counts, std::int64_t samples, std::vector<IdCount>& ranked)
+Levels find_levels(const IdCounts& counts, std::int64_t samples, std::vector<IdCount>& ranked)
 {
     ranked.clear();
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -48,7 +48,7 @@ void add_layers(std::vector<Layer>& layers, const PixelRect& region, const char*
     }
     std::vector<IdCount> ranked;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const Levels levels = levels_of(pixels[i], samples, ranked);
+        const Levels levels = find_levels(pixels[i], samples, ranked);
         for (std::size_t c = 0; c < levels.size(); ++c) {
             layers[first + c / channels].values[channels * i + c % channels] = levels[c];
         }

@@ -68,7 +68,7 @@ void IdFilm::read_row(IdKind kind, std::size_t rank, int row,
 {
     const std::vector<IdCounts>& pixels = pixels_[static_cast<std::size_t>(kind)];
     for (std::size_t x = 0; x < words.size(); ++x) {
-        const IdCounts& counts = pixels[begin_of(row) + x];
+        const IdCounts& counts = pixels[row_begin(row) + x];
         words[x] = rank < counts.size()
                        ? ExactSum::Words{.low = counts[rank].count,
                                          .high = static_cast<std::uint32_t>(counts[rank].id)}
@@ -84,7 +84,7 @@ void IdFilm::add_row(IdKind kind, int row, std::span<const ExactSum::Words> plan
     for (std::size_t x = 0; x < width; ++x) {
         PixelReader reader(known_[which], samples);
         for (std::size_t i = x; i < planes.size(); i += width) {
-            reader.add(planes[i], pixels_[which][begin_of(row) + x]);
+            reader.add(planes[i], pixels_[which][row_begin(row) + x]);
         }
     }
 }

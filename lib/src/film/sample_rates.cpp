@@ -9,7 +9,7 @@ namespace bdpt {
 namespace {
 
 /// Returns the mean rate; in quarters nothing is rounded.
-double mean_of(const std::vector<std::int8_t>& exponents)
+double compute_mean(const std::vector<std::int8_t>& exponents)
 {
     std::int64_t quarters = 0;
     for (const std::int8_t exponent : exponents) {
@@ -37,17 +37,17 @@ SampleRates::SampleRates(int width, int height, std::vector<std::int8_t> exponen
                                               ", not from 1/4 to 4");
         }
     }
-    mean_ = mean_of(exponents_);
+    mean_ = compute_mean(exponents_);
 }
 
 float SampleRates::least() const
 {
-    return rate_of(*std::min_element(exponents_.begin(), exponents_.end()));
+    return to_rate(*std::min_element(exponents_.begin(), exponents_.end()));
 }
 
 float SampleRates::greatest() const
 {
-    return rate_of(*std::max_element(exponents_.begin(), exponents_.end()));
+    return to_rate(*std::max_element(exponents_.begin(), exponents_.end()));
 }
 
 }  // namespace bdpt

@@ -76,7 +76,7 @@ StrategyFilm::StrategyFilm(const PixelRect& region, std::span<const Strategy> st
     }
 }
 
-std::size_t StrategyFilm::begin_of(Strategy strategy) const noexcept
+std::size_t StrategyFilm::find_begin(Strategy strategy) const noexcept
 {
     const auto [s, t] = strategy;
     return s < stride_ && t < stride_ ? begins_[static_cast<std::size_t>(s * stride_ + t)]
@@ -85,7 +85,7 @@ std::size_t StrategyFilm::begin_of(Strategy strategy) const noexcept
 
 void StrategyFilm::add(Strategy strategy, Vec2 raster, const StrategyShare& share) noexcept
 {
-    const std::size_t begin = begin_of(strategy);
+    const std::size_t begin = find_begin(strategy);
     const bool inside =
         raster.x >= static_cast<float>(region_.x0) && raster.x < static_cast<float>(region_.x1) &&
         raster.y >= static_cast<float>(region_.y0) && raster.y < static_cast<float>(region_.y1);
@@ -125,7 +125,7 @@ std::vector<std::string> StrategyFilm::plane_names() const
     return names;
 }
 
-StrategyFilm::PlaneRow StrategyFilm::place_of(std::size_t plane, int row) const
+StrategyFilm::PlaneRow StrategyFilm::plane_row(std::size_t plane, int row) const
 {
     const std::size_t image = plane / planes_of_strategy * area(region_);
     const std::size_t channel = plane % planes_of_strategy;
@@ -137,7 +137,7 @@ StrategyFilm::PlaneRow StrategyFilm::place_of(std::size_t plane, int row) const
 
 void StrategyFilm::read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const
 {
-    const PlaneRow place = place_of(plane, row);
+    const PlaneRow place = plane_row(plane, row);
     for (std::size_t x = 0; x < words.size(); ++x) {
         words[x] = (pixels_[place.first_pixel + x].*place.sums)[place.channel].words();
     }
@@ -145,7 +145,7 @@ void StrategyFilm::read_row(std::size_t plane, int row, std::span<ExactSum::Word
 
 void StrategyFilm::add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words)
 {
-    const PlaneRow place = place_of(plane, row);
+    const PlaneRow place = plane_row(plane, row);
     for (std::size_t x = 0; x < words.size(); ++x) {
         (pixels_[place.first_pixel + x].*place.sums)[place.channel].add(words[x]);
     }
@@ -153,7 +153,7 @@ void StrategyFilm::add_row(std::size_t plane, int row, std::span<const ExactSum:
 
 Image StrategyFilm::develop(Strategy strategy, Sum3 Pixel::*sums) const
 {
-    const std::size_t begin = begin_of(strategy);
+    const std::size_t begin = find_begin(strategy);
     if (begin == pixels_.size()) {
         throw Error(ErrorCode::usage, "no images of strategy " + strategy_name(strategy));
     }

@@ -22,7 +22,7 @@ double stretch(const glm::dmat3& m)
 
 }  // namespace
 
-float coordinate_limit_of(std::span<const InstanceDesc> instances, std::size_t mesh_count)
+float compute_coordinate_limit(std::span<const InstanceDesc> instances, std::size_t mesh_count)
 {
     // Rays start at up to 8 times the reach, and their directions are up to 16 times as long.
     constexpr double in_object_space = 1e17;
@@ -48,7 +48,7 @@ float coordinate_limit_of(std::span<const InstanceDesc> instances, std::size_t m
     return std::isfinite(reach) ? static_cast<float>(reach) : 0.0f;
 }
 
-Vec3 extent_of(const MeshDesc& mesh)
+Vec3 compute_extent(const MeshDesc& mesh)
 {
     Vec3 extent(0.0f);
     const auto take_in = [&extent](const std::vector<Vec3>& positions) {

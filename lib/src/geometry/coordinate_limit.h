@@ -15,11 +15,11 @@ inline constexpr float max_coordinate = 1e15f;
 /// `max_coordinate`, and less if a mesh that several instances share, or one that moves, is scaled
 /// down very much: Embree transforms rays to the space of such a mesh, and terminates the process
 /// if a coordinate exceeds 1.8e18 there.
-[[nodiscard]] float coordinate_limit_of(std::span<const InstanceDesc> instances,
+[[nodiscard]] float compute_coordinate_limit(std::span<const InstanceDesc> instances,
                                         std::size_t mesh_count);
 
 /// Returns the largest coordinate of the corners of a mesh's bounds, in all of its poses.
-[[nodiscard]] Vec3 extent_of(const MeshDesc& mesh);
+[[nodiscard]] Vec3 compute_extent(const MeshDesc& mesh);
 
 /// Returns the largest coordinate that a mesh of this extent can have in the world [m].
 [[nodiscard]] float placed_extent(Vec3 extent, const Mat4& world_from_object);

@@ -58,7 +58,7 @@ inline void occluded(RTCScene scene, RTCRay& ray, const Ray& of, const void* own
 }
 
 /// Returns the query that a callback belongs to, with its world-space ray.
-inline const RayContext& query_of(const Context* context)
+inline const RayContext& to_query(const Context* context)
 {
     return *reinterpret_cast<const RayContext*>(context);
 }

@@ -66,7 +66,7 @@ void filter_hit(const RTCFilterFunctionNArguments* args)
     if (args->valid[0] == 0) {
         return;
     }
-    const embree::RayContext& query = embree::query_of(args->context);
+    const embree::RayContext& query = embree::to_query(args->context);
     const auto& [filter, placed] = *static_cast<const QueryOwner*>(query.owner);
     const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
     const bool shared = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
@@ -226,7 +226,7 @@ struct EmbreeScene::State {
     }
 
     /// Returns the BVH of `like` if it fits, else a new one.
-    [[nodiscard]] std::shared_ptr<const MeshTree> tree_of(std::size_t mesh, const MeshDesc& desc,
+    [[nodiscard]] std::shared_ptr<const MeshTree> find_tree(std::size_t mesh, const MeshDesc& desc,
                                                           const State* like) const
     {
         if (like != nullptr && like->trees[mesh] && like->filtered[mesh] == filtered[mesh]) {
@@ -247,7 +247,7 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
     state.device = known != nullptr ? known->device : std::make_shared<const EmbreeDevice>(isa);
     RTCDevice device = state.device->get();
     state.placed = placed;
-    state.reach = coordinate_limit_of(instances, mesh_count);
+    state.reach = compute_coordinate_limit(instances, mesh_count);
     state.filtered = filtered_meshes(instances, mesh_count, any_hit_filter);
     state.top = new_scene(device);
 
@@ -275,7 +275,7 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
             continue;
         }
         if (!state.trees[mesh]) {
-            state.trees[mesh] = state.tree_of(mesh, desc, known);
+            state.trees[mesh] = state.find_tree(mesh, desc, known);
         }
         const OwnedGeometry geometry =
             new_instance(device, state.trees[mesh]->scene.get(), placed[i]);

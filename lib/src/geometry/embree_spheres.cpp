@@ -11,14 +11,14 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-const Sphere& sphere_of(const void* spheres, unsigned index)
+const Sphere& find_sphere(const void* spheres, unsigned index)
 {
     return static_cast<const Sphere*>(spheres)[index];
 }
 
 void set_bounds(const RTCBoundsFunctionArguments* args)
 {
-    const Sphere& sphere = sphere_of(args->geometryUserPtr, args->primID);
+    const Sphere& sphere = find_sphere(args->geometryUserPtr, args->primID);
     Vec3 low = sphere.center - sphere.radius;
     Vec3 high = sphere.center + sphere.radius;
     for (const Vec3& center : sphere.motion) {
@@ -33,12 +33,12 @@ void set_bounds(const RTCBoundsFunctionArguments* args)
     args->bounds_o->upper_z = std::nextafter(high.z, infinity);
 }
 
-std::optional<SphereHit> hit_of(const RTCRay& ray, const void* spheres, unsigned index)
+std::optional<SphereHit> compute_hit(const RTCRay& ray, const void* spheres, unsigned index)
 {
     if (ray.id == index) {
         return std::nullopt;
     }
-    const Sphere& sphere = sphere_of(spheres, index);
+    const Sphere& sphere = find_sphere(spheres, index);
     return intersect(sphere.motion.empty() ? sphere : sphere.at(ray.time),
                      {.origin = {ray.org_x, ray.org_y, ray.org_z},
                       .direction = {ray.dir_x, ray.dir_y, ray.dir_z},
@@ -51,7 +51,7 @@ std::optional<SphereHit> hit_of(const RTCRay& ray, const void* spheres, unsigned
 void find_hit(const RTCIntersectFunctionNArguments* args)
 {
     auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-    const auto found = hit_of(query.ray, args->geometryUserPtr, args->primID);
+    const auto found = compute_hit(query.ray, args->geometryUserPtr, args->primID);
     if (args->valid[0] == 0 || !found) {
         return;
     }
@@ -67,7 +67,7 @@ void find_hit(const RTCIntersectFunctionNArguments* args)
 void find_occlusion(const RTCOccludedFunctionNArguments* args)
 {
     auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-    if (args->valid[0] != 0 && hit_of(ray, args->geometryUserPtr, args->primID)) {
+    if (args->valid[0] != 0 && compute_hit(ray, args->geometryUserPtr, args->primID)) {
         ray.tfar = -infinity;
     }
 }

@@ -11,7 +11,7 @@ namespace bdpt {
 
 /// Returns the length of a vector, correct even if its square exceeds the range of floats: area
 /// normals of triangles with edges of more than 4e9 m, or less than 1e-9 m, are that long or short.
-[[nodiscard]] inline float length_of(Vec3 v)
+[[nodiscard]] inline float compute_length(Vec3 v)
 {
     const float squared = dot(v, v);
     if (squared >= std::numeric_limits<float>::min() &&

@@ -243,7 +243,7 @@ Vec3 PlacedMesh::shading_normal(std::uint32_t triangle, Vec2 barycentrics, float
         moves() ? placement(time).normal_matrix *
                       interpolate(mesh_->normals, &MeshPose::normals, triangle, barycentrics, time)
                 : world_normal(interpolate(mesh_->normals, triangle, barycentrics));
-    const float length = length_of(n);
+    const float length = compute_length(n);
     return length > 0.0f ? n / length : Vec3(0.0f);
 }
 

@@ -26,7 +26,7 @@ struct alignas(64) StillTriangle {
           to_c(corners[2] - corners[0])
     {
         const Vec3 normal = front_sign * cross(to_b, to_c);
-        const float length = length_of(normal);
+        const float length = compute_length(normal);
         if (length > 0.0f) {
             ng = normal / length;
             twice_area = front_sign * length;

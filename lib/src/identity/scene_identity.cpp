@@ -47,7 +47,7 @@ bool is_known(const T& /*value*/, const T& /*before*/)
 }
 
 template <std::size_t... i>
-SceneComponents components_of(const SharedSceneDesc& scene, const SharedSceneDesc& before,
+SceneComponents compute_components(const SharedSceneDesc& scene, const SharedSceneDesc& before,
                               const SceneComponents& known, std::index_sequence<i...>)
 {
     const auto values = scene.members();
@@ -71,7 +71,7 @@ SceneComponents components_of(const SharedSceneDesc& scene, const SharedSceneDes
 SceneComponents scene_components(const SharedSceneDesc& scene, const SharedSceneDesc& before,
                                  const SceneComponents& known)
 {
-    return components_of(scene, before, known,
+    return compute_components(scene, before, known,
                          std::make_index_sequence<std::tuple_size_v<SceneComponents>>());
 }
 

@@ -9,7 +9,7 @@
 namespace bdpt {
 namespace {
 
-InspectedKind kind_of(VertexKind kind)
+InspectedKind to_inspected_kind(VertexKind kind)
 {
     switch (kind) {
         case VertexKind::camera:
@@ -32,7 +32,7 @@ std::vector<InspectedVertex> described(std::span<const PathVertex> path)
     std::vector<InspectedVertex> result;
     for (const PathVertex& vertex : path) {
         const bool on_surface = vertex.kind == VertexKind::surface && vertex.bsdf != nullptr;
-        result.push_back({.kind = kind_of(vertex.kind),
+        result.push_back({.kind = to_inspected_kind(vertex.kind),
                           .position = vertex.end.p,
                           .normal = on_surface ? vertex.bsdf->shading_normal() : Vec3(0.0f),
                           .beta = vertex.beta,

@@ -14,7 +14,7 @@
 namespace bdpt {
 namespace {
 
-NextEventSampling sampling_of(const RenderOptions& options, const LearnedLight* learned)
+NextEventSampling find_sampling(const RenderOptions& options, const LearnedLight* learned)
 {
     if (info(options.integrator).has_strategies) {
         return StrategySet(options, learned).next_event_sampling();
@@ -25,7 +25,7 @@ NextEventSampling sampling_of(const RenderOptions& options, const LearnedLight* 
             .learned = weighs ? learned : nullptr};
 }
 
-WalkLimits limits_of(const RenderOptions& options, int max_vertices)
+WalkLimits make_limits(const RenderOptions& options, int max_vertices)
 {
     return {.max_vertices = max_vertices,
             .rr_start = options.transport.rr_start,
@@ -76,10 +76,10 @@ PixelWalk::PixelWalk(const Scene& scene, const CameraDesc& camera, const RenderO
               .rays = rays_,
               .clock = nullptr},
       learned_(learned_light(scene.world(), camera, options)),
-      next_event_sampling_(sampling_of(options, learned_.get())),
+      next_event_sampling_(find_sampling(options, learned_.get())),
       camera_path_(options.transport.max_depth + 1)
 {
-    trace_camera_subpath(sample_, start_.raster, limits_of(options_, camera_path_.capacity()),
+    trace_camera_subpath(sample_, start_.raster, make_limits(options_, camera_path_.capacity()),
                          camera_path_);
 }
 
@@ -89,7 +89,7 @@ Subpath PixelWalk::light_path()
         info(options_.integrator).traces_light_paths && !LightPathCounts(options_).shared;
     Subpath path(own ? StrategySet(options_).light_vertices() : 0);
     if (path.capacity() > 0) {
-        trace_light_subpath(sample_, limits_of(options_, path.capacity()), next_event_sampling_,
+        trace_light_subpath(sample_, make_limits(options_, path.capacity()), next_event_sampling_,
                             path);
     }
     return path;

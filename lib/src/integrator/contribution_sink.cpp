@@ -7,7 +7,7 @@ namespace {
 
 /// Returns the estimate of `found` if its strategy were alone; light of a dispersed path counts in
 /// one channel.
-Rgb unweighted_of(const SampleContext& sample, const Contribution& found)
+Rgb compute_unweighted(const SampleContext& sample, const Contribution& found)
 {
     return found.dispersed ? found.unweighted * spectral_weight(sample.wavelength)
                            : found.unweighted;
@@ -36,7 +36,7 @@ void ContributionSink::begin_sample(int x, int y, const ScheduledSample& sample)
 void ContributionSink::add(const SampleContext& sample, Strategy strategy,
                            const Contribution& found, float count)
 {
-    const Rgb unweighted = unweighted_of(sample, found);
+    const Rgb unweighted = compute_unweighted(sample, found);
     const Rgb weighted = found.weight / count * unweighted;
     radiance_ += weighted;
     if (!films_.strategies.empty() || films_.on_path) [[unlikely]] {
@@ -55,7 +55,7 @@ void ContributionSink::splat(SampleContext& sample, Strategy strategy, const Con
         sample.sampler.start(SampleUse::film, dimension);
         target = filter_.choose_pixel(found.raster, sample.sampler.next_2d());
     }
-    const Rgb unweighted = unweighted_of(sample, found);
+    const Rgb unweighted = compute_unweighted(sample, found);
     const Rgb weighted = target.weight * found.weight / count * unweighted;
     if (films_.film != nullptr) {
         films_.film->prefetch_splat(target.raster, index_);

@@ -30,44 +30,44 @@ struct Row {
 /// Sorted from the simplest to the one with all strategies, and the automatic choice.
 constexpr std::array table{
     Row{{.kind = IntegratorKind::pt,
-         .name = name_of(IntegratorKind::pt),
+         .name = to_name(IntegratorKind::pt),
          .summary = "path tracing, BSDF sampling only",
          .traces_light_paths = false,
          .has_strategies = false},
         &make<PathIntegrator>},
     Row{{.kind = IntegratorKind::nee,
-         .name = name_of(IntegratorKind::nee),
+         .name = to_name(IntegratorKind::nee),
          .summary = "path tracing, light sampling only",
          .traces_light_paths = false,
          .has_strategies = false},
         &make<PathIntegrator>},
     Row{{.kind = IntegratorKind::mis,
-         .name = name_of(IntegratorKind::mis),
+         .name = to_name(IntegratorKind::mis),
          .summary = "path tracing with light and BSDF sampling",
          .traces_light_paths = false,
          .has_strategies = false},
         &make<PathIntegrator>},
     Row{{.kind = IntegratorKind::lt,
-         .name = name_of(IntegratorKind::lt),
+         .name = to_name(IntegratorKind::lt),
          .summary = "light tracing",
          .traces_light_paths = true,
          .has_strategies = true},
         &make<BidirectionalIntegrator>},
     Row{{.kind = IntegratorKind::bdpt,
-         .name = name_of(IntegratorKind::bdpt),
+         .name = to_name(IntegratorKind::bdpt),
          .summary = "bidirectional path tracing",
          .traces_light_paths = true,
          .has_strategies = true},
         &make<BidirectionalIntegrator>},
     Row{{.kind = IntegratorKind::vcm,
-         .name = name_of(IntegratorKind::vcm),
+         .name = to_name(IntegratorKind::vcm),
          .summary = "vertex connection and merging (biased, but consistent)",
          .traces_light_paths = true,
          .has_strategies = false,
          .biased = true},
         &make<BidirectionalIntegrator>},
     Row{{.kind = IntegratorKind::automatic,
-         .name = name_of(IntegratorKind::automatic),
+         .name = to_name(IntegratorKind::automatic),
          .summary = "mis, or bdpt with numbers of light paths and connections that suit the image, "
                     "by a short test render",
          .traces_light_paths = true,
@@ -75,7 +75,7 @@ constexpr std::array table{
         nullptr},  // `chosen_options` replaces it
 };
 
-const Row& row_of(IntegratorKind kind)
+const Row& find_row(IntegratorKind kind)
 {
     return *std::find_if(table.begin(), table.end(),
                          [kind](const Row& row) { return row.info.kind == kind; });
@@ -98,14 +98,14 @@ std::span<const IntegratorInfo> integrators()
 
 const IntegratorInfo& info(IntegratorKind kind)
 {
-    return row_of(kind).info;
+    return find_row(kind).info;
 }
 
 std::unique_ptr<Integrator> make_integrator(const World& world, const MovingCamera& camera,
                                             const RenderOptions& options,
                                             const LearnedLight* learned)
 {
-    return row_of(options.integrator).make(world, camera, options, learned);
+    return find_row(options.integrator).make(world, camera, options, learned);
 }
 
 }  // namespace bdpt

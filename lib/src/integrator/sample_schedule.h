@@ -46,7 +46,7 @@ public:
             return;
         }
         const int e = rates_->exponent(x, y);
-        const SampleScale scale{.camera = SampleRates::rate_of(-e), .splat = splat_scale_};
+        const SampleScale scale{.camera = SampleRates::to_rate(-e), .splat = splat_scale_};
         for (std::int64_t k = rounds.begin; k < rounds.end; ++k) {
             const std::int64_t half = k & 1;
             const std::int64_t m = k >> 1;

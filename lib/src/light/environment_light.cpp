@@ -57,7 +57,7 @@ EnvironmentLight::EnvironmentLight(const EnvironmentLightDesc& desc, const Bound
 
 /// Maps directions to the image: row 0 is around +y; the centre column is at -z and columns to the
 /// right turn towards +x.
-Vec2 EnvironmentLight::uv_of(Vec3 to_light) const
+Vec2 EnvironmentLight::to_uv(Vec3 to_light) const
 {
     const Vec3 d = transpose(world_from_environment_) * to_light;
     return {0.5f + atan2_exact(d.x, -d.z) * (0.5f * inv_pi), acos_exact(d.y) * inv_pi};
@@ -84,7 +84,7 @@ Rgb EnvironmentLight::lookup(Vec2 uv) const
 
 Rgb EnvironmentLight::radiance(Vec3 to_light) const
 {
-    return lookup(uv_of(to_light));
+    return lookup(to_uv(to_light));
 }
 
 /// Converts a density on the unit square, where all cells are equal, to directions: uniform in each
@@ -106,14 +106,14 @@ EnvironmentLight::Cell EnvironmentLight::cell_to(Vec3 to_light) const
     const auto index = [](float at, int size) {
         return std::clamp(static_cast<int>(at * static_cast<float>(size)), 0, size - 1);
     };
-    const Vec2 uv = uv_of(to_light);
+    const Vec2 uv = to_uv(to_light);
     return {.column = index(uv.x, tiles_->columns()), .row = index(uv.y, tiles_->rows())};
 }
 
 std::size_t EnvironmentLight::tile_to(Vec3 to_light) const
 {
     const Cell cell = cell_to(to_light);
-    return tiles_->tile_of(cell.column, cell.row);
+    return tiles_->find_tile(cell.column, cell.row);
 }
 
 SolidAnglePdf EnvironmentLight::pdf_direction_to(Vec3 to_light, const LightSampleContext& receiver,

@@ -75,7 +75,7 @@ private:
                                                  EnvironmentSampling sampling) const;
     [[nodiscard]] Cell cell_to(Vec3 to_light) const;
     [[nodiscard]] std::optional<Vec3> in_image(const std::optional<Vec3>& normal) const;
-    [[nodiscard]] Vec2 uv_of(Vec3 to_light) const;
+    [[nodiscard]] Vec2 to_uv(Vec3 to_light) const;
     [[nodiscard]] Rgb lookup(Vec2 uv) const;
     [[nodiscard]] SolidAnglePdf to_solid_angle(float pdf_square, int row) const;
 

@@ -21,14 +21,14 @@ constexpr std::size_t usual_cells = std::size_t{1} << 18;
 constexpr double even_share = 1e-3;
 
 /// Returns 1 - cos(angle).
-float height_of(float angle)
+float to_height(float angle)
 {
     const float s = sin_cos(0.5f * angle).sin;
     return angle >= pi - rounding ? 2.0f : 2.0f * s * s;
 }
 
 /// Returns the angle with that height.
-float polar_angle_of(float height)
+float to_polar_angle(float height)
 {
     return atan2_exact(std::sqrt(std::max(0.0f, height * (2.0f - height))), 1.0f - height);
 }
@@ -118,7 +118,7 @@ IntensityProfile::Cells IntensityProfile::cut(const LightProfile& profile)
     }
     std::vector<float> polar;
     for (const float angle : rows) {
-        const float height = height_of(angle);
+        const float height = to_height(angle);
         // Angles too close for their heights to differ share a cell.
         if (cells.heights.empty() || height > cells.heights.back()) {
             cells.heights.push_back(height);
@@ -168,7 +168,7 @@ IntensityProfile::IntensityProfile(const LightProfile& profile, const Cells& cel
       peak_(*std::max_element(profile.intensities.begin(), profile.intensities.end()))
 {}
 
-std::optional<IntensityProfile::Angles> IntensityProfile::angles_of(Vec3 direction) const
+std::optional<IntensityProfile::Angles> IntensityProfile::find_angles(Vec3 direction) const
 {
     const float across = direction.x * direction.x + direction.y * direction.y;
     const float height =
@@ -188,12 +188,12 @@ std::optional<IntensityProfile::Angles> IntensityProfile::angles_of(Vec3 directi
 
 float IntensityProfile::lookup(const Angles& angles) const
 {
-    return interpolate(grid_, polar_angle_of(angles.height), angles.azimuth);
+    return interpolate(grid_, to_polar_angle(angles.height), angles.azimuth);
 }
 
 float IntensityProfile::intensity(Vec3 direction) const
 {
-    const auto angles = angles_of(direction);
+    const auto angles = find_angles(direction);
     return angles ? lookup(*angles) : 0.0f;
 }
 
@@ -235,7 +235,7 @@ std::optional<IntensityProfile::Sample> IntensityProfile::sample(Vec2 u) const
 
 SolidAnglePdf IntensityProfile::pdf(Vec3 direction) const
 {
-    const auto angles = angles_of(direction);
+    const auto angles = find_angles(direction);
     if (!angles || !(flux_ > 0.0f)) {
         return {0.0f};
     }

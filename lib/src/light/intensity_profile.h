@@ -52,7 +52,7 @@ private:
     [[nodiscard]] static Cells cut(const LightProfile& profile);
 
     /// Returns the angles of a direction; nullopt outside of the grid.
-    [[nodiscard]] std::optional<Angles> angles_of(Vec3 direction) const;
+    [[nodiscard]] std::optional<Angles> find_angles(Vec3 direction) const;
     [[nodiscard]] float lookup(const Angles& angles) const;
     [[nodiscard]] SolidAnglePdf to_solid_angle(float pdf_square, std::size_t column,
                                                std::size_t row) const;

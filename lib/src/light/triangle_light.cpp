@@ -15,9 +15,9 @@
 
 namespace bdpt {
 
-TriangleLight::Facing TriangleLight::facing_of(Vec3 area_normal)
+TriangleLight::Facing TriangleLight::compute_facing(Vec3 area_normal)
 {
-    const float area = 0.5f * length_of(area_normal);
+    const float area = 0.5f * compute_length(area_normal);
     return {.area = area, .inverse_area = 1.0f / area, .ng = area_normal / (2.0f * area)};
 }
 
@@ -26,7 +26,7 @@ TriangleLight::TriangleLight(const PlacedMesh& mesh, const Material& material,
     : mesh_(&mesh),
       material_(&material),
       triangle_(triangle),
-      first_(facing_of(mesh.area_normal(triangle, 0.0f))),
+      first_(compute_facing(mesh.area_normal(triangle, 0.0f))),
       mean_area_(mean_area()),
       emission_(std::move(emission))
 {
@@ -38,7 +38,7 @@ TriangleLight::TriangleLight(const PlacedMesh& mesh, const Material& material,
 
 TriangleLight::Facing TriangleLight::facing(float time) const
 {
-    return mesh_->moves() ? facing_of(mesh_->area_normal(triangle_, time)) : first_;
+    return mesh_->moves() ? compute_facing(mesh_->area_normal(triangle_, time)) : first_;
 }
 
 float TriangleLight::mean_area() const

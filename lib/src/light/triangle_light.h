@@ -60,7 +60,7 @@ private:
     };
     /// Returns the density of a direction; `cosine` is that to the front normal.
     [[nodiscard]] SolidAnglePdf pdf_direction(float cosine) const;
-    [[nodiscard]] static Facing facing_of(Vec3 area_normal);
+    [[nodiscard]] static Facing compute_facing(Vec3 area_normal);
     [[nodiscard]] Facing facing(float time) const;
     [[nodiscard]] float mean_area() const;
     [[nodiscard]] AreaPdf pdf_position(Vec2 barycentrics, const Facing& at) const;

@@ -13,7 +13,7 @@
 namespace bdpt {
 namespace {
 
-[[nodiscard]] Body volume_of(const MaterialDesc& desc)
+[[nodiscard]] Body find_body(const MaterialDesc& desc)
 {
     const bool solid = desc.thickness > 0.0f && desc.transmission > 0.0f && !desc.unlit;
     return solid ? Body::solid : Body::thin_walled;
@@ -32,7 +32,7 @@ namespace {
 
 std::array<float, wavelengths> channel_indices(const MaterialDesc& desc)
 {
-    if (volume_of(desc) != Body::solid) {
+    if (find_body(desc) != Body::solid) {
         return {desc.ior, desc.ior, desc.ior};
     }
     // Half of the difference of the indices of blue and red, (ior - 1) / Abbe number.
@@ -43,7 +43,7 @@ std::array<float, wavelengths> channel_indices(const MaterialDesc& desc)
 Exterior exterior_within(const MaterialDesc& desc, MediumId medium)
 {
     Exterior exterior{.medium = medium};
-    if (volume_of(desc) == Body::solid) {
+    if (find_body(desc) == Body::solid) {
         exterior.indices = channel_indices(desc);
     }
     return exterior;
@@ -52,7 +52,7 @@ Exterior exterior_within(const MaterialDesc& desc, MediumId medium)
 BoundaryIndices boundary_indices(const MaterialDesc& desc, const Exterior& exterior)
 {
     BoundaryIndices result{.greater_by_less = channel_indices(desc)};
-    if (volume_of(desc) != Body::solid) {
+    if (find_body(desc) != Body::solid) {
         return result;
     }
     for (std::size_t i = 0; i < wavelengths; ++i) {
@@ -73,7 +73,7 @@ Material::Material(const MaterialDesc& desc, const TextureImages& images,
                desc.specular,
                desc.specular_color,
                desc.transmission,
-               volume_of(desc)},
+               find_body(desc)},
       emission_(desc.emission),
       // Surfaces without an inside have the same medium on both sides.
       media_{bdpt::has_inside(desc) ? within : exterior.medium, exterior.medium},
@@ -121,8 +121,8 @@ void Material::measure_alpha()
     }
     const auto [least, greatest] =
         base_color_map_ ? base_color_map_->alpha_range() : std::pair(1.0f, 1.0f);
-    min_opacity_ = opacity_of(alpha_ * least);
-    mean_opacity_ = 0.5f * (min_opacity_ + opacity_of(alpha_ * greatest));
+    min_opacity_ = to_opacity(alpha_ * least);
+    mean_opacity_ = 0.5f * (min_opacity_ + to_opacity(alpha_ * greatest));
 }
 
 void Material::measure_emission()
@@ -135,7 +135,7 @@ void Material::measure_emission()
     }
 }
 
-float Material::opacity_of(float alpha) const noexcept
+float Material::to_opacity(float alpha) const noexcept
 {
     if (alpha_mode_ == AlphaMode::mask) {
         // Tolerance for the rounding of filtered uniform textures; texels differ by much more.
@@ -151,7 +151,7 @@ float Material::opacity(const TexturePoint& point) const noexcept
         return 1.0f;
     }
     const float texture = base_color_map_ ? base_color_map_->lookup(point.uv).w : 1.0f;
-    return opacity_of(alpha_ * texture * std::clamp(point.color.w, 0.0f, 1.0f));
+    return to_opacity(alpha_ * texture * std::clamp(point.color.w, 0.0f, 1.0f));
 }
 
 Rgb Material::base_color(const TexturePoint& point, const UvFootprint* footprint) const noexcept

@@ -103,7 +103,7 @@ private:
                           bool turned) const noexcept;
     [[nodiscard]] Rgb base_color(const TexturePoint& point,
                                  const UvFootprint* footprint) const noexcept;
-    [[nodiscard]] float opacity_of(float alpha) const noexcept;
+    [[nodiscard]] float to_opacity(float alpha) const noexcept;
     void measure_alpha();
     void measure_emission();
 

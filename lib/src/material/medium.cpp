@@ -9,7 +9,7 @@ namespace bdpt {
 namespace {
 
 /// Returns the coefficient for which the attenuation colour remains after the attenuation distance.
-[[nodiscard]] Rgb extinction_of(const MaterialDesc& desc)
+[[nodiscard]] Rgb compute_extinction(const MaterialDesc& desc)
 {
     constexpr float min_color = 1e-20f;      // keeps the coefficient of black finite
     constexpr float max_extinction = 1e30f;  // [1/m]
@@ -50,14 +50,14 @@ Rgb single_scatter_albedo(Rgb multiscatter_color, float anisotropy)
 
 Medium medium_within(const MaterialDesc& desc)
 {
-    const Rgb extinction = extinction_of(desc);
+    const Rgb extinction = compute_extinction(desc);
     return {.extinction = extinction,
             .scattering = extinction * single_scatter_albedo(desc.volume_scatter.color,
                                                              desc.volume_scatter.anisotropy),
             .anisotropy = desc.volume_scatter.anisotropy};
 }
 
-Medium medium_of(const MediumDesc& desc)
+Medium make_medium(const MediumDesc& desc)
 {
     return {.extinction = desc.extinction,
             .scattering = desc.extinction * desc.albedo,

@@ -24,7 +24,7 @@ struct Medium {
 [[nodiscard]] Medium medium_within(const MaterialDesc& desc);
 
 /// Returns the medium of fog.
-[[nodiscard]] Medium medium_of(const MediumDesc& desc);
+[[nodiscard]] Medium make_medium(const MediumDesc& desc);
 
 /// Returns the single-scattering albedo of a medium that looks as bright as `multiscatter_color`,
 /// in [0, 1], where it is dense and lit from outside [Kulla and Conty 2017, "Revisiting Physically

@@ -21,7 +21,7 @@ RefractionLoss::RefractionLoss(const SpecularAlbedo& boundary)
                 const float x = static_cast<float>(column) / (cosine_nodes - 1);
                 nodes[column] = integrate(boundary, side, x * x, roughness);
             }
-            table.average[static_cast<std::size_t>(row)] = average_of(nodes);
+            table.average[static_cast<std::size_t>(row)] = compute_average(nodes);
         }
     }
 }
@@ -37,7 +37,7 @@ float RefractionLoss::value(const Loss& loss, float f0, float f90)
     return std::clamp(loss.none + f0 * loss.per_f0 + f90 * loss.per_f90, 0.0f, 1.0f);
 }
 
-RefractionLoss::Loss RefractionLoss::average_of(const Loss* row)
+RefractionLoss::Loss RefractionLoss::compute_average(const Loss* row)
 {
     Loss sum;
     for_each_cosine_interval(cosine_nodes, [&](int column, float share, float fraction) {

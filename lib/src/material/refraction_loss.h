@@ -43,7 +43,7 @@ private:
 
     [[nodiscard]] static Loss integrate(const SpecularAlbedo& boundary, Side side, float cosine,
                                         float roughness);
-    [[nodiscard]] static Loss average_of(const Loss* row);
+    [[nodiscard]] static Loss compute_average(const Loss* row);
     [[nodiscard]] static Loss mix(const Loss& a, const Loss& b, float t);
     [[nodiscard]] static float value(const Loss& loss, float f0, float f90);
     [[nodiscard]] const Table& table(Side side) const

@@ -53,7 +53,7 @@ constexpr float min_cosine = 1e-5f;
            power(std::clamp(sine2, min_sine2, 1.0f), 0.5f * exponent);
 }
 
-[[nodiscard]] float alpha_of(float roughness)
+[[nodiscard]] float to_alpha(float roughness)
 {
     const float used = std::clamp(roughness, SheenAlbedo::min_roughness, 1.0f);
     return used * used;
@@ -94,7 +94,7 @@ SheenAlbedo::SheenAlbedo()
     const auto for_each_node = [&](const auto& visit) {
         for (int row = 0; row < roughness_nodes; ++row) {
             const float share = static_cast<float>(row) / (roughness_nodes - 1);
-            const float alpha = alpha_of(glm::mix(min_roughness, 1.0f, share));
+            const float alpha = to_alpha(glm::mix(min_roughness, 1.0f, share));
             for (int column = 0; column < cosine_nodes; ++column) {
                 const float x = static_cast<float>(column) / (cosine_nodes - 1);
                 visit(row, static_cast<std::size_t>(row * cosine_nodes + column), x * x, alpha);
@@ -142,7 +142,7 @@ float SheenAlbedo::excess(Rows rows, float cos_o, float cos_i) const noexcept
 
 float SheenAlbedo::value(Vec3 wo, Vec3 wi, float roughness) const noexcept
 {
-    const float alpha = alpha_of(roughness);
+    const float alpha = to_alpha(roughness);
     const float cos_o = std::max(wo.z, min_cosine);
     const float cos_i = std::max(wi.z, min_cosine);
     return distribution(wo + wi, alpha) /

@@ -56,7 +56,7 @@ int light_pilot_side(const RenderOptions& options)
 }
 
 /// Returns the environment; null if there is none, or it is black.
-const EnvironmentLight* environment_of(const World& world)
+const EnvironmentLight* find_environment(const World& world)
 {
     const auto id = world.lights().environment();
     return id && world.lights().next_event_lights().has_power(*id)
@@ -73,7 +73,7 @@ bool can_learn_groups(const World& world, const RenderOptions& options)
 }
 
 /// Returns the visibility of the environment; nullopt if that does not help.
-std::optional<EnvironmentVisibility> visibility_of(std::vector<EnvironmentVisibility::Trial> trials)
+std::optional<EnvironmentVisibility> make_visibility(std::vector<EnvironmentVisibility::Trial> trials)
 {
     const auto visible = std::count_if(trials.begin(), trials.end(),
                                        [](const auto& trial) { return trial.visible; });
@@ -85,7 +85,7 @@ std::optional<EnvironmentVisibility> visibility_of(std::vector<EnvironmentVisibi
 }
 
 /// Returns the shares of the groups; nullopt if no sample carried light.
-std::optional<GroupShares> shares_of(std::vector<GroupShares::Finding> findings, const World& world)
+std::optional<GroupShares> make_shares(std::vector<GroupShares::Finding> findings, const World& world)
 {
     if (std::none_of(findings.begin(), findings.end(),
                      [](const auto& finding) { return finding.value > 0.0f; })) {
@@ -101,7 +101,7 @@ public:
         : world_(world),
           camera_(camera),
           options_(options),
-          environment_(environment_of(world)),
+          environment_(find_environment(world)),
           learns_groups_(can_learn_groups(world, options)),
           path_(std::min(options.transport.max_depth, light_pilot_edges) + 1)
     {}
@@ -165,7 +165,7 @@ private:
         const auto others =
             static_cast<float>(lights.group_count() - (environment_ != nullptr ? 1U : 0U));
         auto group = static_cast<std::size_t>(others * sample.sampler.next_1d());
-        if (environment_ != nullptr && group >= lights.group_of(*world_.lights().environment())) {
+        if (environment_ != nullptr && group >= lights.group(*world_.lights().environment())) {
             ++group;
         }
         const auto chosen = lights.choose_of_group(group, light_sample_context(vertex),
@@ -181,7 +181,7 @@ private:
                       float probability)
     {
         const auto group =
-            static_cast<std::uint32_t>(world_.lights().next_event_lights().group_of(id));
+            static_cast<std::uint32_t>(world_.lights().next_event_lights().group(id));
         const Light& light = world_.lights()[id];
         const auto incident =
             light.sample_incident(light_sample_context(vertex), sample.sampler.next_2d(),
@@ -245,7 +245,7 @@ bool can_learn_light(const World& world, const RenderOptions& options)
     return options.sampling.environment == EnvironmentSampling::learned &&
            options.integrator != IntegratorKind::pt && options.integrator != IntegratorKind::nee &&
            options.integrator != IntegratorKind::lt && options.transport.max_depth >= 2 &&
-           (environment_of(world) != nullptr || can_learn_groups(world, options)) &&
+           (find_environment(world) != nullptr || can_learn_groups(world, options)) &&
            world.media().fog() == MediumId::clear;
 }
 
@@ -272,8 +272,8 @@ std::unique_ptr<const LearnedLight> learn_light(const World& world, const Moving
     for (const Finds& row : rows) {
         all += row;
     }
-    LearnedLight learned{.visibility = visibility_of(std::move(all.trials)),
-                         .groups = shares_of(std::move(all.findings), world)};
+    LearnedLight learned{.visibility = make_visibility(std::move(all.trials)),
+                         .groups = make_shares(std::move(all.findings), world)};
     return learned.visibility || learned.groups
                ? std::make_unique<const LearnedLight>(std::move(learned))
                : nullptr;

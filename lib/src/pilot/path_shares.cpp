@@ -31,13 +31,13 @@ constexpr Factors third = numbers(3);
 
 }  // namespace
 
-PathShares::Group PathShares::group_of(int s, int t)
+PathShares::Group PathShares::find_group(int s, int t)
 {
     return s <= 1 ? own : t <= 1 ? splats : connections;
 }
 
 PathShares::PathShares(const PathContribution& path, Heuristic heuristic, double light_paths)
-    : used_(group_of(path.strategy.s, path.strategy.t)),
+    : used_(find_group(path.strategy.s, path.strategy.t)),
       edges_(static_cast<int>(path.shares.size()) - 2),
       squares_(heuristic == Heuristic::power)
 {
@@ -48,7 +48,7 @@ PathShares::PathShares(const PathContribution& path, Heuristic heuristic, double
     const int vertices = static_cast<int>(path.shares.size()) - 1;
     float of_light = 0.0f;
     for (int s = 0; s <= vertices; ++s) {
-        const Group group = group_of(s, vertices - s);
+        const Group group = find_group(s, vertices - s);
         of_light += vertices - s <= 1 ? path.shares[static_cast<std::size_t>(s)] : 0.0f;
         const double share =
             static_cast<double>(path.shares[static_cast<std::size_t>(s)]) / samples[group];

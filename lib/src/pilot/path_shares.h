@@ -65,7 +65,7 @@ private:
     enum Group : std::size_t { own, splats, connections, groups };
     using PerGroup = std::array<double, groups>;
 
-    [[nodiscard]] static Group group_of(int s, int t);
+    [[nodiscard]] static Group find_group(int s, int t);
     /// Applies the heuristic's function to a share.
     [[nodiscard]] double raise(double share) const { return squares_ ? share * share : share; }
     /// Returns the sums of raise(N a) over all strategies.

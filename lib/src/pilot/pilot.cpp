@@ -72,7 +72,7 @@ RenderOptions with_candidate(RenderOptions options, const Candidate& candidate, 
 
 /// Returns the error, at least the smallest relMSE that is distinguishable from zero: smaller
 /// values are noise of the pilot, and images without error are best where they cost least.
-double error_of(const PilotResult& pilot, std::size_t candidate, bool sees_lamps)
+double estimate_error(const PilotResult& pilot, std::size_t candidate, bool sees_lamps)
 {
     constexpr double least = 1e-4;
     return std::max(least, pilot.errors[candidate] + (sees_lamps ? pilot.visible_lights.by_both
@@ -173,7 +173,7 @@ RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
             if (sees_lamps && candidates[k].light_paths == 0.0) {
                 continue;  // path tracing has no such strategy
             }
-            const double product = error_of(pilot, k, sees_lamps) *
+            const double product = estimate_error(pilot, k, sees_lamps) *
                                    (pilot.costs[k] + (sees_lamps ? visible_light_cost : 0.0));
             RenderOptions options = with_candidate(asked, candidates[k], sees_lamps);
             if ((!best || product < least) && fits(options, pilot)) {

@@ -59,7 +59,7 @@ PilotBrightness::PilotBrightness(const PilotContributions& contributions)
     splats_ = averaged(grid, splats);
 }
 
-double PilotBrightness::scale_of(std::size_t cell, double less) const
+double PilotBrightness::compute_scale(std::size_t cell, double less) const
 {
     constexpr double epsilon = 0.01;  // relative to the mean's square, as in the test harness
     const double mean = camera_[cell] + std::max(0.0, splats_[cell] - less);

@@ -14,19 +14,19 @@ public:
     explicit PilotBrightness(const PilotContributions& contributions);
 
     /// Returns the factor of squared errors in relMSE [1/nit^2]; 0 in black images.
-    [[nodiscard]] double scale(std::size_t cell) const { return scale_of(cell, 0.0); }
+    [[nodiscard]] double scale(std::size_t cell) const { return compute_scale(cell, 0.0); }
     /// Returns that factor for the error of a splat of a light path. The splat's own brightness is
     /// excluded: rare splats would hide their own error.
     [[nodiscard]] double scale(const PilotContribution& splat) const
     {
-        return scale_of(splat.cell, splat.shares.splat_mean() * share_of_splat_);
+        return compute_scale(splat.cell, splat.shares.splat_mean() * share_of_splat_);
     }
 
     /// Returns the mean of the image, excluding light that only merging finds [nit].
     [[nodiscard]] double average() const { return average_; }
 
 private:
-    [[nodiscard]] double scale_of(std::size_t cell, double less) const;
+    [[nodiscard]] double compute_scale(std::size_t cell, double less) const;
 
     std::vector<double> camera_;  ///< from camera paths [nit]
     std::vector<double> splats_;  ///< from splats [nit]

@@ -21,7 +21,7 @@ void add(const PerCandidate<double>& errors, double times, PerCandidate<double>&
 }
 
 /// Returns the errors of a row of the grid.
-PerCandidate<double> errors_of(const PilotRow& row, std::size_t first_cell,
+PerCandidate<double> compute_errors(const PilotRow& row, std::size_t first_cell,
                                const PilotContributions& contributions,
                                const PilotBrightness& brightness)
 {
@@ -43,7 +43,7 @@ PerCandidate<double> errors_of(const PilotRow& row, std::size_t first_cell,
     return errors;
 }
 
-PerCandidate<double> errors_of(const PilotSplats& part, const PilotContributions& contributions,
+PerCandidate<double> compute_errors(const PilotSplats& part, const PilotContributions& contributions,
                                const PilotBrightness& brightness)
 {
     PerCandidate<double> errors{};
@@ -55,17 +55,17 @@ PerCandidate<double> errors_of(const PilotSplats& part, const PilotContributions
 }
 
 /// Sums in the same order for any number of threads, so that sums are bit-identical.
-PerCandidate<double> errors_of(const PilotContributions& contributions,
+PerCandidate<double> compute_errors(const PilotContributions& contributions,
                                const PilotBrightness& brightness)
 {
     const std::size_t rows = contributions.rows.size();
     std::vector<PerCandidate<double>> errors(rows + contributions.parts.size());
     tbb::parallel_for(std::size_t{0}, errors.size(), [&](std::size_t i) {
         const FlushDenormals flush;
-        errors[i] = i < rows ? errors_of(contributions.rows[i],
+        errors[i] = i < rows ? compute_errors(contributions.rows[i],
                                          contributions.grid.index(0, static_cast<int>(i)),
                                          contributions, brightness)
-                             : errors_of(contributions.parts[i - rows], contributions, brightness);
+                             : compute_errors(contributions.parts[i - rows], contributions, brightness);
     });
     PerCandidate<double> sum = merged_errors(contributions, brightness);
     for (const PerCandidate<double>& part : errors) {
@@ -94,7 +94,7 @@ PerCandidate<double> with_unseen(PerCandidate<double> errors)
 PerCandidate<double> predicted_errors(const PilotContributions& contributions,
                                       const PilotBrightness& brightness)
 {
-    return with_unseen(errors_of(contributions, brightness));
+    return with_unseen(compute_errors(contributions, brightness));
 }
 
 }  // namespace bdpt

@@ -40,7 +40,7 @@ void add(PhaseTicks& sum, const PhaseTicks& part)
     sum.pieces += part.pieces;
 }
 
-SampleTicks sum_of(tbb::combinable<SampleTicks>& parts)
+SampleTicks compute_sum(tbb::combinable<SampleTicks>& parts)
 {
     SampleTicks sum;
     parts.combine_each([&](const SampleTicks& part) {
@@ -56,7 +56,7 @@ SampleTicks sum_of(tbb::combinable<SampleTicks>& parts)
 
 }  // namespace
 
-TimeProfile profile_of(const SampleTicks& samples, double clock_ticks, double tick_seconds)
+TimeProfile compute_profile(const SampleTicks& samples, double clock_ticks, double tick_seconds)
 {
     std::array<double, all_phases.size()> ticks{};
     double phase_ticks = 0.0;
@@ -111,7 +111,7 @@ TimeSheet TimeRecorder::sheet()
 TimeProfile TimeRecorder::profile(std::int64_t samples_of_pixel)
 {
     const double tick_seconds = seconds_a_tick();
-    TimeProfile result = profile_of(sum_of(samples_), clock_ticks_, tick_seconds);
+    TimeProfile result = compute_profile(compute_sum(samples_), clock_ticks_, tick_seconds);
     result.region = pixels_.region();
     result.pixel_seconds.reserve(pixels_.ticks().size());
     for (const double ticks : pixels_.ticks()) {

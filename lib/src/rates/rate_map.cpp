@@ -15,7 +15,7 @@ namespace {
 // nearby ones counts. Wider ones blur the boundaries of small glossy parts.
 constexpr int mean_radius = 3;  // 7 x 7 pixels
 constexpr int max_radius = 1;   // 3 x 3 pixels
-constexpr double dark = 0.01;   // relative to the image's mean luminance, as in noise_of()
+constexpr double dark = 0.01;   // relative to the image's mean luminance, as in estimate_noise()
 /// Error that each pixel has beside the pilot's estimate, as a fraction of the mean error. Rare
 /// bright paths also occur where the pilot has not found them; and where they dominate the error,
 /// this makes rates uniform.
@@ -70,7 +70,7 @@ Plane local_greatest(const Plane& plane, Size size, int radius)
     return along(along(plane, size, true, radius, greatest), size, false, radius, greatest);
 }
 
-double mean_of(const Plane& plane)
+double compute_mean(const Plane& plane)
 {
     double sum = 0.0;
     for (const double value : plane) {
@@ -84,14 +84,14 @@ Plane wanted_rates(const RateEvidence& evidence)
 {
     const Size size{.width = evidence.width, .height = evidence.height};
     const Plane brightness = local_mean(evidence.brightness, size, mean_radius);
-    const double eps = dark * mean_of(evidence.brightness);
+    const double eps = dark * compute_mean(evidence.brightness);
     Plane relative(brightness.size(), 0.0);
     for (std::size_t i = 0; i < relative.size(); ++i) {
         const double scale = brightness[i] * brightness[i] + eps * eps;
         relative[i] = scale > 0.0 ? evidence.variance[i] / scale : 0.0;
     }
     Plane wanted = local_greatest(local_mean(relative, size, mean_radius), size, max_radius);
-    const double unseen = unseen_share * mean_of(relative);
+    const double unseen = unseen_share * compute_mean(relative);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         wanted[i] = std::sqrt((wanted[i] + unseen) / evidence.cost[i]);
     }
@@ -99,7 +99,7 @@ Plane wanted_rates(const RateEvidence& evidence)
 }
 
 /// Returns the exponent of the power of two nearest to `rate`, by its logarithm.
-std::int8_t exponent_of(double rate)
+std::int8_t find_exponent(double rate)
 {
     constexpr double root = 1.4142135623730951;
     constexpr std::array borders{0.25 * root, 0.5 * root, root, 2.0 * root};
@@ -115,7 +115,7 @@ std::int64_t quarters(const Plane& wanted, double scale)
 {
     std::int64_t sum = 0;
     for (const double rate : wanted) {
-        sum += std::int64_t{1} << (exponent_of(scale * rate) - SampleRates::min_exponent);
+        sum += std::int64_t{1} << (find_exponent(scale * rate) - SampleRates::min_exponent);
     }
     return sum;
 }
@@ -126,7 +126,7 @@ std::pair<double, double> borders_of_scale(const Plane& wanted)
     constexpr double widest = 0x1p40;
     constexpr int halvings = 60;
     const auto most = static_cast<std::int64_t>(wanted.size()) << -SampleRates::min_exponent;
-    const double mean = mean_of(wanted);
+    const double mean = compute_mean(wanted);
     double low = 1.0 / (widest * mean);
     double high = widest / mean;
     for (int i = 0; i < halvings; ++i) {
@@ -150,14 +150,14 @@ SampleRates rates_for(const RateEvidence& evidence)
 {
     const Plane wanted = wanted_rates(evidence);
     std::vector<std::int8_t> exponents(wanted.size(), 0);
-    if (!(mean_of(wanted) > 0.0)) {
+    if (!(compute_mean(wanted) > 0.0)) {
         return {evidence.width, evidence.height, std::move(exponents)};
     }
     const auto [low, high] = borders_of_scale(wanted);
     std::vector<std::size_t> ties;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        exponents[i] = exponent_of(low * wanted[i]);
-        if (exponents[i] != exponent_of(high * wanted[i])) {
+        exponents[i] = find_exponent(low * wanted[i]);
+        if (exponents[i] != find_exponent(high * wanted[i])) {
             ties.push_back(i);
         }
     }

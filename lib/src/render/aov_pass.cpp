@@ -82,7 +82,7 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
             film.add(x, y, {});
         }
         if (names_) {
-            met.push_back(names_->ids_of(*hit));
+            met.push_back(names_->surface_ids(*hit));
         }
     } else if (film.needs_ground()) {
         if (const auto light = ground_.light_at(ray, start.moment, start.sampler, rays)) {

@@ -13,7 +13,7 @@ namespace {
 
 /// `options` without what has no part in the pilot. Whatever is not named here counts, so that an
 /// option that is new cannot be forgotten.
-LearnedMemo::Inputs inputs_of(const CameraDesc& camera, RenderOptions options)
+LearnedMemo::Inputs make_inputs(const CameraDesc& camera, RenderOptions options)
 {
     options.integrator = IntegratorKind::mis;
     options.film.crop.reset();
@@ -38,7 +38,7 @@ std::shared_ptr<const LearnedLight> learned_light(const World& world, const Came
     if (!can_learn_light(world, whole)) {
         return nullptr;
     }
-    LearnedMemo::Inputs inputs = inputs_of(camera, whole);
+    LearnedMemo::Inputs inputs = make_inputs(camera, whole);
     if (auto found = world.learned().find(inputs)) {
         return *std::move(found);
     }

@@ -56,7 +56,7 @@ void measure_row_of_tiles(const Image& even, const Image& odd, int top, int bott
 
 }  // namespace
 
-double noise_of(const Film& film)
+double estimate_noise(const Film& film)
 {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     if (film.sample_count() < 2) {

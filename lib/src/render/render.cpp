@@ -121,7 +121,7 @@ void check_part(const RenderPart& part, const Identity& identity, const RenderOp
 
 }  // namespace
 
-RenderResult result_of(PartResult done)
+RenderResult to_result(PartResult done)
 {
     RenderPart& part = done.part;
     return {.film = std::move(part.film),
@@ -138,7 +138,7 @@ RenderResult result_of(PartResult done)
 RenderResult render(const Scene& scene, const CameraDesc& camera, const RenderOptions& options,
                     const RenderControl& control)
 {
-    return result_of(render_part(scene, camera, options, {}, control));
+    return to_result(render_part(scene, camera, options, {}, control));
 }
 
 /// State shared by the calls of a render. Not movable: its members refer to each other.
@@ -342,7 +342,7 @@ std::int64_t Renderer::samples() const
 
 double Renderer::noise() const
 {
-    return noise_of(part().film);
+    return estimate_noise(part().film);
 }
 
 Image Renderer::image() const

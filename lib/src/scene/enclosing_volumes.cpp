@@ -30,7 +30,7 @@ constexpr std::size_t max_probes = 16;
 /// Maximum number of surfaces along one ray: untrusted files can have any number of them.
 constexpr int max_crossings = 1024;
 
-Bounds bounds_of(const PlacedMesh& placed)
+Bounds compute_bounds(const PlacedMesh& placed)
 {
     Bounds bounds{.min = Vec3(std::numeric_limits<float>::infinity()),
                   .max = Vec3(-std::numeric_limits<float>::infinity())};
@@ -86,7 +86,7 @@ Vec3 beyond(const Sphere& sphere, Ray ray)
 std::optional<Vec3> before(const PlacedMesh& placed, std::uint32_t triangle)
 {
     const Vec3 normal = placed.area_normal(triangle, 0.0f);
-    const float length = length_of(normal);
+    const float length = compute_length(normal);
     if (!(length > 0.0f)) {
         return std::nullopt;
     }
@@ -125,7 +125,7 @@ EnclosingVolumes::EnclosingVolumes(std::span<const PlacedMesh> placed,
         volume_of_instance_[instances_[body]] = body;
     }
     tbb::parallel_for(std::size_t{0}, instances_.size(), [&](std::size_t body) {
-        bounds_[body] = bounds_of(placed_[instances_[body]]);
+        bounds_[body] = compute_bounds(placed_[instances_[body]]);
     });
     tbb::parallel_for(std::size_t{0}, instances_.size(),
                       [&](std::size_t body) { around_[body] = containing(instances_[body]); });

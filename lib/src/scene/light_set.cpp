@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t many_lights = 4;
 
 /// Returns the sphere of a light, if it has one.
-std::optional<Sphere> sphere_of(const LightDesc& desc)
+std::optional<Sphere> find_sphere(const LightDesc& desc)
 {
     return std::visit(
         []<typename Kind>(const Kind& d) -> std::optional<Sphere> {
@@ -56,7 +56,7 @@ std::vector<Sphere> light_spheres(std::span<const LightDesc> lights)
 {
     std::vector<Sphere> spheres;
     for (const LightDesc& desc : lights) {
-        if (const auto sphere = sphere_of(desc)) {
+        if (const auto sphere = find_sphere(desc)) {
             spheres.push_back(*sphere);
         }
     }

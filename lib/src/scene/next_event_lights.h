@@ -47,7 +47,7 @@ public:
         return slots_[static_cast<std::size_t>(id)].group != Slot::Group::none;
     }
     /// Returns the group of a light that has power.
-    [[nodiscard]] std::size_t group_of(LightId id) const noexcept
+    [[nodiscard]] std::size_t group(LightId id) const noexcept
     {
         const Slot slot = slots_[static_cast<std::size_t>(id)];
         return slot.group == Slot::Group::infinite ? slot.number : infinite_.size();

@@ -58,7 +58,7 @@ std::vector<Placed> place(const SharedSceneDesc& desc,
     return result;
 }
 
-std::optional<Vec3> position_of(const LightDesc& light)
+std::optional<Vec3> find_position(const LightDesc& light)
 {
     return std::visit(
         [](const auto& kind) -> std::optional<Vec3> {
@@ -113,7 +113,7 @@ std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
         return warnings;
     }
     for (std::size_t i = 0; i < desc.lights.size(); ++i) {
-        const auto position = position_of(desc.lights[i]);
+        const auto position = find_position(desc.lights[i]);
         if (position && greatest(abs(*position - coarsest->box.center) - coarsest->box.half) <
                             coarsest->error) {
             const std::string lamp = std::visit(

@@ -13,7 +13,7 @@ namespace {
 
 /// Returns the index of the only item with that name; `kind` is for messages.
 template <typename T>
-std::size_t number_of(const SharedList<T>& list, std::string_view kind, std::string_view name)
+std::size_t find_index(const SharedList<T>& list, std::string_view kind, std::string_view name)
 {
     const auto has_name = [name](const T& item) { return item.name == name; };
     const auto count = std::count_if(list.begin(), list.end(), has_name);
@@ -89,14 +89,14 @@ Scene Scene::with(MaterialId id, MaterialDesc material) const
 
 Scene Scene::with(std::string_view name, MaterialDesc material) const
 {
-    const std::size_t number = number_of(description().materials, "material", name);
+    const std::size_t number = find_index(description().materials, "material", name);
     return with(static_cast<MaterialId>(number), std::move(material));
 }
 
 Scene Scene::with(std::string_view name, InstanceDesc instance) const
 {
     SharedSceneDesc desc = description();
-    const std::size_t number = number_of(desc.instances, "instance", name);
+    const std::size_t number = find_index(desc.instances, "instance", name);
     desc.instances = replaced(desc.instances, number, std::move(instance));
     return edited(std::move(desc));
 }

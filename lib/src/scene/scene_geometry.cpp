@@ -14,7 +14,7 @@
 namespace bdpt {
 namespace {
 
-Bounds bounds_of(std::span<const PlacedMesh> placed, std::span<const Sphere> spheres,
+Bounds compute_bounds(std::span<const PlacedMesh> placed, std::span<const Sphere> spheres,
                  std::span<const VolumeDesc> volumes)
 {
     Bounds bounds{.min = Vec3(std::numeric_limits<float>::infinity()),
@@ -59,7 +59,7 @@ BoundingSphere sphere_around(const Bounds& bounds)
             .radius = radius > 0.0f ? 1.0001f * radius : 1.0f};
 }
 
-std::optional<MeshBox> box_of(const MeshDesc& mesh)
+std::optional<MeshBox> compute_box(const MeshDesc& mesh)
 {
     if (mesh.triangles.empty()) {
         return std::nullopt;
@@ -107,9 +107,9 @@ SceneGeometry::SceneGeometry(const SharedSceneDesc& desc)
     }
     boxes.reserve(meshes.size());
     for (const MeshDesc& mesh : meshes) {
-        boxes.push_back(box_of(mesh));
+        boxes.push_back(compute_box(mesh));
     }
-    bounds = bounds_of(placed, spheres, volumes);
+    bounds = compute_bounds(placed, spheres, volumes);
     sphere = sphere_around(bounds);
 }
 

@@ -23,7 +23,7 @@ std::string name_or_place(const std::string& name, std::string_view kind, std::s
     return name.empty() ? std::string(kind) + "_" + std::to_string(index) : name;
 }
 
-std::string name_of(const LightDesc& light, std::size_t index)
+std::string find_name(const LightDesc& light, std::size_t index)
 {
     return std::visit(
         [index](const auto& desc) {
@@ -66,7 +66,7 @@ SceneNames::SceneNames(const SharedSceneDesc& desc)
     }
     for (std::size_t i = 0; i < desc.lights.size(); ++i) {
         if (!light_spheres(std::span(&desc.lights[i], 1)).empty()) {
-            const std::string name = name_of(desc.lights[i], i);
+            const std::string name = find_name(desc.lights[i], i);
             objects_.push_back(name);
             materials_.push_back(name);
             spheres_.push_back({.object = name_id(name), .material = name_id(name)});

@@ -22,7 +22,7 @@ public:
     /// Returns the names of the kinds that `aovs` request, sorted, without duplicates. Throws
     /// `Error` (invalid_input) if the text exceeds the limit of parts of renders.
     [[nodiscard]] IdNames names(AovSet aovs) const;
-    [[nodiscard]] SurfaceIds ids_of(const RayHit& hit) const noexcept
+    [[nodiscard]] SurfaceIds surface_ids(const RayHit& hit) const noexcept
     {
         return hit.sphere != no_sphere ? spheres_[hit.sphere] : instances_[hit.instance];
     }

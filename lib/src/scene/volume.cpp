@@ -21,17 +21,17 @@ Volume::Volume(const VolumeDesc& desc)
 {
     majorants_.resize(std::size_t{blocks_.x} * blocks_.y * blocks_.z);
     // A density between centres affects the voxels on both sides.
-    const auto blocks_of = [](std::uint32_t i, std::uint32_t count) {
+    const auto find_blocks = [](std::uint32_t i, std::uint32_t count) {
         const std::uint32_t first = i == 0 ? 0 : (i - 1) / block;
         return UVec3(first, std::min((i + 1) / block, count - 1), 0);
     };
     std::size_t i = 0;
     for (std::uint32_t z = 0; z < desc.size.z; ++z) {
-        const UVec3 bz = blocks_of(z, blocks_.z);
+        const UVec3 bz = find_blocks(z, blocks_.z);
         for (std::uint32_t y = 0; y < desc.size.y; ++y) {
-            const UVec3 by = blocks_of(y, blocks_.y);
+            const UVec3 by = find_blocks(y, blocks_.y);
             for (std::uint32_t x = 0; x < desc.size.x; ++x, ++i) {
-                const UVec3 bx = blocks_of(x, blocks_.x);
+                const UVec3 bx = find_blocks(x, blocks_.x);
                 const float density = desc.density[i];
                 for (std::uint32_t c = bz.x; c <= bz.y; ++c) {
                     for (std::uint32_t b = by.x; b <= by.y; ++b) {

@@ -70,21 +70,21 @@ MediumId World::medium_at(Vec3 p) const
     return body ? material_sources_[static_cast<std::size_t>(material_ids_[*body])].within : fog_;
 }
 
-const Material& World::material_of(std::uint32_t instance) const noexcept
+const Material& World::find_material(std::uint32_t instance) const noexcept
 {
     return materials_[static_cast<std::size_t>(material_ids_[instance])];
 }
 
 bool World::may_be_passed(std::uint32_t instance) const noexcept
 {
-    const Material& material = material_of(instance);
+    const Material& material = find_material(instance);
     return material.alpha_mode() != AlphaMode::opaque &&
            (material.min_opacity() < 1.0f || !placed_[instance].mesh().colors.empty());
 }
 
 bool World::is_passed(const AnyHit& crossing) const noexcept
 {
-    const Material& material = material_of(crossing.instance);
+    const Material& material = find_material(crossing.instance);
     if (material.alpha_mode() == AlphaMode::opaque) {
         return false;  // instance of a shared mesh
     }
@@ -142,7 +142,7 @@ Bsdf World::varying_bsdf(const RayHit& hit, const ShadingNormals& normals, Vec3 
                          SegmentKey segment, const PixelCone& pixel) const noexcept
 {
     const PlacedMesh& mesh = placed_[hit.instance];
-    const Material& material = material_of(hit.instance);
+    const Material& material = find_material(hit.instance);
     const TexturePoint at = texture_point(mesh, hit.triangle, hit.at.barycentrics);
     const auto tangent_uv_set = material.tangent_uv_set();
     std::optional<UvFootprint> footprint;
@@ -166,7 +166,7 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
                                const PixelCone& pixel) const noexcept
 {
     const PlacedMesh& mesh = placed_[hit.instance];
-    const Material& material = material_of(hit.instance);
+    const Material& material = find_material(hit.instance);
 
     const Vec3 wo = -direction;
     // By components, to keep them in registers.
@@ -211,7 +211,7 @@ SegmentEnd World::end_at(const RayHit& hit, Vec3 direction, float time) const no
     return {.p = hit.at.point.p,
             .error = hit.at.point.error,
             .ng = hit.at.ng != Vec3(0.0f) ? hit.at.ng : -direction,
-            .media = material_of(hit.instance).media()};
+            .media = find_material(hit.instance).media()};
 }
 
 SurfacePoint World::medium_point(const SegmentEnd& from, Vec3 direction,

@@ -129,7 +129,7 @@ public:
 private:
     friend class WorldBuilder;
 
-    [[nodiscard]] const Material& material_of(std::uint32_t instance) const noexcept;
+    [[nodiscard]] const Material& find_material(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool is_passed(const AnyHit& crossing) const noexcept;
     [[nodiscard]] AnyHitFilter any_hit_filter() const noexcept;

@@ -71,7 +71,7 @@ void WorldBuilder::build(Isa isa)
                            [](const PlacedMesh& mesh) { return mesh.moves(); }) ||
                std::any_of(w.desc_.lights.begin(), w.desc_.lights.end(), light_moves);
     if (w.desc_.fog) {
-        w.fog_ = w.media_.add_fog(medium_of(*w.desc_.fog), w.geometry_->sphere);
+        w.fog_ = w.media_.add_fog(make_medium(*w.desc_.fog), w.geometry_->sphere);
     }
     w.volumes_ = is_shared(&SharedSceneDesc::volumes) ? Volumes(like_->volumes_)
                                                       : Volumes(w.desc_.volumes.values());
@@ -154,7 +154,7 @@ void WorldBuilder::add_material(std::size_t number, const Exterior& exterior)
     }
     const std::size_t id = w.all_materials_->size();
     is_kept_.push_back(known == id);
-    const ChannelAlbedos albedos = albedos_of(desc, exterior);
+    const ChannelAlbedos albedos = find_albedos(desc, exterior);
     w.all_materials_->push_back(known ? (*like_->all_materials_)[*known]
                                       : make_material(desc, albedos, exterior, within));
     w.materials_ = *w.all_materials_;
@@ -172,10 +172,10 @@ Material WorldBuilder::make_material(const MaterialDesc& desc, const ChannelAlbe
     return {desc, texture_images, albedos, w.layer_tables_.get(), exterior, within};
 }
 
-ChannelAlbedos WorldBuilder::albedos_of(const MaterialDesc& desc, const Exterior& exterior)
+ChannelAlbedos WorldBuilder::find_albedos(const MaterialDesc& desc, const Exterior& exterior)
 {
     const auto [red, green, blue] = albedo_keys(desc, exterior);
-    return {albedo_of(red), albedo_of(green), albedo_of(blue)};
+    return {find_albedo(red), find_albedo(green), find_albedo(blue)};
 }
 
 /// Computes the tables of all materials in this exterior in parallel: each takes milliseconds.
@@ -212,7 +212,7 @@ std::shared_ptr<const SpecularAlbedo> WorldBuilder::known_albedo(const World::Al
     return nullptr;
 }
 
-const SpecularAlbedo& WorldBuilder::albedo_of(const World::AlbedoKey& key)
+const SpecularAlbedo& WorldBuilder::find_albedo(const World::AlbedoKey& key)
 {
     std::shared_ptr<const SpecularAlbedo> albedo = known_albedo(key);
     if (!albedo) {

@@ -33,11 +33,11 @@ private:
     void add_material(std::size_t number, const Exterior& exterior);
     [[nodiscard]] Material make_material(const MaterialDesc& desc, const ChannelAlbedos& albedos,
                                          const Exterior& exterior, MediumId within);
-    [[nodiscard]] ChannelAlbedos albedos_of(const MaterialDesc& desc, const Exterior& exterior);
+    [[nodiscard]] ChannelAlbedos find_albedos(const MaterialDesc& desc, const Exterior& exterior);
     void make_albedos(const Exterior& exterior);
     [[nodiscard]] std::shared_ptr<const SpecularAlbedo> known_albedo(
         const World::AlbedoKey& key) const;
-    [[nodiscard]] const SpecularAlbedo& albedo_of(const World::AlbedoKey& key);
+    [[nodiscard]] const SpecularAlbedo& find_albedo(const World::AlbedoKey& key);
 
     void add_lights();
     [[nodiscard]] bool emission_stays() const;
@@ -46,7 +46,7 @@ private:
     void find_enclosing_volumes();
     /// Returns the instances of transparent bodies.
     [[nodiscard]] std::vector<std::uint32_t> body_instances() const;
-    [[nodiscard]] std::shared_ptr<const World::Bodies> bodies_of(
+    [[nodiscard]] std::shared_ptr<const World::Bodies> find_bodies(
         std::vector<std::uint32_t> instances) const;
     void warn_of_open_volumes();
     /// Adds materials by their surroundings. `around` holds for each instance the one that contains

@@ -16,7 +16,7 @@ std::vector<std::uint32_t> WorldBuilder::body_instances() const
 {
     std::vector<std::uint32_t> instances;
     for (std::uint32_t i = 0; i < world_.placed_.size(); ++i) {
-        const Material& material = world_.material_of(i);
+        const Material& material = world_.find_material(i);
         if (material.has_inside() && material.alpha_mode() == AlphaMode::opaque) {
             instances.push_back(i);
         }
@@ -34,13 +34,13 @@ void WorldBuilder::find_enclosing_volumes()
                               " bodies that light passes through are too many to find out which of "
                               "them lies in which: all have air around them");
     } else if (!instances.empty()) {
-        w.bodies_ = bodies_of(std::move(instances));
+        w.bodies_ = find_bodies(std::move(instances));
         give_surroundings(w.bodies_->around);
     }
 }
 
 /// Returns the bodies of `like_`, if they are the same and no ray passes surfaces at random.
-std::shared_ptr<const World::Bodies> WorldBuilder::bodies_of(
+std::shared_ptr<const World::Bodies> WorldBuilder::find_bodies(
     std::vector<std::uint32_t> instances) const
 {
     const World& w = world_;

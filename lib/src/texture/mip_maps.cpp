@@ -47,7 +47,7 @@ struct Taps {
     return value - table[above - 1] < table[above] - value ? above - 1 : above;
 }
 
-[[nodiscard]] std::size_t integer_of(float value, const float* table, std::size_t most)
+[[nodiscard]] std::size_t to_integer(float value, const float* table, std::size_t most)
 {
     return table != nullptr ? nearest(table, most + 1, value)
                             : static_cast<std::size_t>(
@@ -58,9 +58,9 @@ template <TexelType type>
 void store(std::uint8_t* to, float value, const float* table)
 {
     if constexpr (type == TexelType::unorm8) {
-        *to = static_cast<std::uint8_t>(integer_of(value, table, 255));
+        *to = static_cast<std::uint8_t>(to_integer(value, table, 255));
     } else if constexpr (type == TexelType::unorm16) {
-        const auto word = static_cast<std::uint16_t>(integer_of(value, table, 65535));
+        const auto word = static_cast<std::uint16_t>(to_integer(value, table, 65535));
         std::memcpy(to, &word, sizeof word);
     } else if constexpr (type == TexelType::half) {
         const std::uint16_t word = glm::packHalf1x16(value);
@@ -75,10 +75,10 @@ void store_texel(std::uint8_t* to, Vec4 value, const float* table)
 {
     constexpr int colors = channels < 3 ? 1 : 3;
     for (int c = 0; c < colors; ++c) {
-        store<type>(to + static_cast<std::size_t>(c) * size_of(type), value[c], table);
+        store<type>(to + static_cast<std::size_t>(c) * count_value_bytes(type), value[c], table);
     }
     if constexpr (channels == 2 || channels == 4) {
-        store<type>(to + static_cast<std::size_t>(colors) * size_of(type), value.w, nullptr);
+        store<type>(to + static_cast<std::size_t>(colors) * count_value_bytes(type), value.w, nullptr);
     }
 }
 
@@ -91,15 +91,15 @@ TexelImage half_size(const TexelImage& image, Encoding encoding, const ForRows& 
                     .bytes = {},
                     .channels = image.channels,
                     .type = image.type};
-    const std::size_t texel_bytes = static_cast<std::size_t>(image.channels) * size_of(image.type);
+    const std::size_t texel_bytes = static_cast<std::size_t>(image.channels) * count_value_bytes(image.type);
     const auto row_length = static_cast<std::size_t>(copy.width);
     resize_in_huge_pages(copy.bytes,
                          row_length * static_cast<std::size_t>(copy.height) * texel_bytes);
     const std::vector<Taps> columns = make_taps(image.width, copy.width);
     const std::vector<Taps> rows = make_taps(image.height, copy.height);
     // Values above 1 are kept: lookups decide how they are clamped.
-    const TexelCoding coding{.table = coding_of(image.type, encoding).table,
-                             .most = coding_of(image.type, Encoding::radiance).most};
+    const TexelCoding coding{.table = find_coding(image.type, encoding).table,
+                             .most = find_coding(image.type, Encoding::radiance).most};
     const float* curve = encoding == Encoding::linear ? nullptr : coding.table;
     const auto average_rows = [&]<TexelType type, int channels>() {
         const TexelReader<type, channels> texel(image.bytes.data(), coding);

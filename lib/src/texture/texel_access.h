@@ -25,7 +25,7 @@ public:
 
     [[nodiscard]] Vec4 operator()(std::size_t index) const noexcept
     {
-        const std::uint8_t* texel = bytes_ + index * channels * size_of(type);
+        const std::uint8_t* texel = bytes_ + index * channels * count_value_bytes(type);
         if constexpr (channels < 3) {
             const float grey = color(texel, 0);
             return {grey, grey, grey, channels == 2 ? alpha(texel, 1) : 1.0f};

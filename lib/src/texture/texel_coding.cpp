@@ -49,7 +49,7 @@ constexpr Table8 srgb_table = make_srgb();
 
 }  // namespace
 
-TexelCoding coding_of(TexelType type, Encoding encoding)
+TexelCoding find_coding(TexelType type, Encoding encoding)
 {
     const bool linear = encoding == Encoding::linear;
     switch (type) {

@@ -20,7 +20,7 @@ struct TexelCoding {
 };
 
 /// Returns the decoding of a type. Tables stay valid until the end of the process.
-[[nodiscard]] TexelCoding coding_of(TexelType type, Encoding encoding);
+[[nodiscard]] TexelCoding find_coding(TexelType type, Encoding encoding);
 
 /// Returns the table of linear 8-bit values, such as alpha.
 [[nodiscard]] const float* linear_table_8() noexcept;

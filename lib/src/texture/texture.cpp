@@ -25,7 +25,7 @@ struct Span {
     return truncated - (static_cast<float>(truncated) > x ? 1 : 0);
 }
 
-[[nodiscard]] Span span_of(float coordinate, int size, Wrap wrap)
+[[nodiscard]] Span find_span(float coordinate, int size, Wrap wrap)
 {
     constexpr float limit = 0x1p22f;  // beyond it a float has less than two bits of fraction
     float t = std::abs(coordinate) < limit ? coordinate : 0.0f;
@@ -57,7 +57,7 @@ Texture::Texture(const TextureRef& ref, const TexelImage& image, Encoding encodi
                  std::span<const TexelImage> coarser)
     : image_(&image),
       coarser_(coarser),
-      coding_(coding_of(image.type, encoding)),
+      coding_(find_coding(image.type, encoding)),
       uv_set_(ref.uv_set),
       wrap_u_(ref.wrap_u),
       wrap_v_(ref.wrap_v),
@@ -103,8 +103,8 @@ const TexelImage& Texture::level(const UvFootprint& footprint) const noexcept
 Vec4 Texture::bilinear(const TexelImage& image, const std::array<Vec2, 2>& uv) const noexcept
 {
     const Vec2 p = transformed(uv);
-    const Span x = span_of(p.x, image.width, wrap_u_);
-    const Span y = span_of(p.y, image.height, wrap_v_);
+    const Span x = find_span(p.x, image.width, wrap_u_);
+    const Span y = find_span(p.y, image.height, wrap_v_);
     const auto width = static_cast<std::size_t>(image.width);
     const std::size_t first_row = static_cast<std::size_t>(y.first) * width;
     const std::size_t second_row = static_cast<std::size_t>(y.second) * width;

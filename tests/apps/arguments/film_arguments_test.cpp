@@ -21,7 +21,7 @@ TEST_CASE("filters have a name and perhaps a radius")
         CAPTURE(wrong);
         CHECK_FALSE(parse_filter(wrong));
     }
-    CHECK(std::string_view(name_of(FilterKind::blackman_harris)) == "blackman-harris");
+    CHECK(std::string_view(to_name(FilterKind::blackman_harris)) == "blackman-harris");
 }
 
 TEST_CASE("AOVs are names with commas between")

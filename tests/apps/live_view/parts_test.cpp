@@ -155,9 +155,9 @@ TEST_CASE("only who knows the address is answered, under our own names", "[live_
     const Access everywhere("00ff", "0.0.0.0");
     CHECK_FALSE(everywhere.refusal({.method = "GET", .target = "/00ff/", .host = "10.1.2.3:80"}));
     CHECK(everywhere.refusal({.method = "GET", .target = "/00ff/", .host = "evil.example:80"}));
-    CHECK(Access::path_of("/00ff/save.exr?slot=1") == "save.exr");
-    CHECK(Access::path_of("/00ff/") == "");
-    CHECK(Access::query_of("/00ff/save.exr?slot=1") == "slot=1");
+    CHECK(Access::parse_path("/00ff/save.exr?slot=1") == "save.exr");
+    CHECK(Access::parse_path("/00ff/") == "");
+    CHECK(Access::parse_query("/00ff/save.exr?slot=1") == "slot=1");
 }
 
 TEST_CASE("where to listen is a host, and perhaps a port", "[live_view]")
@@ -205,19 +205,19 @@ TEST_CASE("vertices are drawn where the image shows them", "[live_view]")
     camera.world_from_camera[3] = Vec4(0.0f, 0.0f, 5.0f, 1.0f);
     camera.vertical_fov = 2.0f * std::atan(0.5f);  // 5 m high at the origin
     const Size size{.width = 200, .height = 100};
-    const auto middle = raster_of(camera, size, Vec3(0.0f));
+    const auto middle = project_point(camera, size, Vec3(0.0f));
     REQUIRE(middle);
     CHECK(middle->x == Approx(100.0f));
     CHECK(middle->y == Approx(50.0f));
-    const auto corner = raster_of(camera, size, Vec3(5.0f, 2.5f, 0.0f));
+    const auto corner = project_point(camera, size, Vec3(5.0f, 2.5f, 0.0f));
     REQUIRE(corner);
     CHECK(corner->x == Approx(200.0f));
     CHECK(corner->y == Approx(0.0f).margin(1e-3));
-    CHECK_FALSE(raster_of(camera, size, Vec3(0.0f, 0.0f, 6.0f)));
-    CHECK(raster_of_direction(camera, size, Vec3(0.0f, 0.0f, -1.0f)));
+    CHECK_FALSE(project_point(camera, size, Vec3(0.0f, 0.0f, 6.0f)));
+    CHECK(project_direction(camera, size, Vec3(0.0f, 0.0f, -1.0f)));
     camera.projection = Projection::orthographic;
     camera.vertical_extent = 10.0f;
-    const auto parallel = raster_of(camera, size, Vec3(10.0f, 5.0f, -3.0f));
+    const auto parallel = project_point(camera, size, Vec3(10.0f, 5.0f, -3.0f));
     REQUIRE(parallel);
     CHECK(parallel->x == Approx(200.0f));
     CHECK(parallel->y == Approx(0.0f).margin(1e-3));

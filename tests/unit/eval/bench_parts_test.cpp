@@ -30,14 +30,14 @@ using test::random_image;
 TEST_CASE("integrators have names, and names integrators")
 {
     for (const IntegratorKind kind : all_integrators()) {
-        CHECK(enumerator_of<IntegratorKind>(name_of(kind)) == kind);
+        CHECK(parse_enumerator<IntegratorKind>(to_name(kind)) == kind);
     }
     // Benchmarks leave biased ones out unless they are asked for.
     CHECK(unbiased_integrators().size() == all_integrators().size() - 1);
     CHECK(BenchOptions{}.integrators == unbiased_integrators());
-    CHECK(info(*enumerator_of<IntegratorKind>("vcm")).biased);
-    CHECK_FALSE(enumerator_of<IntegratorKind>("BDPT"));
-    CHECK_FALSE(enumerator_of<IntegratorKind>(""));
+    CHECK(info(*parse_enumerator<IntegratorKind>("vcm")).biased);
+    CHECK_FALSE(parse_enumerator<IntegratorKind>("BDPT"));
+    CHECK_FALSE(parse_enumerator<IntegratorKind>(""));
 }
 
 TEST_CASE(
@@ -52,7 +52,7 @@ TEST_CASE(
                              .height = 9};
     const RenderOptions options;
     const auto settings = render_settings(subject, options);
-    const std::string content = content_of(subject);
+    const std::string content = hash_content(subject);
     CHECK(content.size() == 32);
     CHECK(settings.at("width") == "12");
     CHECK(settings.contains("scene: meshes[0]"));
@@ -80,7 +80,7 @@ TEST_CASE(
                        .width = 12,
                        .height = 9};
     CHECK(render_settings(changed, options) != settings);
-    CHECK(content_of(changed) != content);
+    CHECK(hash_content(changed) != content);
     BenchScene seen{.name = "floor",
                     .file = "floor.gltf",
                     .scene = scene,
@@ -88,9 +88,9 @@ TEST_CASE(
                     .width = 12,
                     .height = 9};
     seen.camera.name = "other";
-    CHECK(content_of(seen) == content);
+    CHECK(hash_content(seen) == content);
     seen.camera.lens_radius = 0.1f;
-    CHECK(content_of(seen) != content);
+    CHECK(hash_content(seen) != content);
 }
 
 TEST_CASE("runs are looked at at powers of two and at their goals")

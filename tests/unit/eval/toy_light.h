@@ -53,7 +53,7 @@ public:
                 }
             }
             for (std::size_t other = 0; other < result.others.size(); ++other) {
-                for (int i = 0; i < samples_of(other_integrators[other], 2); ++i) {
+                for (int i = 0; i < count_samples(other_integrators[other], 2); ++i) {
                     add_other(result, other, raster);
                 }
             }

@@ -63,7 +63,7 @@ Batch batch_with_roulette(test::Random& random, double survival, double factor =
             }
         }
         for (std::size_t other = 0; other < 3; ++other) {
-            for (int i = 0; i < samples_of(other_integrators[other], edges); ++i) {
+            for (int i = 0; i < count_samples(other_integrators[other], edges); ++i) {
                 if (static_cast<double>(random.next()) < survival) {
                     batch.others[other].add(found(thinned, raster, 1.0 / survival));
                 }

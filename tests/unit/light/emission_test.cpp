@@ -17,7 +17,7 @@
 namespace bdpt::emission_test {
 namespace {
 
-using test::bin_of;
+using test::find_bin;
 using test::turn;
 
 constexpr int samples = 200000;
@@ -70,9 +70,9 @@ TEST_CASE("point and spot: light leaves evenly in the cone", "[light]")
             REQUIRE(static_cast<double>(emitted->pdf_direction.value) ==
                     Approx(1.0 / (6.283185307179586 * height)).epsilon(1e-4));
             const Vec3 local = Frame::from_normal(axis).to_local(emitted->direction);
-            counts[bin_of<2>({(1.0 - static_cast<double>(local.z)) / height,
-                              turn(static_cast<double>(local.x), static_cast<double>(local.y))},
-                             steps)] += 1.0;
+            counts[find_bin<2>({(1.0 - static_cast<double>(local.z)) / height,
+                                turn(static_cast<double>(local.x), static_cast<double>(local.y))},
+                               steps)] += 1.0;
         }
         test::check_uniform(counts);
     }
@@ -100,9 +100,9 @@ TEST_CASE("triangle: light leaves with the cosine, on the sides that emit", "[li
             // The square of the cosine is uniform.
             const std::size_t side = local.z > 0.0f ? 0 : steps * steps;
             counts[side +
-                   bin_of<2>({static_cast<double>(local.z * local.z),
-                              turn(static_cast<double>(local.x), static_cast<double>(local.y))},
-                             steps)] += 1.0;
+                   find_bin<2>({static_cast<double>(local.z * local.z),
+                                turn(static_cast<double>(local.x), static_cast<double>(local.y))},
+                               steps)] += 1.0;
         }
         test::check_uniform(counts);
     }
@@ -122,7 +122,7 @@ TEST_CASE("directional: rays enter evenly on the disk in front of the scene", "[
             only_light(world).sample_emission(random.next_2d(), random.next_2d(), 0.0f);
         REQUIRE(emitted.has_value());
         REQUIRE(glm::distance(emitted->direction, direction) < 1e-6f);
-        counts[bin_of(place_on_disk(world.bounding_sphere(), *emitted), steps)] += 1.0;
+        counts[find_bin(place_on_disk(world.bounding_sphere(), *emitted), steps)] += 1.0;
     }
     test::check_uniform(counts);
 }
@@ -140,9 +140,9 @@ TEST_CASE("environment: light comes by luminance, and enters evenly on the disk"
     const auto& light = std::get<EnvironmentLight>(only_light(world).model());
 
     const auto bin_of_direction = [](Vec3 w) {
-        return bin_of<2>({0.5 + 0.5 * static_cast<double>(w.y),
-                          turn(static_cast<double>(w.x), static_cast<double>(w.z))},
-                         steps);
+        return find_bin<2>({0.5 + 0.5 * static_cast<double>(w.y),
+                            turn(static_cast<double>(w.x), static_cast<double>(w.z))},
+                           steps);
     };
     // The density integrated over each bin, in which it is constant in cells.
     std::vector<double> expected(steps * steps);
@@ -178,7 +178,7 @@ TEST_CASE("environment: light comes by luminance, and enters evenly on the disk"
                        .value)
                 .epsilon(2e-3));
         directions[bin_of_direction(-emitted->direction)] += 1.0;
-        places[bin_of(place_on_disk(world.bounding_sphere(), *emitted), steps)] += 1.0;
+        places[find_bin(place_on_disk(world.bounding_sphere(), *emitted), steps)] += 1.0;
     }
     test::check_counts(directions, expected);
     test::check_uniform(places);

@@ -177,7 +177,7 @@ TEST_CASE("visibility: samples of tiles have the density that is told", "[light]
             const float with = tiles.pdf(x, y, std::nullopt, &tables[2]);
             const float without = tiles.pdf(x, y, std::nullopt);
             attracted += with > without ? 1 : 0;
-            REQUIRE((with > without) == (tiles.tile_of(x, y) == 20 && without > 0.0f));
+            REQUIRE((with > without) == (tiles.find_tile(x, y) == 20 && without > 0.0f));
         }
     }
     CHECK(attracted > 0);

@@ -196,7 +196,7 @@ TEST_CASE("profile light: light leaves by its densities, which follow the intens
         const ProfileLight light({.world_from_light = some_rotation(), .scale = Rgb(2.0f)},
                                  profile);
         const auto bin_of_direction = [](Vec3 w) {
-            return test::bin_of<2>(
+            return test::find_bin<2>(
                 {0.5 + 0.5 * static_cast<double>(w.z),
                  test::turn(static_cast<double>(w.x), static_cast<double>(w.y))},
                 steps);

@@ -17,8 +17,8 @@
 namespace bdpt::sphere_light_test {
 namespace {
 
-using test::bin_of;
 using test::check_uniform;
+using test::find_bin;
 using test::turn;
 
 PointLightDesc bulb(float radius)
@@ -63,9 +63,9 @@ TEST_CASE("sphere: next-event directions are uniform in the cone that the sphere
             const glm::dvec3 across = w - dot(w, towards) * towards;
             const double s2 = dot(across, across);
             const double depth = s2 / (1.0 + std::sqrt(1.0 - s2));  // 1 - cos
-            counts[bin_of<2>({depth / height, turn(dot(across, glm::dvec3(frame.x)),
-                                                   dot(across, glm::dvec3(frame.y)))},
-                             8)] += 1.0;
+            counts[find_bin<2>({depth / height, turn(dot(across, glm::dvec3(frame.x)),
+                                                     dot(across, glm::dvec3(frame.y)))},
+                               8)] += 1.0;
             REQUIRE(static_cast<double>(incident->pdf_solid_angle.value) ==
                     Approx(1.0 / (2.0 * 3.14159265358979 * height)).epsilon(1e-5));
             // A strategy that finds the point by chance computes the same density.
@@ -133,7 +133,7 @@ TEST_CASE("sphere: light that leaves has the density that is claimed", "[light]"
             const auto radius_squared =
                 static_cast<double>(on_disk.x * on_disk.x + on_disk.y * on_disk.y);
             REQUIRE(on_disk.z > 0.0f);
-            counts[bin_of<4>(
+            counts[find_bin<4>(
                 {(1.0 - static_cast<double>(local.z)) / height,
                  turn(static_cast<double>(local.x), static_cast<double>(local.y)), radius_squared,
                  turn(static_cast<double>(on_disk.x), static_cast<double>(on_disk.y))},

@@ -62,7 +62,7 @@ TEST_CASE("points of fog have the density that is told of them", "[media]")
                 REQUIRE(distance >= begin);
                 REQUIRE(distance <= end);
                 const double part = static_cast<double>((distance - begin) / (end - begin));
-                counts[test::bin_of(std::array{part}, bins)] += 1.0;
+                counts[test::find_bin(std::array{part}, bins)] += 1.0;
             }
             std::vector<double> probabilities(bins);
             constexpr int steps = 2000;

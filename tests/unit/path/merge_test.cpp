@@ -5,8 +5,8 @@
 #include "camera/camera.h"
 #include "catch.hpp"
 #include "lambertian_floor.h"
+#include "make_sample.h"
 #include "path/random_walk.h"
-#include "sample_of.h"
 
 #include <utility>
 #include <vector>
@@ -36,7 +36,7 @@ std::vector<float> merged_values(const World& world)
     std::vector<float> values;
     for (int i = 0; i < samples; ++i) {
         SampleContext sample =
-            sample_of(world, camera, {SamplerKind::independent, 1, 0, 0, i}, rays);
+            make_sample(world, camera, {SamplerKind::independent, 1, 0, 0, i}, rays);
         trace_camera_subpath(sample, Vec2(0.5f), {.max_vertices = 2}, seen);
         trace_light_subpath(sample, {.max_vertices = 2}, strategies.next_event_sampling(), light);
         if (seen.size() == 2 && light.size() == 2) {

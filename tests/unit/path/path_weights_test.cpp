@@ -1,11 +1,11 @@
 #include "camera/camera.h"
 #include "catch.hpp"
 #include "light/learned/learned_light.h"
+#include "make_sample.h"
 #include "many_lights.h"
 #include "path/connect.h"
 #include "path/densities.h"
 #include "path/random_walk.h"
-#include "sample_of.h"
 #include "scene_builder.h"
 
 #include <glm/geometric.hpp>
@@ -79,7 +79,7 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
             }
         };
         for (int i = 0; i < 2000; ++i) {
-            SampleContext sample = test::sample_of(
+            SampleContext sample = test::make_sample(
                 world, camera, {SamplerKind::sobol, 1, i % size, i / size, i}, rays);
             const Vec2 raster(static_cast<float>(i % size) + 0.5f,
                               static_cast<float>(i / size % size) + 0.5f);
@@ -120,7 +120,7 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
     int compared = 0;
     for (int i = 0; i < 3000; ++i) {
         SampleContext sample =
-            test::sample_of(world, camera, {SamplerKind::sobol, 2, i % 16, i / 16 % 16, i}, rays);
+            test::make_sample(world, camera, {SamplerKind::sobol, 2, i % 16, i / 16 % 16, i}, rays);
         const Vec2 raster(static_cast<float>(i % 16) + 0.5f,
                           static_cast<float>(i / 16 % 16) + 0.5f);
         trace_camera_subpath(sample, raster, {.max_vertices = camera_path.capacity()}, camera_path);
@@ -206,7 +206,7 @@ TEST_CASE("next-event estimation has the density that others are weighed against
     int from_sky = 0;
     int through = 0;
     for (int i = 0; i < 4000; ++i) {
-        SampleContext sample = test::sample_of(
+        SampleContext sample = test::make_sample(
             world, camera, {SamplerKind::independent, 3, i % 16, i / 16 % 16, i}, rays);
         Sampler& sampler = sample.sampler;
         const Vec2 raster = 16.0f * sampler.next_2d();

@@ -2,10 +2,10 @@
 
 #include "camera/camera.h"
 #include "catch.hpp"
+#include "make_sample.h"
 #include "path/connect.h"
 #include "path/merge.h"
 #include "path/random_walk.h"
-#include "sample_of.h"
 #include "scene_builder.h"
 
 #include <algorithm>
@@ -126,7 +126,7 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
     int compared = 0;
     RayCounts rays;
     for (int i = 0; i < 1000; ++i) {
-        SampleContext sample = test::sample_of(
+        SampleContext sample = test::make_sample(
             world, camera, {SamplerKind::sobol, 1, i % size, i / size % size, i}, rays);
         const Vec2 raster(static_cast<float>(i % size) + 0.5f,
                           static_cast<float>(i / size % size) + 0.5f);

@@ -108,7 +108,7 @@ TEST_CASE("light pilot: the lamp is chosen within, sky and sun without", "[pilot
     CHECK(found->groups->cells() > 10);
     const GroupShares::Shares& within = found->groups->at({0.0f, -0.99f, -0.6f});
     const GroupShares::Shares& without = found->groups->at({0.0f, -0.99f, 1.8f});
-    const std::size_t sky = lights.group_of(*scene.world().lights().environment());
+    const std::size_t sky = lights.group(*scene.world().lights().environment());
     const std::size_t sun = 1 - sky;
     constexpr std::size_t lamps = 2;
     CHECK(within[lamps] > 0.6f);

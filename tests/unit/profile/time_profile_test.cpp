@@ -261,7 +261,7 @@ TEST_CASE("what reading the clock takes is not in a profile", "[profile]")
     ticks.others = {.ticks = 12300, .pieces = 30};
     ticks.interrupted = 4;
     // After the clock: 950, 400, 0 in 2 samples, and 12150 in 30 others.
-    const TimeProfile profile = profile_of(ticks, 5.0, 0.001);
+    const TimeProfile profile = compute_profile(ticks, 5.0, 0.001);
     CHECK(profile.samples == 36);
     CHECK(profile.clocked_samples == 2);
     CHECK(profile.share(Phase::walk) == Approx(950.0 / 1350.0));
@@ -276,7 +276,7 @@ TEST_CASE("what reading the clock takes is not in a profile", "[profile]")
         ticks.phases = {};
         ticks.clocked = {};
         ticks.interrupted = 0;
-        const TimeProfile none = profile_of(ticks, 5.0, 0.001);
+        const TimeProfile none = compute_profile(ticks, 5.0, 0.001);
         CHECK(none.samples == 30);
         CHECK(none.total() == 0.0);
         CHECK(none.distortion == 0.0);
@@ -285,7 +285,7 @@ TEST_CASE("what reading the clock takes is not in a profile", "[profile]")
     {
         ticks.others = {};
         ticks.interrupted = 0;
-        const TimeProfile all = profile_of(ticks, 5.0, 0.001);
+        const TimeProfile all = compute_profile(ticks, 5.0, 0.001);
         CHECK(all.total() == Approx(1.35));
         CHECK(all.distortion == 0.0);
     }

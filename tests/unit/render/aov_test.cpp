@@ -160,8 +160,8 @@ TEST_CASE("AOVs are of the very rays that make the image", "[aov]")
         const Mat4 rest = builder.desc.instances[0].world_from_object;
         test::move_last(builder, 2, [&](float t) { return aside(t) * rest; });
     } else if (moving == 2) {
-        view.motion =
-            test::motion_of<Mat4>(3, [&](float t) { return aside(t) * camera.world_from_camera; });
+        view.motion = test::make_motion<Mat4>(
+            3, [&](float t) { return aside(t) * camera.world_from_camera; });
     }
     CAPTURE(passable, moving);
     const Scene scene(builder.desc);

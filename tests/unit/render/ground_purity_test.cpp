@@ -51,8 +51,8 @@ TEST_CASE("the shadow on the ground is pure, and the same for every integrator",
     RenderOptions o = options(IntegratorKind::pt);
     o.system.threads = 1;
     const RenderResult whole = render(scene, view, o);
-    const Shadow expected = shadow_of(whole);
-    REQUIRE(mean_of(expected.opacity) > 0.02);
+    const Shadow expected = compute_shadow(whole);
+    REQUIRE(compute_mean(expected.opacity) > 0.02);
     o.system.threads = 8;
     o.system.tile_size = 5;
     for (const auto kind : {IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis,
@@ -73,7 +73,7 @@ TEST_CASE("the shadow on the ground is pure, and the same for every integrator",
 
     o = options(IntegratorKind::pt);
     o.film.crop = PixelRect{7, 4, 28, 25};
-    const Shadow part = shadow_of(render(scene, view, o));
+    const Shadow part = compute_shadow(render(scene, view, o));
     const auto cut = [&](const std::vector<float>& values) {
         std::vector<float> result;
         for (int y = o.film.crop->y0; y < o.film.crop->y1; ++y) {
@@ -99,8 +99,8 @@ TEST_CASE("a ground changes no bit of the image, and adds its shadow to alpha", 
         o.film.aovs = {Aov::alpha};
         const RenderResult without = render(scene, view, o);
         CHECK(with.film == without.film);
-        const Shadow shadow = shadow_of(with);
-        const std::vector<float> coverage = shadow_of(without).alpha;
+        const Shadow shadow = compute_shadow(with);
+        const std::vector<float> coverage = compute_shadow(without).alpha;
         for (std::size_t i = 0; i < coverage.size(); ++i) {
             REQUIRE(shadow.alpha[i] == Approx(coverage[i] + shadow.opacity[i]).margin(1e-6));
         }
@@ -111,11 +111,11 @@ TEST_CASE("a shadow alone needs no other layer", "[ground]")
 {
     const Scene scene = stage();
     RenderOptions o = options(IntegratorKind::pt);
-    const Shadow both = shadow_of(render(scene, view, o));
+    const Shadow both = compute_shadow(render(scene, view, o));
     o.film.aovs = {Aov::shadow};
     const RenderResult alone = render(scene, view, o);
     CHECK(alone.aovs.develop(alone.film).size() == 1);
-    CHECK(shadow_of(alone).opacity == both.opacity);
+    CHECK(compute_shadow(alone).opacity == both.opacity);
 }
 
 }  // namespace bdpt::test::ground_purity_test

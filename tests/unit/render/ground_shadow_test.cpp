@@ -67,7 +67,7 @@ TEST_CASE("under a sun the shadow of a square is a square", "[ground]")
 {
     SceneBuilder builder = square(lambertian(Rgb(0.5f)));
     builder.light(low_sun());
-    const Shadow shadow = shadow_of(builder.desc, camera_above(), ground_options(side, 16));
+    const Shadow shadow = compute_shadow(builder.desc, camera_above(), ground_options(side, 16));
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
             const bool row = is_between(y, 12, 20);
@@ -85,7 +85,7 @@ TEST_CASE("a part of a pixel in shadow, or beside the ground, counts as that", "
     SceneBuilder builder = square(lambertian(Rgb(0.5f)));
     builder.light(low_sun());
     // Five pixels for four metres: the shadow from -0.5 to 0.5 m is 1.25 pixels wide.
-    const Shadow shadow = shadow_of(builder.desc, camera_above(), ground_options(5, 4096));
+    const Shadow shadow = compute_shadow(builder.desc, camera_above(), ground_options(5, 4096));
     const double row[]{0.0, 0.125, 1.0, 0.125, 0.0};
     for (std::size_t x = 0; x < 5; ++x) {
         CHECK(shadow.opacity[2 * 5 + x] == Approx(row[x]).margin(0.003));
@@ -104,12 +104,12 @@ TEST_CASE("shadows on the ground are blurred as things and lights move", "[groun
     SceneBuilder builder = square(lambertian(Rgb(0.5f)));
     DirectionalLightDesc sun = low_sun();
     if (sun_turns) {
-        sun.later_directions = motion_of<Vec3>(1, [](float t) { return Vec3(1.0f, -1.0f, t); });
+        sun.later_directions = make_motion<Vec3>(1, [](float t) { return Vec3(1.0f, -1.0f, t); });
     } else {
         move_last(builder, 1, [](float t) { return translation({0.0f, 0.0f, t}); });
     }
     builder.light(sun);
-    const Shadow shadow = shadow_of(builder.desc, camera_above(), ground_options(side, 1024));
+    const Shadow shadow = compute_shadow(builder.desc, camera_above(), ground_options(side, 1024));
     // What the sun brings until the time t, up to a factor.
     const auto light_until = [&](double t) {
         return sun_turns ? std::asinh(t / std::sqrt(2.0)) : t;
@@ -139,9 +139,9 @@ TEST_CASE("a disk hides the square of the sine of a sky", "[ground]")
     const auto sampling = GENERATE(EnvironmentSampling::plain, EnvironmentSampling::compensated);
     RenderOptions options = ground_options(8, 64);
     options.sampling.environment = sampling;
-    const Shadow shadow = shadow_of(builder.desc, beside, options);
+    const Shadow shadow = compute_shadow(builder.desc, beside, options);
     const auto expected = 1.0 / (1.0 + static_cast<double>(height * height));
-    CHECK(mean_of(shadow.opacity) == Approx(expected).margin(0.004));
+    CHECK(compute_mean(shadow.opacity) == Approx(expected).margin(0.004));
 }
 
 TEST_CASE("sky and sun shade the ground by their shares of its light", "[ground]")
@@ -153,8 +153,8 @@ TEST_CASE("sky and sun shade the ground by their shares of its light", "[ground]
     builder.light(DirectionalLightDesc{.direction = {3.0f, -1.0f, 0.0f},
                                        .illuminance = Rgb(3.14159265f * std::sqrt(10.0f))});
     const CameraDesc beside = camera_at({3.0f, 0.3f, 0.0f}, {0.0f, 0.0f, 0.0f}, 1e-3f);
-    const Shadow shadow = shadow_of(builder.desc, beside, ground_options(8, 256));
-    CHECK(mean_of(shadow.opacity) == Approx(0.25).margin(0.004));
+    const Shadow shadow = compute_shadow(builder.desc, beside, ground_options(8, 256));
+    CHECK(compute_mean(shadow.opacity) == Approx(0.25).margin(0.004));
 }
 
 TEST_CASE("a mask cuts shadows, a veil lets its share through", "[ground]")
@@ -168,11 +168,11 @@ TEST_CASE("a mask cuts shadows, a veil lets its share through", "[ground]")
                  veil);
     builder.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, 0.0f}, .illuminance = Rgb(1.0f)});
     const RenderOptions options = ground_options(side, 64);
-    const Shadow seen = shadow_of(builder.desc, camera_above(), options);
-    CHECK(mean_of(seen.opacity) == Approx(0.75 * 0.25).margin(0.005));
-    CHECK(mean_of(seen.alpha) == Approx(0.25 + 0.75 * 0.25).margin(0.005));
+    const Shadow seen = compute_shadow(builder.desc, camera_above(), options);
+    CHECK(compute_mean(seen.opacity) == Approx(0.75 * 0.25).margin(0.005));
+    CHECK(compute_mean(seen.alpha) == Approx(0.25 + 0.75 * 0.25).margin(0.005));
     builder.desc.materials[0].alpha_mode = AlphaMode::mask;
-    check_clear(shadow_of(builder.desc, camera_above(), options));
+    check_clear(compute_shadow(builder.desc, camera_above(), options));
 }
 
 TEST_CASE("where nothing is in the way the ground is clear to the bit", "[ground]")
@@ -184,12 +184,12 @@ TEST_CASE("where nothing is in the way the ground is clear to the bit", "[ground
     const Scene scene(builder.desc);
     RenderOptions options = ground_options(side, 8);
     const RenderResult clear = render(scene, camera_above(), options);
-    check_clear(shadow_of(clear));
+    check_clear(compute_shadow(clear));
     // Nothing stands above the ground, so that no shadow ray is needed.
     CHECK(clear.stats.rays.aov == 8U * side * side);
     // Somewhat lower all of them are above it.
     options.film.ground_height = -4.5f;
-    CHECK(mean_of(shadow_of(render(scene, camera_above(), options)).opacity) > 1e-4);
+    CHECK(compute_mean(compute_shadow(render(scene, camera_above(), options)).opacity) > 1e-4);
 }
 
 TEST_CASE("what shines does not shade the ground from itself", "[ground]")
@@ -200,15 +200,15 @@ TEST_CASE("what shines does not shade the ground from itself", "[ground]")
     builder.sphere({0.0f, 1.5f, 0.0f}, 0.4f, bulb, 16);
     const CameraDesc view = camera_at({4.0f, 2.0f, 4.0f}, {0.0f, 0.0f, 0.0f}, 0.5f);
     const RenderOptions options = ground_options(side, 16);
-    check_clear(shadow_of(builder.desc, view, options));
+    check_clear(compute_shadow(builder.desc, view, options));
     // But from other lights it does, and others shade it.
     SceneBuilder sunny = builder;
     sunny.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, 0.0f}, .illuminance = Rgb(50.0f)});
-    CHECK(mean_of(shadow_of(sunny.desc, view, options).opacity) > 0.01);
+    CHECK(compute_mean(compute_shadow(sunny.desc, view, options).opacity) > 0.01);
     builder.quad({-9.0f, 1.0f, 9.0f}, {9.0f, 1.0f, 9.0f}, {9.0f, 1.0f, -9.0f}, {-9.0f, 1.0f, -9.0f},
                  lambertian(Rgb(0.5f)));
     const CameraDesc beneath = camera_at({4.0f, 0.8f, 4.0f}, {0.0f, 0.0f, 0.0f}, 0.1f);
-    const Shadow all = shadow_of(builder.desc, beneath, options);
+    const Shadow all = compute_shadow(builder.desc, beneath, options);
     CHECK(*std::min_element(all.opacity.begin(), all.opacity.end()) == 1.0f);
 }
 
@@ -224,10 +224,10 @@ TEST_CASE("a leaf does not shade the ground from light that the lamp itself hide
     builder.place(builder.add_mesh(plates), emitter(Rgb(4.0f)), Mat4(1.0f));
     const CameraDesc beside = camera_at({0.5f, 0.4f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.1f);
     const RenderOptions options = ground_options(8, 16);
-    check_clear(shadow_of(builder.desc, beside, options));
+    check_clear(compute_shadow(builder.desc, beside, options));
     builder.quad({-0.5f, 0.8f, 0.5f}, {0.5f, 0.8f, 0.5f}, {0.5f, 0.8f, -0.5f}, {-0.5f, 0.8f, -0.5f},
                  leaf);
-    check_clear(shadow_of(builder.desc, beside, options));
+    check_clear(compute_shadow(builder.desc, beside, options));
 }
 
 TEST_CASE("the ground is seen from above only, and as far as rays reach", "[ground]")
@@ -236,13 +236,13 @@ TEST_CASE("the ground is seen from above only, and as far as rays reach", "[grou
     builder.light(sunny_sky());
     const RenderOptions options = ground_options(side, 4);
     const auto check = [&](const CameraDesc& camera, double least, double most) {
-        const Shadow shadow = shadow_of(builder.desc, camera, options);
+        const Shadow shadow = compute_shadow(builder.desc, camera, options);
         for (std::size_t i = 0; i < shadow.opacity.size(); ++i) {
             REQUIRE(shadow.opacity[i] >= 0.0f);  // and no NaN
             REQUIRE(shadow.alpha[i] <= 1.0f);
         }
-        CHECK(mean_of(shadow.opacity) >= least);
-        CHECK(mean_of(shadow.opacity) <= most);
+        CHECK(compute_mean(shadow.opacity) >= least);
+        CHECK(compute_mean(shadow.opacity) <= most);
     };
     const CameraDesc above = camera_at({0.0f, 2.0f, 6.0f}, {0.0f, 0.0f, 0.0f}, 0.6f);
     check(above, 0.01, 1.0);
@@ -283,7 +283,7 @@ TEST_CASE("light that is no number counts neither way", "[ground]")
     builder.quad({-5e-3f, 5e-4f, 5e-3f}, {5e-3f, 5e-4f, 5e-3f}, {5e-3f, 5e-4f, -5e-3f},
                  {-5e-3f, 5e-4f, -5e-3f}, lambertian(Rgb(0.5f)));
     const Shadow shadow =
-        shadow_of(builder.desc, in_parallel(camera_above(), 0.02f), ground_options(side, 4));
+        compute_shadow(builder.desc, in_parallel(camera_above(), 0.02f), ground_options(side, 4));
     for (const float opacity : shadow.opacity) {
         REQUIRE(opacity >= 0.0f);
         REQUIRE(opacity <= 1.0f);
@@ -306,33 +306,33 @@ TEST_CASE("a veil that lies on the ground does not shade it", "[ground]")
     builder.light(low_sun());
     RenderOptions options = ground_options(side, 16);
     options.film.ground_height.reset();
-    const Shadow shadow = shadow_of(builder.desc, camera_above(), options);
-    CHECK(mean_of(shadow.alpha) == Approx(0.5).margin(0.01));
+    const Shadow shadow = compute_shadow(builder.desc, camera_above(), options);
+    CHECK(compute_mean(shadow.alpha) == Approx(0.5).margin(0.01));
     check_clear(shadow);
 }
 
 TEST_CASE("without light there is no shadow, nor without surfaces", "[ground]")
 {
     const RenderOptions options = ground_options(side, 4);
-    check_clear(shadow_of(SceneDesc{}, camera_above(), options));
-    check_clear(shadow_of(square(lambertian(Rgb(0.5f))).desc, camera_above(), options));
-    check_clear(shadow_of(all_lights().desc, camera_above(), options));
+    check_clear(compute_shadow(SceneDesc{}, camera_above(), options));
+    check_clear(compute_shadow(square(lambertian(Rgb(0.5f))).desc, camera_above(), options));
+    check_clear(compute_shadow(all_lights().desc, camera_above(), options));
     SceneBuilder globe;
     globe.light(
         PointLightDesc{.position = {-1.0f, 3.0f, 0.5f}, .intensity = Rgb(5.0f), .radius = 0.3f});
-    check_clear(shadow_of(globe.desc, camera_above(), options));
+    check_clear(compute_shadow(globe.desc, camera_above(), options));
     // Lamps that are spheres shade what others light.
     globe.light(low_sun());
-    CHECK(mean_of(shadow_of(globe.desc, camera_above(), options).opacity) > 0.0);
+    CHECK(compute_mean(compute_shadow(globe.desc, camera_above(), options).opacity) > 0.0);
     SceneBuilder lit_from_below = square(lambertian(Rgb(0.5f)));
     lit_from_below.light(PointLightDesc{.position = {0.0f, -1.0f, 0.0f}, .intensity = Rgb(5.0f)});
     lit_from_below.light(
         DirectionalLightDesc{.direction = {0.0f, 1.0f, 0.0f}, .illuminance = Rgb(5.0f)});
-    check_clear(shadow_of(lit_from_below.desc, camera_above(), options));
+    check_clear(compute_shadow(lit_from_below.desc, camera_above(), options));
     // Light that starts in the ground is no number there.
     SceneBuilder in_it = square(lambertian(Rgb(0.5f)));
     in_it.light(PointLightDesc{.position = {0.0f, 0.0f, 0.0f}, .intensity = Rgb(5.0f)});
-    check_clear(shadow_of(in_it.desc, camera_above(), options));
+    check_clear(compute_shadow(in_it.desc, camera_above(), options));
 }
 
 TEST_CASE("the ground is at the lowest point, at any time, unless its height is given", "[ground]")
@@ -344,9 +344,11 @@ TEST_CASE("the ground is at the lowest point, at any time, unless its height is 
     builder.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, 1.0f}, .illuminance = Rgb(1.0f)});
     RenderOptions options = ground_options(side, 4);
     options.film.ground_height.reset();
-    const auto image = [&] { return shadow_of(builder.desc, camera_above(), options).opacity; };
+    const auto image = [&] {
+        return compute_shadow(builder.desc, camera_above(), options).opacity;
+    };
     const std::vector<float> standing = image();
-    CHECK(mean_of(standing) > 0.05);
+    CHECK(compute_mean(standing) > 0.05);
     options.film.ground_height = 1.0f;
     CHECK(image() == standing);
     options.film.ground_height = 0.5f;
@@ -367,7 +369,7 @@ TEST_CASE("heights of the ground that are none are refused", "[ground]")
         RenderOptions options = ground_options(4, 1);
         options.film.ground_height = height;
         try {
-            static_cast<void>(shadow_of(SceneDesc{}, camera_above(), options));
+            static_cast<void>(compute_shadow(SceneDesc{}, camera_above(), options));
             FAIL("no error for " << height);
         } catch (const Error& error) {
             CHECK(error.code() == ErrorCode::usage);

@@ -158,7 +158,7 @@ TEST_CASE("a square that slides covers pixels for as long as it is there", "[mot
             return test::translation(-at(even(static_cast<double>(t)))) * rest;
         };
         camera.camera.world_from_camera = pose(0.0f);
-        camera.camera.motion = test::motion_of<Mat4>(steps, pose);
+        camera.camera.motion = test::make_motion<Mat4>(steps, pose);
         check(camera, even);
     }
     Slide instance = slide();

@@ -61,8 +61,8 @@ TEST_CASE("noise is the deviation of pixels over their mean", "[noise]")
     // Estimates of tiles spread by 9 %, and 95 % of them are not above the result.
     const auto grey = [](int) { return Grey{.mean = 2.0, .deviation = 0.3}; };
     const double expected = 0.15 * clean;
-    CHECK(noise_of(noisy_film(grey)) == Approx(1.07 * expected).epsilon(0.03));
-    CHECK(noise_of(noisy_film(grey, From::light)) == Approx(1.07 * expected).epsilon(0.03));
+    CHECK(estimate_noise(noisy_film(grey)) == Approx(1.07 * expected).epsilon(0.03));
+    CHECK(estimate_noise(noisy_film(grey, From::light)) == Approx(1.07 * expected).epsilon(0.03));
 }
 
 TEST_CASE("noise is that of nearly all tiles", "[noise]")
@@ -70,33 +70,33 @@ TEST_CASE("noise is that of nearly all tiles", "[noise]")
     const auto some = [](int one_of) {
         return [one_of](int tile) { return Grey{.deviation = tile % one_of == 0 ? 0.4 : 0.04}; };
     };
-    CHECK(noise_of(noisy_film(some(10))) > 0.35 * clean);
-    CHECK(noise_of(noisy_film(some(40))) < 0.06 * clean);
+    CHECK(estimate_noise(noisy_film(some(10))) > 0.35 * clean);
+    CHECK(estimate_noise(noisy_film(some(40))) < 0.06 * clean);
     // Background without any noise hides nothing.
     const auto in_the_void = [](int tile) {
         return tile % 40 == 0 ? Grey{.deviation = 0.2} : Grey{.mean = 0.0, .deviation = 0.0};
     };
-    CHECK(noise_of(noisy_film(in_the_void)) > 0.17 * clean);
+    CHECK(estimate_noise(noisy_film(in_the_void)) > 0.17 * clean);
     // Tiles that are nearly black are measured by the image: 1 % of its mean is their floor.
     const auto in_the_dark = [](int tile) {
         return tile % 2 == 0 ? Grey{.mean = 1.0, .deviation = 0.0}
                              : Grey{.mean = 0.001, .deviation = 0.0002};
     };
-    CHECK(noise_of(noisy_film(in_the_dark)) == Approx(1.07 * 0.04 * clean).epsilon(0.05));
+    CHECK(estimate_noise(noisy_film(in_the_dark)) == Approx(1.07 * 0.04 * clean).epsilon(0.05));
 }
 
 TEST_CASE("a film without noise is clean, and one that tells nothing is not", "[noise]")
 {
     const double unknown = std::numeric_limits<double>::infinity();
-    CHECK(noise_of(noisy_film([](int) { return Grey{.deviation = 0.0}; })) == 0.0);
-    CHECK(noise_of(noisy_film([](int) { return Grey{.mean = 0.0, .deviation = 0.0}; })) == unknown);
+    CHECK(estimate_noise(noisy_film([](int) { return Grey{.deviation = 0.0}; })) == 0.0);
+    CHECK(estimate_noise(noisy_film([](int) { return Grey{.mean = 0.0, .deviation = 0.0}; })) == unknown);
     Film film({.width = 3, .height = 2, .region = {.x0 = 0, .y0 = 0, .x1 = 3, .y1 = 2}});
-    CHECK(noise_of(film) == unknown);
+    CHECK(estimate_noise(film) == unknown);
     film.add_sample(1, 1, 0, Rgb(1.0f));
     film.count_samples(0, 1);
-    CHECK(noise_of(film) == unknown);
+    CHECK(estimate_noise(film) == unknown);
     film.count_samples(1, 2);
-    CHECK(noise_of(film) > 1.0);
+    CHECK(estimate_noise(film) > 1.0);
 }
 
 /// Brightness of the samples of each half of the film.
@@ -128,17 +128,17 @@ TEST_CASE("of fewer than 20 tiles none is left out", "[noise]")
         CAPTURE(tiles);
         std::vector<Halves> halves(tiles, {.even = 1.1f, .odd = 0.9f});
         halves[tiles / 2] = {.even = 1.5f, .odd = 0.5f};
-        CHECK(noise_of(row_of_tiles(halves)) == Approx(0.5));
+        CHECK(estimate_noise(row_of_tiles(halves)) == Approx(0.5));
     }
     std::vector<Halves> twenty(20, {.even = 1.1f, .odd = 0.9f});
     twenty[7] = {.even = 1.5f, .odd = 0.5f};
-    CHECK(noise_of(row_of_tiles(twenty)) == Approx(0.1));
+    CHECK(estimate_noise(row_of_tiles(twenty)) == Approx(0.1));
 }
 
 TEST_CASE("noise is relative to the mean of both halves", "[noise]")
 {
-    CHECK(noise_of(row_of_tiles({{.even = 3.0f, .odd = 1.0f}})) == Approx(0.5));
-    CHECK(noise_of(row_of_tiles({{.even = 1.0f, .odd = 3.0f}})) == Approx(0.5));
+    CHECK(estimate_noise(row_of_tiles({{.even = 3.0f, .odd = 1.0f}})) == Approx(0.5));
+    CHECK(estimate_noise(row_of_tiles({{.even = 1.0f, .odd = 3.0f}})) == Approx(0.5));
 }
 
 TEST_CASE("noise is looked at where halves have good sets of points", "[noise]")
@@ -209,7 +209,7 @@ TEST_CASE("noise is the true error, as references have it", "[noise]")
         for (int seed = 0; seed < seeds; ++seed) {
             o.sampling.seed = static_cast<std::uint64_t>(seed);
             const Film film = render(scene, room_camera(), o).film;
-            estimated += noise_of(film) * noise_of(film);
+            estimated += estimate_noise(film) * estimate_noise(film);
             measured += relative_square_error(film.develop(), reference);
         }
         CAPTURE(static_cast<int>(kind), std::sqrt(measured / seeds), std::sqrt(estimated / seeds));
@@ -240,8 +240,8 @@ TEST_CASE("a render stops at a level of noise, whatever the threads and passes",
         control.on_progress = [&](const Progress& progress) { last = progress.noise; };
         RenderResult result = render(scene, room_camera(), o, control);
         CHECK(is_noise_look(result.film.sample_count()));
-        CHECK(noise_of(result.film) <= goal);
-        CHECK(last == noise_of(result.film));
+        CHECK(estimate_noise(result.film) <= goal);
+        CHECK(last == estimate_noise(result.film));
         if (first) {
             CHECK(result.film == first->film);
         }
@@ -252,7 +252,7 @@ TEST_CASE("a render stops at a level of noise, whatever the threads and passes",
     // Not a look too late.
     for (std::int64_t n = next_noise_look(0); n < count; n = next_noise_look(n)) {
         o.sampling.samples.end = n;
-        CHECK(noise_of(render(scene, room_camera(), o).film) > goal);
+        CHECK(estimate_noise(render(scene, room_camera(), o).film) > goal);
     }
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("a render that is held has the bits of one at once, however it grows",
             renderer.render(more);
         }
         CHECK(renderer.samples() == 8);
-        CHECK(renderer.noise() == noise_of(renderer.part().film));
+        CHECK(renderer.noise() == estimate_noise(renderer.part().film));
         renderer.finish();
         CHECK(same_bits(renderer.part(), whole));
         CHECK(renderer.image().pixels == whole.film.develop().pixels);

@@ -46,7 +46,7 @@ ValueType<float> focal_length()
         if (!length || !(*length >= shortest && *length <= longest)) {
             return std::nullopt;
         }
-        return static_cast<float>(vertical_fov_of(1e-3 * *length));
+        return static_cast<float>(compute_vertical_fov(1e-3 * *length));
     };
     return {.parse = parse,
             .expected = "millimetres from 1 to 10000",

@@ -70,7 +70,7 @@ std::optional<Backdrop> parse_backdrop(std::string_view given)
     if (color) {
         return Backdrop{.color = color};
     }
-    return type_of(given) ? std::optional(Backdrop{.color = {}, .photo = given}) : std::nullopt;
+    return find_type(given) ? std::optional(Backdrop{.color = {}, .photo = given}) : std::nullopt;
 }
 
 std::string backdrop_text(const Backdrop& backdrop)
@@ -88,7 +88,7 @@ void check_transparency(const DisplayArguments& display,
 {
     for (const std::filesystem::path& output : outputs) {
         if (display.backdrop && display.backdrop->is_transparent() &&
-            type_of(output) == ImageType::jpeg) {
+            find_type(output) == ImageType::jpeg) {
             throw OptionError(fmt::format(
                 "{}: JPEG has no alpha for --background transparent: name it .png or .webp",
                 output.string()));
@@ -112,7 +112,7 @@ void add_display_options(OptionList& options, DisplayArguments& display)
     exposure.info.may_be_number = true;
     exposure.uses.plan_render = true;    // the light is metered where the scene is
     exposure.uses.python_render = true;  // likewise
-    const auto curves = choices_of(io::all_tone_curves, io::tone_curve_name);
+    const auto curves = make_choices(io::all_tone_curves, io::tone_curve_name);
     options.add("--tone-map", choice_text(curves.words()),
                 "Tone mapping of .png, .jpg and .webp: filmic (default), pbr-neutral (keeps base "
                 "colours under "

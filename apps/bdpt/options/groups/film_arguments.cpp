@@ -32,7 +32,7 @@ std::optional<FilterOptions> parse_filter(std::string_view text)
 {
     const std::size_t colon = text.find(':');
     const std::optional<FilterKind> kind =
-        enumerator_of<FilterKind>(lower_case(text.substr(0, colon)));
+        parse_enumerator<FilterKind>(lower_case(text.substr(0, colon)));
     if (!kind) {
         return std::nullopt;
     }
@@ -50,7 +50,7 @@ std::optional<AovSet> parse_aovs(std::string_view text)
 {
     AovSet result;
     for (const std::string_view part : split_at_commas(text)) {
-        const std::optional<Aov> aov = enumerator_of<Aov>(lower_case(part));
+        const std::optional<Aov> aov = parse_enumerator<Aov>(lower_case(part));
         if (!aov || *aov == Aov::shadow) {  // requested by --ground
             return std::nullopt;
         }

@@ -39,7 +39,7 @@ std::optional<float> depth_in_the_middle(const Scene& scene, CameraDesc camera)
 }
 
 /// Returns the lens radius [m].
-float radius_of(const LensChoice& lens, const CameraDesc& camera)
+float compute_radius(const LensChoice& lens, const CameraDesc& camera)
 {
     if (lens.radius) {
         return static_cast<float>(*lens.radius);
@@ -47,7 +47,7 @@ float radius_of(const LensChoice& lens, const CameraDesc& camera)
     if (!lens.f_stop) {
         return camera.lens_radius;
     }
-    const double radius = lens_radius_of(*lens.f_stop, static_cast<double>(camera.vertical_fov));
+    const double radius = compute_lens_radius(*lens.f_stop, static_cast<double>(camera.vertical_fov));
     if (!is_finite(radius)) {
         reject("--f-stop", fmt::format("{}", *lens.f_stop), "a greater number for this view");
     }
@@ -89,7 +89,7 @@ CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& sce
                                 camera.name));
     }
     const bool had_lens = camera.lens_radius > 0.0f;
-    camera.lens_radius = radius_of(lens, camera);
+    camera.lens_radius = compute_radius(lens, camera);
     if (lens.focus_distance) {
         if (!lens.radius && camera.lens_radius == 0.0f) {
             throw OptionError(

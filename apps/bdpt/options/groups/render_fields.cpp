@@ -20,14 +20,14 @@ namespace bdpt::app {
 namespace {
 
 /// Returns "--light-samples" for "light_samples".
-std::string flag_of(std::string_view name)
+std::string to_flag(std::string_view name)
 {
     std::string flag = "--" + std::string(name);
     std::replace(flag.begin(), flag.end(), '_', '-');
     return flag;
 }
 
-std::string text_of(const Range& range)
+std::string format_range(const Range& range)
 {
     if (range.high == std::numeric_limits<double>::infinity()) {
         return fmt::format("a number {} {}", range.low_is_excluded ? "above" : "from", range.low);
@@ -61,7 +61,7 @@ auto value_type(const OptionInfo& info)
             return value && range.contains(*value) ? value : std::nullopt;
         };
         return ValueType<double>{.parse = parse,
-                                 .expected = text_of(info.range),
+                                 .expected = format_range(info.range),
                                  .info = {.json = JsonType::number, .range = info.range}};
     } else if constexpr (std::is_same_v<T, FilterOptions>) {
         return filter_type();
@@ -79,7 +79,7 @@ auto value_type(const OptionInfo& info)
 }
 
 template <typename T>
-std::string value_of(const OptionInfo& info)
+std::string format_value(const OptionInfo& info)
 {
     if constexpr (HasEnumerators<T>) {
         return choice_text(choices_of_enumeration<T>().words());
@@ -97,7 +97,7 @@ void add_field(OptionList& options, const Field& field, Value& value)
     using T = typename Unwrapped<Value>::Type;
     const std::string standard =
         field.info.otherwise.empty() ? option_text(value) : std::string(field.info.otherwise);
-    options.add(flag_of(field.name), value_of<T>(field.info),
+    options.add(to_flag(field.name), format_value<T>(field.info),
                 fmt::format("{}. Default: {}", field.info.help, standard), value,
                 value_type<T>(field.info));
 }

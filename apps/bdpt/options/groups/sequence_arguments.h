@@ -83,15 +83,15 @@ enum class FramesBy : std::uint8_t { one_process, tasks };
 /// Returns all images that `arguments` request; those of a frame next to each other. `cameras` are
 /// the names of the scene's cameras; needed for all cameras only. Throws `Error`: invalid_input if
 /// cameras have the same name, not_found if there are none.
-[[nodiscard]] std::vector<SequenceView> views_of(const RenderArguments& arguments,
-                                                 const std::vector<std::string>& cameras);
+[[nodiscard]] std::vector<SequenceView> make_views(const RenderArguments& arguments,
+                                                   const std::vector<std::string>& cameras);
 
 /// Returns the arguments that render this image alone: files, time, seed.
-[[nodiscard]] RenderArguments arguments_of(const RenderArguments& arguments,
-                                           const SequenceView& view);
+[[nodiscard]] RenderArguments make_view_arguments(const RenderArguments& arguments,
+                                                  const SequenceView& view);
 
 /// Returns `words` of a command line for several images, with words added that select this one.
-[[nodiscard]] std::vector<std::string> words_of(std::vector<std::string> words,
-                                                const SequenceView& view);
+[[nodiscard]] std::vector<std::string> add_view_words(std::vector<std::string> words,
+                                                      const SequenceView& view);
 
 }  // namespace bdpt::app

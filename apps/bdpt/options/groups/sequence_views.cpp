@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns all files of an image.
-std::vector<fs::path> files_of(const RenderArguments& arguments)
+std::vector<fs::path> collect_files(const RenderArguments& arguments)
 {
     std::vector<fs::path> files = arguments.outputs;
     if (arguments.strategies) {
@@ -37,7 +37,7 @@ std::vector<fs::path> files_of(const RenderArguments& arguments)
     return files;
 }
 
-std::vector<int> numbers_of(const FrameRange& range)
+std::vector<int> list_frames(const FrameRange& range)
 {
     std::vector<int> numbers;
     for (std::int64_t frame = range.first; frame <= range.last; frame += range.step) {
@@ -74,8 +74,8 @@ void check_patterns(const RenderArguments& arguments)
         return;
     }
     const Sequence& sequence = *arguments.sequence;
-    const bool many = sequence.frames && numbers_of(*sequence.frames).size() > 1;
-    for (const fs::path& file : files_of(arguments)) {
+    const bool many = sequence.frames && list_frames(*sequence.frames).size() > 1;
+    for (const fs::path& file : collect_files(arguments)) {
         if (many && !takes_number(file)) {
             throw OptionError(
                 fmt::format("{}: several frames need #### in the name", file.string()));
@@ -92,7 +92,7 @@ std::optional<std::string> warning_of_flicker(const RenderArguments& arguments, 
 {
     const bool writes_pictures =
         std::any_of(arguments.outputs.begin(), arguments.outputs.end(), [](const fs::path& output) {
-            const std::optional<ImageType> type = type_of(output);
+            const std::optional<ImageType> type = find_type(output);
             return type && is_for_screens(*type);
         });
     if (!arguments.sequence || !arguments.sequence->frames || !writes_pictures) {
@@ -111,8 +111,8 @@ std::optional<std::string> warning_of_flicker(const RenderArguments& arguments, 
     return std::nullopt;
 }
 
-std::vector<SequenceView> views_of(const RenderArguments& arguments,
-                                   const std::vector<std::string>& cameras)
+std::vector<SequenceView> make_views(const RenderArguments& arguments,
+                                     const std::vector<std::string>& cameras)
 {
     if (!arguments.sequence) {
         return {SequenceView{}};
@@ -137,7 +137,7 @@ std::vector<SequenceView> views_of(const RenderArguments& arguments,
     if (!sequence.frames) {
         add({});
     } else {
-        for (const int number : numbers_of(*sequence.frames)) {
+        for (const int number : list_frames(*sequence.frames)) {
             SequenceView view;
             view.frame = number;
             if (sequence.orbit > 0) {
@@ -155,34 +155,34 @@ std::vector<SequenceView> views_of(const RenderArguments& arguments,
     return views;
 }
 
-RenderArguments arguments_of(const RenderArguments& arguments, const SequenceView& view)
+RenderArguments make_view_arguments(const RenderArguments& arguments, const SequenceView& view)
 {
     RenderArguments result = arguments;
     if (!arguments.sequence) {
         return result;
     }
-    const auto file_of = [&view](const fs::path& pattern) {
+    const auto expand = [&view](const fs::path& pattern) {
         const fs::path file = view.frame ? with_number(pattern, *view.frame) : pattern;
         return view.camera ? with_camera(file, view.camera_name) : file;
     };
     for (fs::path& output : result.outputs) {
-        output = file_of(output);
+        output = expand(output);
     }
     if (result.strategies) {
-        result.strategies->layers = file_of(result.strategies->layers);
-        result.strategies->sheet = file_of(result.strategies->sheet);
+        result.strategies->layers = expand(result.strategies->layers);
+        result.strategies->sheet = expand(result.strategies->sheet);
     }
     if (result.part) {
-        result.part->file = file_of(result.part->file);
+        result.part->file = expand(result.part->file);
     }
     if (result.stats) {
-        result.stats = file_of(*result.stats);
+        result.stats = expand(*result.stats);
     }
     if (result.rates && result.rates->file) {
-        result.rates->file = file_of(*result.rates->file);
+        result.rates->file = expand(*result.rates->file);
     }
     if (result.rates && result.rates->saved) {
-        result.rates->saved = file_of(*result.rates->saved);
+        result.rates->saved = expand(*result.rates->saved);
     }
     if (view.time) {
         result.scene.time = view.time;
@@ -195,7 +195,7 @@ RenderArguments arguments_of(const RenderArguments& arguments, const SequenceVie
     return result;
 }
 
-std::vector<std::string> words_of(std::vector<std::string> words, const SequenceView& view)
+std::vector<std::string> add_view_words(std::vector<std::string> words, const SequenceView& view)
 {
     if (view.frame) {
         words.emplace_back("--frames");  // the last one counts

@@ -49,7 +49,7 @@ std::optional<Strategy> parse_strategy(std::string_view text)
 
 /// Returns the integrator: options of subpaths and strategies imply bdpt, unless another integrator
 /// is named.
-IntegratorKind integrator_of(const RenderOptions& render, const OptionList& options)
+IntegratorKind find_integrator(const RenderOptions& render, const OptionList& options)
 {
     constexpr std::array for_bdpt{"--light-paths", "--connections", "--disable",
                                   "--max-camera-depth", "--max-light-depth"};
@@ -84,9 +84,9 @@ void check_takers(const RenderOptions& render, const OptionList& options)
         if (options.given(row.option) && !taken) {
             std::vector<std::string> names;
             for (const IntegratorKind taker : row.takers) {
-                names.emplace_back(name_of(taker));
+                names.emplace_back(to_name(taker));
             }
-            const std::string_view its = name_of(render.integrator);
+            const std::string_view its = to_name(render.integrator);
             const bool all_others = names.size() + 1 == integrators().size();
             throw OptionError(all_others ? fmt::format("{} cannot be combined with --integrator {}",
                                                        row.option, its)
@@ -103,7 +103,7 @@ void check_values(const RenderOptions& render, const OptionList& options)
     const IntegratorKind integrator = render.integrator;
     if (no_light_paths && (integrator == IntegratorKind::lt || integrator == IntegratorKind::vcm)) {
         throw OptionError(
-            fmt::format("--integrator {} needs --light-paths above 0", name_of(integrator)));
+            fmt::format("--integrator {} needs --light-paths above 0", to_name(integrator)));
     }
     if (no_light_paths && options.given("--connections") &&
         render.bidirectional.connections.value_or(0.0) > 0.0) {
@@ -113,7 +113,7 @@ void check_values(const RenderOptions& render, const OptionList& options)
     if (integrator == IntegratorKind::vcm && heuristic != Heuristic::power &&
         heuristic != Heuristic::balance) {
         throw OptionError(fmt::format("--integrator vcm needs --heuristic power or balance, not {}",
-                                      name_of(heuristic)));
+                                      to_name(heuristic)));
     }
 }
 
@@ -185,7 +185,7 @@ void add_transport_options(OptionList& options, RenderOptions& render, PathsOnly
 
 RenderOptions with_transport(RenderOptions render, PathsOnly only, const OptionList& options)
 {
-    render.integrator = integrator_of(render, options);
+    render.integrator = find_integrator(render, options);
     check_takers(render, options);
     check_values(render, options);
     render.transport = with_only(only, render.transport);
@@ -195,14 +195,14 @@ RenderOptions with_transport(RenderOptions render, PathsOnly only, const OptionL
 nlohmann::ordered_json transport_json(const RenderOptions& options)
 {
     constexpr int unlimited = std::numeric_limits<int>::max();
-    nlohmann::ordered_json result{{"integrator", name_of(options.integrator)},
-                                  {"heuristic", name_of(options.transport.heuristic)},
+    nlohmann::ordered_json result{{"integrator", to_name(options.integrator)},
+                                  {"heuristic", to_name(options.transport.heuristic)},
                                   {"max_depth", options.transport.max_depth},
                                   {"min_depth", options.transport.min_depth},
                                   {"light_paths", number_json(options.bidirectional.light_paths)},
                                   {"rr_start", options.transport.rr_start},
-                                  {"environment_sampling", name_of(options.sampling.environment)},
-                                  {"light_sampling", name_of(options.sampling.lights)},
+                                  {"environment_sampling", to_name(options.sampling.environment)},
+                                  {"light_sampling", to_name(options.sampling.lights)},
                                   {"light_samples", options.sampling.light_samples}};
     if (options.bidirectional.connections) {
         result["connections"] = number_json(*options.bidirectional.connections);
@@ -232,7 +232,7 @@ std::string disabled_text(const RenderOptions& options)
 
 std::string integrator_words(const RenderOptions& options)
 {
-    const std::string name(name_of(options.integrator));
+    const std::string name(to_name(options.integrator));
     if (!info(options.integrator).traces_light_paths) {
         return name;
     }
@@ -247,7 +247,7 @@ std::string integrator_words(const RenderOptions& options)
 std::string integrator_text(const RenderOptions& options, bool chosen)
 {
     if (!chosen) {
-        return std::string(name_of(options.integrator));
+        return std::string(to_name(options.integrator));
     }
     const std::string text = fmt::format("auto chose {}", info(options.integrator).summary);
     if (!info(options.integrator).traces_light_paths) {

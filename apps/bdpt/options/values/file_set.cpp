@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns device and inode of a file; none: it does not exist.
-std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& file)
+std::optional<std::pair<dev_t, ino_t>> find_identity(const fs::path& file)
 {
     struct stat status {};
     const int result =
@@ -24,7 +24,7 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& file)
 }
 
 /// Returns the resolved path of a file that does not exist.
-fs::path place_of(const fs::path& file)
+fs::path resolve_path(const fs::path& file)
 {
     if (is_standard_output(file)) {
         return "-";
@@ -37,8 +37,9 @@ fs::path place_of(const fs::path& file)
 
 bool FileSet::add(const fs::path& file)
 {
-    const auto identity = identity_of(file);
-    return identity ? there_.insert(*identity).second : not_there_.insert(place_of(file)).second;
+    const auto identity = find_identity(file);
+    return identity ? there_.insert(*identity).second
+                    : not_there_.insert(resolve_path(file)).second;
 }
 
 void FileSet::add(const std::vector<fs::path>& files)
@@ -50,8 +51,8 @@ void FileSet::add(const std::vector<fs::path>& files)
 
 bool FileSet::contains(const fs::path& file) const
 {
-    const auto identity = identity_of(file);
-    return identity ? there_.contains(*identity) : not_there_.contains(place_of(file));
+    const auto identity = find_identity(file);
+    return identity ? there_.contains(*identity) : not_there_.contains(resolve_path(file));
 }
 
 }  // namespace bdpt::app

@@ -15,7 +15,7 @@ constexpr std::uint64_t two_ids = sizeof(IdCounts) + 32;
 constexpr std::uint64_t id_channels = 2 * IdFilm::levels;
 
 /// Returns the size of the sums of a pixel in an `AovFilm` or `IdFilm` [bytes].
-std::uint64_t sums_of(const AovLayer& layer)
+std::uint64_t count_sum_bytes(const AovLayer& layer)
 {
     switch (layer.aov) {
         case Aov::object:
@@ -44,7 +44,7 @@ std::uint64_t film_bytes(const RenderOptions& options, const Size& size)
             const bool is_id = layer.aov == Aov::object || layer.aov == Aov::material;
             const std::uint64_t channels = is_id ? id_channels : layer.channels.size();
             // Developed, and once more in the channel order of a file.
-            pixel += sums_of(layer) + 2 * channels * sizeof(float);
+            pixel += count_sum_bytes(layer) + 2 * channels * sizeof(float);
         }
     }
     const PixelRect region = options.film.crop.value_or(

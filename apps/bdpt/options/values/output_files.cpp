@@ -16,7 +16,7 @@
 namespace bdpt::app {
 namespace fs = std::filesystem;
 
-std::optional<ImageType> type_of(const fs::path& output)
+std::optional<ImageType> find_type(const fs::path& output)
 {
     using enum ImageType;
     static constexpr std::array<std::pair<std::string_view, ImageType>, 6> types{{{".exr", exr},
@@ -66,7 +66,7 @@ void check_outputs(std::span<const fs::path> outputs, const FileSet& inputs)
     check_not_read(outputs, inputs);
     FileSet known;
     for (const fs::path& output : outputs) {
-        if (!type_of(output)) {
+        if (!find_type(output)) {
             throw Error(ErrorCode::usage, fmt::format("{}: unknown type of image: the name must "
                                                       "end in .exr, .hdr, .png, .jpg or .webp",
                                                       output.string()));
@@ -93,7 +93,7 @@ void check_output(std::string_view option, const fs::path& file, const FileSet& 
 bool writes_exr(std::span<const fs::path> outputs)
 {
     return std::any_of(outputs.begin(), outputs.end(),
-                       [](const fs::path& output) { return type_of(output) == ImageType::exr; });
+                       [](const fs::path& output) { return find_type(output) == ImageType::exr; });
 }
 
 std::vector<fs::path> temporary_paths(std::span<const fs::path> outputs)

@@ -18,7 +18,7 @@ enum class ImageType : std::uint8_t { exr, hdr, png, jpeg, webp };
 [[nodiscard]] bool is_for_screens(ImageType type);
 
 /// Returns the type by the name of `output`; none: unknown.
-[[nodiscard]] std::optional<ImageType> type_of(const std::filesystem::path& output);
+[[nodiscard]] std::optional<ImageType> find_type(const std::filesystem::path& output);
 
 /// Tests whether the name of `file` ends with `extension`, such as ".exr", in small or capital
 /// letters.

@@ -11,7 +11,7 @@ namespace bdpt::app {
 namespace {
 
 /// Returns the option by which strategy images were requested.
-std::string option_of(const StrategyFiles& files)
+std::string format_option(const StrategyFiles& files)
 {
     return files.layers.empty() ? "--strategy-depth"
                                 : fmt::format("--strategies \"{}\"", files.layers.string());
@@ -51,7 +51,7 @@ StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
         throw Error(ErrorCode::usage,
                     fmt::format("{}: no strategy that is used makes paths of up to {} edges "
                                 "(--strategy-depth)",
-                                option_of(files), wanted));
+                                format_option(files), wanted));
     }
     const int depth = affordable_depth(wanted, options, camera);
     if (depth == wanted) {
@@ -59,7 +59,7 @@ StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
     }
     const std::string figures = fmt::format(
         "{}: images of paths of up to {} edges take {:.1f} GB, more than the limit of {:.1f} GB",
-        option_of(files), wanted, gigabytes(bytes),
+        format_option(files), wanted, gigabytes(bytes),
         gigabytes(options.bidirectional.strategy_memory));
     const bool any = depth > 0 && bytes_up_to(depth, options, camera) > 0;
     if (files.depth || !any) {

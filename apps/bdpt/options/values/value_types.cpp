@@ -15,7 +15,7 @@ namespace bdpt::app {
 namespace {
 
 template <typename Number>
-std::optional<Number> number_of(const std::string& text)
+std::optional<Number> to_number(const std::string& text)
 {
     Number value{};
     const char* const end = text.data() + text.size();
@@ -27,7 +27,7 @@ template <typename Accept>
 ValueType<double> number_that(const Accept& accept, std::string expected, Range range = {})
 {
     const auto parse = [accept](const std::string& text) {
-        const std::optional<double> value = number_of<double>(text);
+        const std::optional<double> value = to_number<double>(text);
         return value && accept(*value) ? value : std::nullopt;
     };
     return {.parse = parse,
@@ -87,13 +87,13 @@ ValueType<std::string> file_named(std::vector<std::string> extensions, std::stri
 
 std::optional<double> decimal_number(const std::string& text)
 {
-    return number_of<double>(text);
+    return to_number<double>(text);
 }
 
 ValueType<std::int64_t> whole_number(std::int64_t least, std::int64_t most)
 {
     const auto parse = [least, most](const std::string& text) {
-        const auto value = number_of<std::int64_t>(text);
+        const auto value = to_number<std::int64_t>(text);
         return value && *value >= least && *value <= most ? value : std::nullopt;
     };
     return {.parse = parse,
@@ -104,7 +104,7 @@ ValueType<std::int64_t> whole_number(std::int64_t least, std::int64_t most)
 
 ValueType<std::uint64_t> any_seed()
 {
-    return {.parse = number_of<std::uint64_t>,
+    return {.parse = to_number<std::uint64_t>,
             .expected = "a whole number from 0 to 2^64 - 1",
             .info = {.json = JsonType::whole_number, .range = {.low = 0}}};
 }

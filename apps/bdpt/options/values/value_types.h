@@ -123,7 +123,7 @@ struct Choices {
         return {.parse = parse, .expected = words_text(words()), .info = {.words = words()}};
     }
     /// Returns the first word of `value`, which is one of them.
-    [[nodiscard]] std::string word_of(Value value) const
+    [[nodiscard]] std::string find_word(Value value) const
     {
         for (const auto& [word, its] : entries) {
             if (its == value) {
@@ -146,12 +146,12 @@ template <HasEnumerators Enum>
 }
 
 /// Returns the words of all `values`, by their names.
-template <typename Values, typename NameOf>
-[[nodiscard]] auto choices_of(const Values& values, const NameOf& name_of)
+template <typename Values, typename GetName>
+[[nodiscard]] auto make_choices(const Values& values, const GetName& get_name)
 {
     Choices<std::remove_cvref_t<decltype(*std::begin(values))>> result;
     for (const auto value : values) {
-        result.entries.emplace_back(std::string(name_of(value)), value);
+        result.entries.emplace_back(std::string(get_name(value)), value);
     }
     return result;
 }

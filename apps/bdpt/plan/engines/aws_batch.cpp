@@ -11,13 +11,13 @@ namespace bdpt::app {
 namespace {
 
 constexpr const char* submit = R"sh(#!/bin/bash
-# ./submit.sh QUEUE IMAGE FILESYSTEM: renders plan.json with AWS Batch (the aws command must be set up).
+# ./submit.sh QUEUE IMAGE FILESYSTEM renders plan.json with AWS Batch. The aws command must be configured.
 #   QUEUE       name of a job queue on EC2
-#   IMAGE       bdpt in a registry; the Containerfile of bdpt makes one
-#   FILESYSTEM  fs-..., of Amazon EFS. In it lies what is here in
+#   IMAGE       bdpt in a registry; build it from the Containerfile of bdpt
+#   FILESYSTEM  fs-..., an Amazon EFS file system with the contents of
 #               @SHARED@
-# VCPUS=16 MEMORY=32768 ./submit.sh ...: processors and memory [MiB] of a task.
-# Again: what is missing; tasks that are done end at once. The merge starts when all tasks have succeeded.
+# VCPUS=16 MEMORY=32768 ./submit.sh ... sets the vCPUs and the memory [MiB] of each task.
+# Run it again to render what is missing: complete tasks end at once. The merge starts when all tasks have succeeded.
 set -eu
 [ $# = 3 ] || { echo "usage: $0 QUEUE IMAGE FILESYSTEM" >&2; exit 2; }
 queue=$1 image=$2 filesystem=$3
@@ -40,7 +40,7 @@ overrides=$(cat <<JSON
 @MERGE@
 JSON
 )
-# Reclaimed machines and SIGTERM (143): again. Wrong input: not.
+# Retries after reclaimed machines and SIGTERM (143), not after wrong input.
 retry='{"attempts": 10, "evaluateOnExit": [
   {"onStatusReason": "Host EC2*", "action": "RETRY"},
   {"onExitCode": "143", "action": "RETRY"},

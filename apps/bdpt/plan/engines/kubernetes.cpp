@@ -12,12 +12,12 @@ namespace bdpt::app {
 namespace {
 
 constexpr const char* head = R"(# kubectl apply -f kubernetes.yaml
-# Renders plan.json as an Indexed Job, and merges the parts (Kubernetes 1.29 or later). To be changed here:
-# - image: where your cluster gets bdpt from; the Containerfile of bdpt makes one
-# - claimName: of a PersistentVolumeClaim that all pods can write to (ReadWriteMany). In it lies what is here in
+# Renders plan.json as an Indexed Job, and merges the parts (Kubernetes 1.29 or later). Change these fields:
+# - image: bdpt in a registry that your cluster can reach; build it from the Containerfile of bdpt
+# - claimName: a PersistentVolumeClaim that all pods can write to (ReadWriteMany), with the contents of
 #   @SHARED@ (subPath, beside mountPath, names a folder of the claim)
-# - resources: processors and memory of a task
-# Again (kubectl delete -f, then apply): what is missing; tasks that are done end at once.
+# - resources: CPUs and memory of each task
+# To render what is missing, run kubectl delete -f, then apply: complete tasks end at once.
 )";
 
 constexpr const char* job = R"(---
@@ -78,7 +78,7 @@ std::vector<EngineFile> kubernetes_files(const Plan& plan, const std::filesystem
     const ContainerPlace place = container_place(plan, folder);
     const std::string how_many =
         filled(how_tasks, {{"COUNT", fmt::format("{}", plan.tasks.size())}});
-    const auto job_of = [&](const std::string& name, const std::string& how, const json& args) {
+    const auto format_job = [&](const std::string& name, const std::string& how, const json& args) {
         return filled(job, {{"HOW", how},
                             {"NAME", name},
                             {"VERSION", BDPT_VERSION},
@@ -92,7 +92,8 @@ std::vector<EngineFile> kubernetes_files(const Plan& plan, const std::filesystem
     const std::string name = job_name(folder);
     return {{.name = "kubernetes.yaml",
              .text = filled(head, {{"SHARED", one_line(place.shared.string())}}) +
-                     job_of(name, how_many, task) + job_of(name + "-merge", how_merge, merge)}};
+                     format_job(name, how_many, task) +
+                     format_job(name + "-merge", how_merge, merge)}};
 }
 
 }  // namespace bdpt::app

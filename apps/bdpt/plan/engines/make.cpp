@@ -16,8 +16,8 @@ namespace {
 // the checkpoint of a killed task would count as complete.
 constexpr const char* makefile =
     R"(# make -j4 -k: renders four tasks of plan.json at a time, and merges them.
-# Again: what is missing; tasks that are done end at once.
-# make -j4 -k THREADS=8 BDPT=/opt/bdpt/bin/bdpt: threads of each task, and where bdpt is.
+# Run it again to render what is missing: complete tasks end at once.
+# make -j4 -k THREADS=8 BDPT=/opt/bdpt/bin/bdpt sets the threads of each task and the path of bdpt.
 BDPT := @PROGRAM@
 THREADS :=
 

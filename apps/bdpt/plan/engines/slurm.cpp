@@ -7,14 +7,14 @@ namespace bdpt::app {
 namespace {
 
 constexpr const char* sbatch_script = R"sh(#!/bin/bash
-# ./submit.sh [OPTION OF sbatch]...: renders plan.json with Slurm, and merges the parts. Options are for the
-# tasks, like --time=2:00:00 --cpus-per-task=16; for all jobs: SBATCH_PARTITION, SBATCH_ACCOUNT.
-# Again: what is missing; tasks that are done end at once. Of some tasks only: --array=3,7.
-# BDPT=/opt/bdpt/bin/bdpt ./submit.sh: where bdpt is.
+# ./submit.sh [OPTION OF sbatch]... renders plan.json with Slurm and merges the parts. The options apply to the
+# tasks, like --time=2:00:00 --cpus-per-task=16. SBATCH_PARTITION and SBATCH_ACCOUNT apply to all jobs.
+# Run it again to render what is missing: complete tasks end at once. --array=3,7 runs only these tasks.
+# BDPT=/opt/bdpt/bin/bdpt ./submit.sh sets the path of bdpt.
 set -eu
 cd -- "$(dirname -- "$0")"
 job=$(sbatch --parsable "$@" tasks.sbatch)
-#afterany : also when tasks have failed.merge.log then has the commands that render what is missing.
+# afterany: the merge also runs after failed tasks. merge.log then lists the commands that render what is missing.
 merge=$(sbatch --parsable --dependency=afterany:"${job%%;*}" merge.sbatch)
 echo "tasks: job ${job%%;*}; merge: job ${merge%%;*}, merge.log"
 )sh";
@@ -26,12 +26,12 @@ constexpr const char* tasks = R"sh(#!/bin/bash
 #SBATCH --open-mode=append
 #SBATCH --output=task-%a.log
 #SBATCH --signal=B:USR1@120
-# Renders one task of plan.json. It keeps its part when the time is over, the node is taken away or the process is
-# killed, and goes on with it when Slurm starts it again.
+# Renders one task of plan.json. Its part survives the time limit, a preempted node and a killed process, and the task
+# resumes from it when Slurm starts it again.
 "${BDPT:-bdpt}" render --plan plan.json --task "$SLURM_ARRAY_TASK_ID" --quiet \
   ${SLURM_CPUS_PER_TASK:+--threads "$SLURM_CPUS_PER_TASK"} &
 task=$!
-# The time limit is near: another signal than TERM, which scancel sends, too.
+# Slurm sends this signal before the time limit. It is not TERM, because scancel sends that.
 time_is_over=
 trap 'time_is_over=1; kill -TERM "$task" 2>/dev/null' USR1
 trap 'kill -TERM "$task" 2>/dev/null' TERM
@@ -46,7 +46,7 @@ wait "$task" 2>/dev/null
 last=$?
 [ "$last" = 127 ] || code=$last
 
-# Slurm itself starts tasks again only after the failure of a node.
+# Slurm itself restarts tasks only after a node failure.
 again() {
   if [ "${SLURM_RESTART_COUNT:-0}" -lt "$1" ]; then
     scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
@@ -63,7 +63,7 @@ exit "$code"
 constexpr const char* merge = R"sh(#!/bin/bash
 #SBATCH --job-name=bdpt-merge
 #SBATCH --output=merge.log
-# Makes the images of plan.json. Exit code 12: samples are missing; merge.log has the tasks.
+# Merges the images of plan.json. Exit code 12: samples are missing; merge.log lists the tasks.
 exec "${BDPT:-bdpt}" merge --plan plan.json
 )sh";
 

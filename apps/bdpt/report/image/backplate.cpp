@@ -114,8 +114,8 @@ void check_backplate(const DisplayArguments& display)
     }
 }
 
-std::filesystem::path photo_of(const std::filesystem::path& named,
-                               const std::filesystem::path& image)
+std::filesystem::path find_photo(const std::filesystem::path& named,
+                                 const std::filesystem::path& image)
 {
     std::error_code ignored;
     const std::filesystem::path beside = image.parent_path() / named;

@@ -27,7 +27,7 @@ namespace bdpt::app {
 void check_backplate(const DisplayArguments& display);
 
 /// The photograph that the metadata of `image` name: where the name leads, else beside the image.
-[[nodiscard]] std::filesystem::path photo_of(const std::filesystem::path& named,
-                                             const std::filesystem::path& image);
+[[nodiscard]] std::filesystem::path find_photo(const std::filesystem::path& named,
+                                               const std::filesystem::path& image);
 
 }  // namespace bdpt::app

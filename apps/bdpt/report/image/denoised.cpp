@@ -46,7 +46,7 @@ Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const
             helpers.push_back(visible_values(*layer, coverage.noisy));
         }
     }
-    const Image colors = image_of(visible_values(layer_of(image, ""), coverage.noisy));
+    const Image colors = to_image(visible_values(to_layer(image, ""), coverage.noisy));
     Image result = denoised(denoiser, colors, helpers);
     for (std::size_t i = 0; i < result.pixels.size(); ++i) {
         // Light paths may contribute to pixels whose camera rays found nothing.
@@ -56,7 +56,7 @@ Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const
     return result;
 }
 
-Layer layer_of(const Image& image, const char* name)
+Layer to_layer(const Image& image, const char* name)
 {
     Layer layer{.name = name,
                 .channels = "RGB",
@@ -70,7 +70,7 @@ Layer layer_of(const Image& image, const char* name)
     return layer;
 }
 
-Image image_of(const Layer& layer)
+Image to_image(const Layer& layer)
 {
     Image image{layer.width, layer.height, {}};
     image.pixels.reserve(layer.values.size() / 3);

@@ -34,9 +34,9 @@ struct Coverage {
                              std::span<const Layer> layers, const Coverage& coverage);
 
 /// Returns the values of an image as a layer of that name.
-[[nodiscard]] Layer layer_of(const Image& image, const char* name);
+[[nodiscard]] Layer to_layer(const Image& image, const char* name);
 
 /// Returns a layer of three channels as an image.
-[[nodiscard]] Image image_of(const Layer& layer);
+[[nodiscard]] Image to_image(const Layer& layer);
 
 }  // namespace bdpt::app

@@ -29,8 +29,8 @@ struct Picture {
 };
 
 /// Returns the pixels of files of that type.
-TexelImage texels_of(const Picture& picture, ImageType type, float exposure,
-                     const DisplayArguments& display)
+TexelImage make_texels(const Picture& picture, ImageType type, float exposure,
+                       const DisplayArguments& display)
 {
     const bool has_backdrop = display.backdrop.has_value();
     return io::to_display(
@@ -50,7 +50,7 @@ void write_picture(const fs::path& file, ImageType type, const Picture& picture,
     const DisplayArguments& display = options.display;
     const io::PngOptions file_options{
         .exposure = exposure, .metadata = options.exr.metadata, .curve = display.curve};
-    const TexelImage texels = texels_of(picture, type, exposure, display);
+    const TexelImage texels = make_texels(picture, type, exposure, display);
     if (type == ImageType::png) {
         io::write_png(file, texels, file_options);
     } else if (type == ImageType::jpeg) {
@@ -80,7 +80,7 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
         }
     };
     for (const fs::path& output : outputs) {
-        if (attempts.run([&] { write(written_file(output), *type_of(output)); })) {
+        if (attempts.run([&] { write(written_file(output), *find_type(output)); })) {
             report.files.push_back(output);
         }
     }
@@ -92,15 +92,15 @@ Image clean_image(const Image& image, const Matte& noisy, const ImageFileOptions
 {
     // Without a backdrop, uncovered pixels show the environment.
     return options.display.backdrop && !noisy.alpha.empty()
-               ? denoised(
-                     *options.denoiser, image, options.layers,
-                     {.noisy = coverage_of(noisy), .clean = clean_coverage(noisy, options.layers)})
+               ? denoised(*options.denoiser, image, options.layers,
+                          {.noisy = compute_coverage(noisy),
+                           .clean = clean_coverage(noisy, options.layers)})
                : denoised(*options.denoiser, image, options.layers);
 }
 
 }  // namespace
 
-std::vector<Layer> layers_of(const Film& film, const AovFilm& aovs, const IdFilm& ids)
+std::vector<Layer> develop_layers(const Film& film, const AovFilm& aovs, const IdFilm& ids)
 {
     std::vector<Layer> layers = aovs.develop(film);
     std::vector<Layer> more = ids.develop(film);
@@ -111,9 +111,9 @@ std::vector<Layer> layers_of(const Film& film, const AovFilm& aovs, const IdFilm
 WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& image,
                                 ImageFileOptions options, Attempts& attempts)
 {
-    const Matte noisy = matte_of(options.layers);
+    const Matte noisy = find_matte(options.layers);
     const bool is_shown = std::any_of(outputs.begin(), outputs.end(), [](const fs::path& output) {
-        return is_for_screens(*type_of(output));
+        return is_for_screens(*find_type(output));
     });
     std::optional<Image> behind =
         is_shown ? backplate(options.display, image, options.exr.placement) : std::nullopt;
@@ -126,11 +126,11 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
     const bool clean_first = options.denoised_as == DenoisedAs::image;
     if (clean_first) {
         put(clean_matte, noisy, {.alpha = "noisyAlpha", .shadow = "noisyShadow"}, options.layers);
-        options.layers.push_back(layer_of(image, "noisy"));
+        options.layers.push_back(to_layer(image, "noisy"));
     } else {
         put(noisy, clean_matte, {.alpha = "denoisedAlpha", .shadow = "denoisedShadow"},
             options.layers);
-        options.layers.push_back(layer_of(clean, "denoised"));
+        options.layers.push_back(to_layer(clean, "denoised"));
     }
     return write_as_they_are(outputs, clean_first ? clean : image,
                              {clean, clean_matte, std::move(behind)}, options, attempts);
@@ -138,11 +138,11 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
 
 TexelImage screen_image(const Image& image, const ImageFileOptions& options)
 {
-    const Matte noisy = matte_of(options.layers);
+    const Matte noisy = find_matte(options.layers);
     const auto texels = [&options](const Picture& picture) {
         const float exposure =
             shown_exposure(options.display.exposure, options.exr.metadata, picture.image);
-        return texels_of(picture, ImageType::png, exposure, options.display);
+        return make_texels(picture, ImageType::png, exposure, options.display);
     };
     std::optional<Image> behind = backplate(options.display, image, options.exr.placement);
     return options.denoiser == nullptr

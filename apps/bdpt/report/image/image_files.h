@@ -33,8 +33,8 @@ struct WrittenImages {
 };
 
 /// Returns all requested layers; `film` is of the same samples.
-[[nodiscard]] std::vector<Layer> layers_of(const Film& film, const AovFilm& aovs,
-                                           const IdFilm& ids);
+[[nodiscard]] std::vector<Layer> develop_layers(const Film& film, const AovFilm& aovs,
+                                                const IdFilm& ids);
 
 /// Writes all `outputs`, each by its extension; with a denoiser, files for screens are denoised,
 /// and EXR files have both images. A file for screens with a backdrop needs the layer with alpha.

@@ -62,14 +62,14 @@ Layer alpha_layer(const Image& image, const char* name)
 /// Replaces the noisy alpha and shadow in `layers` of `file` by its denoised ones, if it has them.
 std::vector<Layer> with_clean_matte(const fs::path& file, std::vector<Layer> layers)
 {
-    const Matte noisy = matte_of(layers);
+    const Matte noisy = find_matte(layers);
     if (noisy.alpha.empty()) {
         return layers;
     }
     Matte matte = noisy;
     if (const std::optional<Image> shadow = layer_in(file, "denoisedShadow")) {
         matte.shadow = alpha_layer(*shadow, "").values;
-        matte.alpha = coverage_of(noisy);
+        matte.alpha = compute_coverage(noisy);
         for (std::size_t i = 0; i < matte.alpha.size(); ++i) {
             matte.alpha[i] += matte.shadow[i];
         }
@@ -113,7 +113,7 @@ io::ImageMetadata metadata_in(const Attributes& attributes)
 
 /// Returns the backdrop by the settings of the image's render. Alpha of other programs is that of a
 /// transparent image; ours may also be a layer of an image that shows the environment.
-std::optional<Backdrop> backdrop_of(const io::ImageMetadata& metadata, bool has_alpha)
+std::optional<Backdrop> find_backdrop(const io::ImageMetadata& metadata, bool has_alpha)
 {
     if (!has_alpha) {
         return std::nullopt;
@@ -151,7 +151,7 @@ LayeredImage read_layered_image(const fs::path& file, Wanted wanted)
     if (const std::optional<Image> shadow = layer_in(file, "shadow")) {
         result.layers.push_back(alpha_layer(*shadow, "shadow"));
     }
-    result.backdrop = backdrop_of(result.metadata, alpha.has_value());
+    result.backdrop = find_backdrop(result.metadata, alpha.has_value());
     result.is_denoised = layer_in(file, "noisy").has_value();
     std::optional<Image> clean =
         wanted == Wanted::clean ? layer_in(file, "denoised") : std::nullopt;
@@ -165,7 +165,7 @@ LayeredImage read_layered_image(const fs::path& file, Wanted wanted)
     }
     for (const char* name : {"albedo", "normal"}) {
         if (const std::optional<Image> layer = layer_in(file, name)) {
-            result.layers.push_back(layer_of(*layer, name));
+            result.layers.push_back(to_layer(*layer, name));
         }
     }
     return result;

@@ -29,7 +29,7 @@ constexpr std::string_view opacity_layer = "opacity";
 
 }  // namespace
 
-Matte matte_of(std::span<const Layer> layers)
+Matte find_matte(std::span<const Layer> layers)
 {
     const Layer* alpha = find(layers, main_layer);
     const Layer* shadow = find(layers, shadow_layer);
@@ -37,7 +37,7 @@ Matte matte_of(std::span<const Layer> layers)
             .shadow = shadow != nullptr ? shadow->values : std::vector<float>()};
 }
 
-std::vector<float> coverage_of(const Matte& matte)
+std::vector<float> compute_coverage(const Matte& matte)
 {
     std::vector<float> coverage = matte.alpha;
     for (std::size_t i = 0; i < matte.shadow.size(); ++i) {
@@ -49,7 +49,7 @@ std::vector<float> coverage_of(const Matte& matte)
 std::vector<float> clean_coverage(const Matte& noisy, std::span<const Layer> layers)
 {
     const Layer* opacity = find(layers, opacity_layer);
-    return opacity != nullptr ? opacity->values : coverage_of(noisy);
+    return opacity != nullptr ? opacity->values : compute_coverage(noisy);
 }
 
 Matte denoised(const io::Denoiser& denoiser, const Matte& noisy, std::span<const Layer> layers)
@@ -64,7 +64,7 @@ Matte denoised(const io::Denoiser& denoiser, const Matte& noisy, std::span<const
         result.alpha = coverage;
         return result;
     }
-    std::vector<float> seen = coverage_of(noisy);  // visible fraction of the ground
+    std::vector<float> seen = compute_coverage(noisy);  // visible fraction of the ground
     std::transform(seen.begin(), seen.end(), seen.begin(),
                    [](float covered) { return 1.0f - covered; });
     const Layer opacity = visible_values(*shadow, seen);

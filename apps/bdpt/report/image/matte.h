@@ -15,10 +15,10 @@ struct Matte {
     std::vector<float> shadow{};  ///< part of alpha that is a shadow on the ground
 };
 
-[[nodiscard]] Matte matte_of(std::span<const Layer> layers);
+[[nodiscard]] Matte find_matte(std::span<const Layer> layers);
 
 /// Returns the fraction of each pixel that surfaces cover: alpha without the shadow.
-[[nodiscard]] std::vector<float> coverage_of(const Matte& matte);
+[[nodiscard]] std::vector<float> compute_coverage(const Matte& matte);
 
 /// Returns the fraction of each pixel that surfaces cover by the layer `opacity`, if there is one,
 /// which has no noise where surfaces blend.

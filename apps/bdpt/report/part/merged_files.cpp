@@ -46,8 +46,8 @@ ordered_json parsed_settings(const std::string& text)
 }
 
 /// Returns the settings of the parts, with the total number of samples and the backdrop.
-std::string settings_of(const std::string& text, std::int64_t samples,
-                        const std::optional<Backdrop>& backdrop)
+std::string merge_settings(const std::string& text, std::int64_t samples,
+                           const std::optional<Backdrop>& backdrop)
 {
     ordered_json settings = parsed_settings(text);
     if (!settings.is_object()) {
@@ -73,7 +73,7 @@ DisplayArguments display_of_parts(const io::PartInfo& part, DisplayArguments dis
         settings["background"].is_string()) {
         own = parse_backdrop(settings["background"].get<std::string>());
         if (own && !own->photo.empty()) {
-            own->photo = photo_of(own->photo, part.file);
+            own->photo = find_photo(own->photo, part.file);
         }
     }
     if (display.backdrop && !own) {
@@ -142,7 +142,7 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
     notes.metadata.render_seconds = part.cpu_seconds;
     notes.metadata.created = std::chrono::system_clock::now();
     notes.metadata.settings =
-        settings_of(notes.metadata.settings, part.samples.count(), display.backdrop);
+        merge_settings(notes.metadata.settings, part.samples.count(), display.backdrop);
     std::vector<fs::path> images;
     Attempts attempts;
     for (const fs::path& output : arguments.outputs) {
@@ -168,7 +168,7 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
                 .storage = arguments.exr.storage,
                 .placement = placement,
                 .manifests = part.ids.manifests()},
-        .layers = layers_of(part.film, part.aovs, part.ids),
+        .layers = develop_layers(part.film, part.aovs, part.ids),
         .display = display,
         .denoiser = denoiser,
         .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image};

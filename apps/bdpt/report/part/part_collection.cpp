@@ -131,7 +131,7 @@ private:
 };
 
 /// Returns the requested samples of the render, as far as the user, the plan or the parts tell.
-SampleSet goal_of(const std::vector<PartInfo>& parts, const MergeArguments& arguments)
+SampleSet find_goal(const std::vector<PartInfo>& parts, const MergeArguments& arguments)
 {
     if (arguments.goal) {
         return *arguments.goal;
@@ -150,7 +150,7 @@ PartCollection collect_now(const MergeArguments& arguments,
                            const std::optional<PlannedIdentity>& planned)
 {
     auto [all, faults] = read_parts(arguments, planned);
-    SampleSet goal = goal_of(all, arguments);
+    SampleSet goal = find_goal(all, arguments);
     // Larger ones first, so that a part precedes those that it contains.
     std::vector<std::pair<std::int64_t, std::size_t>> order;
     for (std::size_t i = 0; i < all.size(); ++i) {

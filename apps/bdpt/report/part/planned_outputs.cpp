@@ -43,7 +43,7 @@ bool is_image_of_ours(const fs::path& file)
 std::set<fs::path> planned_files(const Plan& plan, const fs::path& file, std::size_t image)
 {
     const auto name = [&](const fs::path& path) {
-        return file_of(resolved(path, file), plan.images[image]);
+        return expand_pattern(resolved(path, file), plan.images[image]);
     };
     std::set<fs::path> result;
     for (const fs::path& output : plan.outputs) {

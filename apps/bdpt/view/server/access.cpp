@@ -108,14 +108,14 @@ std::optional<Refusal> Access::refusal(const RequestHead& head) const
     return std::nullopt;
 }
 
-std::string_view Access::path_of(std::string_view target)
+std::string_view Access::parse_path(std::string_view target)
 {
     const std::string_view path = target.substr(0, target.find('?'));
     const std::size_t slash = path.find('/', 1);
     return slash == std::string_view::npos ? std::string_view() : path.substr(slash + 1);
 }
 
-std::string_view Access::query_of(std::string_view target)
+std::string_view Access::parse_query(std::string_view target)
 {
     const std::size_t mark = target.find('?');
     return mark == std::string_view::npos ? std::string_view() : target.substr(mark + 1);

@@ -34,13 +34,13 @@ public:
     /// `host` is the address that the server listens on, as given by the user.
     Access(std::string token, std::string host);
 
-    /// Returns the reason for refusing a request; none: it is allowed, and `path_of` tells the
+    /// Returns the reason for refusing a request; none: it is allowed, and `parse_path` tells the
     /// resource.
     [[nodiscard]] std::optional<Refusal> refusal(const RequestHead& head) const;
     /// Returns the part of `target` behind the token, without the query.
-    [[nodiscard]] static std::string_view path_of(std::string_view target);
+    [[nodiscard]] static std::string_view parse_path(std::string_view target);
     /// Returns the part behind '?'.
-    [[nodiscard]] static std::string_view query_of(std::string_view target);
+    [[nodiscard]] static std::string_view parse_query(std::string_view target);
 
 private:
     [[nodiscard]] bool is_ours(std::string_view host) const;

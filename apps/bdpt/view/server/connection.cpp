@@ -23,13 +23,13 @@ constexpr std::uint32_t max_header_bytes = 8192;
 constexpr std::size_t max_message_bytes = 65536;
 constexpr std::size_t max_waiting_answers = 256;  // per window
 
-std::string_view view_of(boost::beast::string_view text)
+std::string_view to_view(boost::beast::string_view text)
 {
     return {text.data(), text.size()};
 }
 
 /// Parses the N of the query "slot=N"; 0 without one, none if that is no slot.
-std::optional<int> slot_of(std::string_view query)
+std::optional<int> parse_slot(std::string_view query)
 {
     if (query == "slot=1") {
         return 1;
@@ -103,10 +103,10 @@ void Connection::serve()
         return;
     }
     const RequestHead head{
-        .method = view_of(request.method_string()),
-        .target = view_of(request.target()),
-        .host = view_of(host),
-        .origin = origin != request.end() ? std::optional(view_of(origin->value())) : std::nullopt};
+        .method = to_view(request.method_string()),
+        .target = to_view(request.target()),
+        .host = to_view(host),
+        .origin = origin != request.end() ? std::optional(to_view(origin->value())) : std::nullopt};
     if (const auto refusal = server_.access->refusal(head)) {
         refuse(refusal->status, refusal->line);
         return;
@@ -115,7 +115,7 @@ void Connection::serve()
         refuse(413, "a request has no body");
         return;
     }
-    const std::string path(Access::path_of(head.target));
+    const std::string path(Access::parse_path(head.target));
     if (path == "socket" && websocket::is_upgrade(request)) {
         open_window();
     } else if (path == "socket") {
@@ -133,7 +133,7 @@ void Connection::serve()
 
 void Connection::save(const std::string& name)
 {
-    const auto slot = slot_of(Access::query_of(view_of(parser_->get().target())));
+    const auto slot = parse_slot(Access::parse_query(to_view(parser_->get().target())));
     if (!slot) {
         refuse(404, "there is no such slot");
         return;
@@ -175,7 +175,7 @@ Connection::Response Connection::response(int status, const std::string& type) c
     answer.set("Content-Security-Policy",
                "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
                "img-src data: blob:; connect-src 'self' ws://" +
-                   (server_.access && status == 200 ? std::string(view_of(host)) : "localhost") +
+                   (server_.access && status == 200 ? std::string(to_view(host)) : "localhost") +
                    "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
     return answer;
 }

@@ -8,7 +8,7 @@ namespace bdpt::app {
 namespace {
 
 /// Rounds to the nearest half, ties to even. `value` is not negative.
-std::uint16_t half_of(float value)
+std::uint16_t to_half(float value)
 {
     constexpr float greatest = 65504.0f;
     constexpr float min_normal = 6.103515625e-5f;   // 2^-14
@@ -53,7 +53,7 @@ std::vector<std::uint8_t> half_pixels(const Image& image, const Cover& cover)
     std::vector<std::uint8_t> bytes;
     bytes.reserve(image.pixels.size() * (cover.alpha.empty() ? 6 : 10));
     const auto add = [&bytes](float value) {
-        const std::uint16_t half = half_of(value);
+        const std::uint16_t half = to_half(value);
         bytes.push_back(static_cast<std::uint8_t>(half));
         bytes.push_back(static_cast<std::uint8_t>(half >> 8U));
     };

@@ -60,7 +60,7 @@ void keep(const Trial& trial, const BenchFiles& files, const BenchScene& scene,
     io::ExrOptions exr;
     exr.metadata.version = BDPT_VERSION;
     exr.metadata.scene = scene.file;
-    exr.metadata.integrator = name_of(goals.integrator);
+    exr.metadata.integrator = to_name(goals.integrator);
     exr.metadata.seed = trial.run.seed;
     exr.metadata.samples_per_pixel = goals.equal_time;
     exr.metadata.camera = scene.camera;
@@ -83,7 +83,7 @@ bool run_all(const BenchScene& scene, const BenchOptions& options, const BenchFi
                 result.runs.push_back(std::move(*run));
                 continue;
             }
-            meter.begin(std::string(name_of(goals.integrator)) + ", seed " + std::to_string(seed),
+            meter.begin(std::string(to_name(goals.integrator)) + ", seed " + std::to_string(seed),
                         options.seconds);
             auto trial =
                 make_trial(make_setup(scene, options.render, goals.integrator, number, control),
@@ -178,7 +178,7 @@ std::optional<SceneResult> run_scene(const BenchScene& scene, const BenchOptions
                        .file = scene.file,
                        .environment = scene.environment,
                        .camera = scene.camera.name,
-                       .content = content_of(scene),
+                       .content = hash_content(scene),
                        .width = scene.width,
                        .height = scene.height,
                        .light_scale = bench_scale(reference.image).epsilon / 0.01,

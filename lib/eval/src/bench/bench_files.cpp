@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 
 std::string run_name(IntegratorKind integrator, std::uint64_t seed)
 {
-    return std::string(name_of(integrator)) + "-" + std::to_string(seed);
+    return std::string(to_name(integrator)) + "-" + std::to_string(seed);
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what)
@@ -58,7 +58,7 @@ fs::path BenchFiles::strategies() const
 
 fs::path BenchFiles::time_split(IntegratorKind integrator) const
 {
-    return folder_ / "scenes" / scene_ / (std::string(name_of(integrator)) + "-time.json");
+    return folder_ / "scenes" / scene_ / (std::string(to_name(integrator)) + "-time.json");
 }
 
 fs::path BenchFiles::reference_image(const std::string& key) const
@@ -103,7 +103,7 @@ ordered_json render_settings(const BenchScene& scene, const RenderOptions& optio
     return settings;
 }
 
-std::string content_of(const BenchScene& scene)
+std::string hash_content(const BenchScene& scene)
 {
     const ordered_json settings = render_settings(scene, {});
     ordered_json content;
@@ -112,10 +112,10 @@ std::string content_of(const BenchScene& scene)
             content[name] = value;
         }
     }
-    return hash_of(content.dump());
+    return hash_bytes(content.dump());
 }
 
-std::string hash_of(std::string_view bytes)
+std::string hash_bytes(std::string_view bytes)
 {
     ContentHasher hasher;
     hasher.add(bytes.data(), bytes.size());
@@ -171,7 +171,7 @@ ordered_json run_json(const BenchRun& run)
                                {"mape", point.mape}});
     }
     const RenderStats& stats = run.stats;
-    ordered_json result{{"integrator", name_of(run.integrator)},
+    ordered_json result{{"integrator", to_name(run.integrator)},
                         {"seed", run.seed},
                         {"checkpoints", checkpoints},
                         {"rays",
@@ -189,7 +189,7 @@ BenchRun parse_run(const ordered_json& json, const fs::path& file)
     BenchRun run;
     try {
         const auto integrator =
-            enumerator_of<IntegratorKind>(json.at("integrator").get<std::string>());
+            parse_enumerator<IntegratorKind>(json.at("integrator").get<std::string>());
         if (!integrator) {
             refuse(file, "names an unknown integrator");
         }

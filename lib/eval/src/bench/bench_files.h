@@ -40,9 +40,9 @@ private:
 [[nodiscard]] nlohmann::ordered_json render_settings(const BenchScene& scene,
                                                      const RenderOptions& options);
 /// Returns a hash of what is rendered: scene and camera.
-[[nodiscard]] std::string content_of(const BenchScene& scene);
+[[nodiscard]] std::string hash_content(const BenchScene& scene);
 /// Returns a content hash of 32 hexadecimal digits.
-[[nodiscard]] std::string hash_of(std::string_view bytes);
+[[nodiscard]] std::string hash_bytes(std::string_view bytes);
 
 /// Reads a JSON file; returns none if there is no such file. Throws `Error`: not_found if it cannot
 /// be read, invalid_input if it is no JSON.

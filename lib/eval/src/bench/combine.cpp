@@ -43,7 +43,7 @@ MetricScale bench_scale(const Image& reference)
     return make_scale(reference, {.epsilon = 0.01, .epsilon_unit = EpsilonUnit::reference_mean});
 }
 
-double noise_of(const HalvedImage& image, const Image& base)
+double estimate_noise(const HalvedImage& image, const Image& base)
 {
     // The squared difference of two halves has four times the variance of their mean.
     return relative_difference(image.first, image.second, base, bench_scale(base).squared_epsilon) /
@@ -54,8 +54,8 @@ CombinedReference combine(const HalvedImage& all_light, const HalvedImage& most_
 {
     const Image middle = mix(all_light.image, most_light.image, 0.5);
     const double epsilon = bench_scale(middle).squared_epsilon;
-    const double noise_a = noise_of(all_light, middle);
-    const double noise_b = noise_of(most_light, middle);
+    const double noise_a = estimate_noise(all_light, middle);
+    const double noise_b = estimate_noise(most_light, middle);
     const double noise = noise_a + noise_b;
     const double difference =
         relative_difference(all_light.image, most_light.image, middle, epsilon);
@@ -67,8 +67,8 @@ CombinedReference combine(const HalvedImage& all_light, const HalvedImage& most_
                              .share = share,
                              .agreement = agreement};
     const double rest = 1.0 - share;
-    result.noise = share * share * noise_of(all_light, result.image) +
-                   rest * rest * noise_of(most_light, result.image);
+    result.noise = share * share * estimate_noise(all_light, result.image) +
+                   rest * rest * estimate_noise(most_light, result.image);
     return result;
 }
 

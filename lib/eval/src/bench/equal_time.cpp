@@ -10,13 +10,13 @@
 namespace bdpt::eval {
 namespace {
 
-TrialSetup setup_of(const BenchScene& scene, const RenderOptions& options, std::uint64_t seed,
+TrialSetup make_trial_setup(const BenchScene& scene, const RenderOptions& options, std::uint64_t seed,
                     const BenchControl& control)
 {
     return make_setup(scene, options, options.integrator, seed, control);
 }
 
-Score score_of(const std::vector<Checkpoint>& ends, double noise, std::optional<double> seconds)
+Score compute_score(const std::vector<Checkpoint>& ends, double noise, std::optional<double> seconds)
 {
     std::vector<double> errors;
     std::vector<double> times;
@@ -44,7 +44,7 @@ Reference render_reference(const BenchScene& scene, const RenderOptions& options
     const Film film = render_all(setup, samples, meter).value();
     HalvedImage halved{
         .image = film.develop(), .first = film.develop_half(0), .second = film.develop_half(1)};
-    const double noise = noise_of(halved, halved.image);
+    const double noise = estimate_noise(halved, halved.image);
     return {.image = std::move(halved.image),
             .noise = noise,
             .origin = "bdpt with " + std::to_string(samples) + " samples"};
@@ -58,7 +58,7 @@ std::vector<Score> compare_at_equal_time(const BenchScene& scene, const Referenc
     std::vector<std::int64_t> samples;
     for (const Variant& variant : variants) {
         samples.push_back(options.samples ? *options.samples
-                                          : samples_in(setup_of(scene, variant.options, 0, control),
+                                          : samples_in(make_trial_setup(scene, variant.options, 0, control),
                                                        options.seconds)
                                                 .value());
     }
@@ -66,7 +66,7 @@ std::vector<Score> compare_at_equal_time(const BenchScene& scene, const Referenc
     for (int round = 0; round < options.rounds; ++round) {
         for (std::size_t v = 0; v < variants.size(); ++v) {
             const TrialSetup setup =
-                setup_of(scene, variants[v].options, static_cast<std::uint64_t>(round), control);
+                make_trial_setup(scene, variants[v].options, static_cast<std::uint64_t>(round), control);
             ends[v].push_back(measure_once(setup, samples[v], reference).value());
         }
     }
@@ -74,7 +74,7 @@ std::vector<Score> compare_at_equal_time(const BenchScene& scene, const Referenc
         options.samples ? std::nullopt : std::optional(options.seconds);
     std::vector<Score> scores;
     for (const std::vector<Checkpoint>& of_variant : ends) {
-        scores.push_back(score_of(of_variant, reference.noise, equal_seconds));
+        scores.push_back(compute_score(of_variant, reference.noise, equal_seconds));
     }
     return scores;
 }

@@ -78,14 +78,14 @@ bool Plan::complete(const BenchScene& scene, const BenchOptions& options, BenchP
             meter.skip(seconds);
             continue;
         }
-        meter.begin("how many samples " + std::string(name_of(kind)) + " takes", seconds);
+        meter.begin("how many samples " + std::string(to_name(kind)) + " takes", seconds);
         const auto samples =
             samples_in(make_setup(scene, options.render, kind, 0, control), options.seconds);
         if (!samples) {
             return false;
         }
         meter.end();
-        json_[samples_member][name_of(kind)] = *samples;
+        json_[samples_member][to_name(kind)] = *samples;
     }
     if (!json_.contains("equal_samples")) {
         json_["equal_samples"] = options.samples.value_or(power_of_two_for_all(options));
@@ -97,21 +97,21 @@ bool Plan::complete(const BenchScene& scene, const BenchOptions& options, BenchP
 BenchGoals Plan::goals(IntegratorKind kind) const
 {
     return {.integrator = kind,
-            .equal_time = number(samples_member, std::string(name_of(kind))),
+            .equal_time = number(samples_member, std::string(to_name(kind))),
             .equal_samples = number("", "equal_samples")};
 }
 
 bool Plan::known(IntegratorKind kind) const
 {
     const auto samples = json_.find(samples_member);
-    return samples != json_.end() && samples->is_object() && samples->contains(name_of(kind));
+    return samples != json_.end() && samples->is_object() && samples->contains(to_name(kind));
 }
 
 std::int64_t Plan::power_of_two_for_all(const BenchOptions& options) const
 {
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
     for (const IntegratorKind kind : options.integrators) {
-        least = std::min(least, number(samples_member, std::string(name_of(kind))));
+        least = std::min(least, number(samples_member, std::string(to_name(kind))));
     }
     std::int64_t power = 1;
     while (2 * power <= least) {

@@ -52,7 +52,7 @@ KeyedReference given_reference(const BenchScene& scene, const fs::path& given)
     check_image({.name = file.string(), .image = reference.image});
     reference.noise = noise_by_layer(file, reference.image);
     const auto bytes = std::as_bytes(std::span(reference.image.pixels));
-    std::string key = hash_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    std::string key = hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     return {.reference = std::move(reference), .key = std::move(key), .file = file};
 }
 
@@ -66,7 +66,7 @@ std::optional<HalvedRender> render_halves(const BenchScene& scene, const BenchOp
                                           const BenchControl& control)
 {
     const TrialSetup setup = make_setup(scene, options.render, integrator, reference_seed, control);
-    meter.begin("reference by " + std::string(name_of(integrator)), options.reference_seconds);
+    meter.begin("reference by " + std::string(to_name(integrator)), options.reference_seconds);
     const auto samples = samples_in(setup, options.reference_seconds);
     const auto film = samples ? render_all(setup, *samples, meter) : std::nullopt;
     if (!film) {
@@ -79,7 +79,7 @@ std::optional<HalvedRender> render_halves(const BenchScene& scene, const BenchOp
                         .samples = *samples};
 }
 
-std::string origin_of(const CombinedReference& combined, const HalvedRender& bdpt,
+std::string describe_origin(const CombinedReference& combined, const HalvedRender& bdpt,
                       const HalvedRender& mis)
 {
     char text[160];
@@ -145,7 +145,7 @@ std::string reference_key(const BenchScene& scene, const BenchOptions& options)
 {
     ordered_json settings = render_settings(scene, options.render);
     settings["reference_seconds"] = options.reference_seconds;
-    return hash_of(settings.dump());
+    return hash_bytes(settings.dump());
 }
 
 std::optional<KeyedReference> reference_for(const BenchScene& scene, const BenchOptions& options,
@@ -170,7 +170,7 @@ std::optional<KeyedReference> reference_for(const BenchScene& scene, const Bench
     CombinedReference combined = combine(bdpt->image, mis->image);
     KeyedReference result{.reference = {.image = std::move(combined.image),
                                         .noise = combined.noise,
-                                        .origin = origin_of(combined, *bdpt, *mis)},
+                                        .origin = describe_origin(combined, *bdpt, *mis)},
                           .key = key,
                           .file = files.reference_image(key)};
     keep(result, files, scene, options);

@@ -39,18 +39,18 @@ constexpr double noise_at_scales = (1.0 + 1.0 / 4.0 + 1.0 / 16.0 + 1.0 / 64.0 + 
 GoalSummary summarize_goal(const std::vector<const BenchRun*>& runs, std::int64_t samples,
                            double noise, std::optional<double> seconds)
 {
-    const auto median_of = [&](const auto& value) {
+    const auto compute_median = [&](const auto& value) {
         return spread(at(runs, samples, value)).median;
     };
-    const double raw = median_of([](const Checkpoint& point) { return point.relmse; });
+    const double raw = compute_median([](const Checkpoint& point) { return point.relmse; });
     // Errors are taken as proportional to the inverse of the time.
     const auto brought_to_time = [&](double error, const Checkpoint& point) {
         return error * (seconds ? point.cpu_seconds / *seconds : 1.0);
     };
     return {
         .samples = samples,
-        .cpu_seconds = median_of([](const Checkpoint& point) { return point.cpu_seconds; }),
-        .wall_seconds = median_of([](const Checkpoint& point) { return point.wall_seconds; }),
+        .cpu_seconds = compute_median([](const Checkpoint& point) { return point.cpu_seconds; }),
+        .wall_seconds = compute_median([](const Checkpoint& point) { return point.wall_seconds; }),
         .error = spread(at(runs, samples,
                            [&](const Checkpoint& point) {
                                return brought_to_time(without_noise(point.relmse, noise), point);
@@ -65,7 +65,7 @@ GoalSummary summarize_goal(const std::vector<const BenchRun*>& runs, std::int64_
         .near_noise = raw < 3.0 * noise};
 }
 
-std::vector<CurvePoint> curve_of(const std::vector<const BenchRun*>& runs, double noise)
+std::vector<CurvePoint> compute_curve(const std::vector<const BenchRun*>& runs, double noise)
 {
     std::vector<CurvePoint> result;
     for (const Checkpoint& first : runs.front()->checkpoints) {
@@ -169,7 +169,7 @@ std::vector<IntegratorSummary> summarize(const SceneResult& result, double secon
             summarize_goal(runs, goals.equal_time, result.reference_noise, seconds);
         summary.equal_samples =
             summarize_goal(runs, goals.equal_samples, result.reference_noise, std::nullopt);
-        summary.curve = curve_of(runs, result.reference_noise);
+        summary.curve = compute_curve(runs, result.reference_noise);
         summary.efficiency = 1.0 / (summary.equal_time.error.median * seconds);
         add_rates(runs, summary);
         for (const ErrorFloor& floor : result.floors) {

@@ -43,7 +43,7 @@ ordered_json split_json(const TimeSplit& split, const TimeProfile& profile)
     for (const Phase phase : all_phases) {
         shares[to_string(phase)] = split.shares[static_cast<std::size_t>(phase)];
     }
-    return {{"integrator", name_of(split.integrator)},
+    return {{"integrator", to_name(split.integrator)},
             {"samples", split.samples},
             {"sample_seconds", split.sample_seconds},
             {"shares", std::move(shares)},
@@ -69,7 +69,7 @@ TimeSplit parse_split(const ordered_json& json, IntegratorKind integrator, const
                 json.at("shares").at(to_string(phase)).get<double>();
         }
         static_cast<void>(json.at("pixels").get<std::string>());
-        if (json.at("integrator").get<std::string>() != name_of(integrator)) {
+        if (json.at("integrator").get<std::string>() != to_name(integrator)) {
             refuse(file, "is of another integrator than its name says");
         }
     } catch (const nlohmann::json::exception&) {
@@ -125,7 +125,7 @@ std::vector<TimeSplit> measure_time_splits(const BenchScene& scene, const BenchO
             splits.push_back(parse_split(*json, one.integrator, file));
             continue;
         }
-        meter.begin("where " + std::string(name_of(one.integrator)) + " takes its time", seconds);
+        meter.begin("where " + std::string(to_name(one.integrator)) + " takes its time", seconds);
         const auto split =
             measure(make_setup(scene, options.render, one.integrator, split_seed, control), one,
                     file, meter);

@@ -29,7 +29,7 @@ std::string label(Strategy strategy)
     return "s" + std::to_string(strategy.s) + " t" + std::to_string(strategy.t);
 }
 
-CellShape shape_of(const StrategyFilm& film)
+CellShape compute_shape(const StrategyFilm& film)
 {
     const int width = film.region().width();
     const int height = film.region().height();
@@ -89,7 +89,7 @@ float extra_exposure(Strategy strategy)
 
 io::DisplayImage contact_sheet(const StrategyFilm& film, float exposure)
 {
-    const CellShape shape = shape_of(film);
+    const CellShape shape = compute_shape(film);
     const PyramidLayout layout(film.strategies(), shape.cell);
     constexpr std::string_view titles[]{"weighted, +1 stop a row", "unweighted, +1 stop a row"};
     const int title_width = glyph_advance * shape.dot * static_cast<int>(titles[1].size());

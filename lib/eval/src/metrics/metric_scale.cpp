@@ -38,7 +38,7 @@ void check_options(const MetricOptions& options)
     }
 }
 
-double mean_of(const Image& image)
+double compute_mean(const Image& image)
 {
     double sum = 0.0;
     for (const Rgb& pixel : image.pixels) {
@@ -64,7 +64,7 @@ MetricScale make_scale(const Image& reference, const MetricOptions& options)
     check_options(options);
     double unit = 1.0;
     if (options.epsilon_unit == EpsilonUnit::reference_mean) {
-        unit = mean_of(reference);
+        unit = compute_mean(reference);
         if (!(unit > 0.0)) {
             throw Error(ErrorCode::invalid_input, "the reference's mean is " +
                                                       std::to_string(unit) +

@@ -67,7 +67,7 @@ std::string bench_csv(const BenchRecord& record)
                 [&](const BenchGoals& one) { return one.integrator == run.integrator; });
             const std::string shares = share_fields(scene, run.integrator);
             for (const Checkpoint& point : run.checkpoints) {
-                result += head + std::string(name_of(run.integrator)) + "," +
+                result += head + std::string(to_name(run.integrator)) + "," +
                           std::to_string(run.seed) + "," + std::to_string(point.samples) + "," +
                           (point.samples == goals->equal_time ? "1," : "0,") +
                           (point.samples == goals->equal_samples ? "1," : "0,") +

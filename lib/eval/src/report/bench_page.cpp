@@ -83,7 +83,7 @@ ordered_json image_list_json(const SceneResult& scene, const fs::path& folder,
         if (all.empty()) {
             continue;
         }
-        const std::string name(name_of(goals.integrator));
+        const std::string name(to_name(goals.integrator));
         images[name] = packed_image(all.front(), scale);
         if (all.size() > 1) {
             variances[name] = packed_bytes(variance_map(all, reference, epsilon));
@@ -103,7 +103,7 @@ ordered_json times_json(const SceneResult& scene, const BenchFiles& files)
     ordered_json maps = ordered_json::object();
     for (const TimeSplit& split : scene.splits) {
         if (std::optional<std::string> map = packed_time_map(files, split.integrator)) {
-            maps[std::string(name_of(split.integrator))] = std::move(*map);
+            maps[std::string(to_name(split.integrator))] = std::move(*map);
         }
     }
     return maps;

@@ -17,7 +17,7 @@ ordered_json options_json(const BenchOptions& options)
 {
     ordered_json integrators = ordered_json::array();
     for (const IntegratorKind kind : options.integrators) {
-        integrators.push_back(name_of(kind));
+        integrators.push_back(to_name(kind));
     }
     const RenderOptions& render = options.render;
     ordered_json result{{"integrators", integrators}, {"cpu_seconds", options.seconds}};
@@ -28,7 +28,7 @@ ordered_json options_json(const BenchOptions& options)
     result["reference_cpu_seconds"] = 2.0 * options.reference_seconds;
     result["strategy_depth"] = options.strategy_depth;
     result["max_depth"] = render.transport.max_depth;
-    result["heuristic"] = name_of(render.transport.heuristic);
+    result["heuristic"] = to_name(render.transport.heuristic);
     result["sampler"] = render.sampling.sampler == SamplerKind::sobol ? "sobol" : "independent";
     result["threads"] = render.system.threads;
     return result;
@@ -69,7 +69,7 @@ ordered_json summary_json(const IntegratorSummary& summary)
                          {"cpu_seconds", point.cpu_seconds},
                          {"relmse", spread_json(point.error)}});
     }
-    ordered_json result{{"integrator", name_of(summary.integrator)},
+    ordered_json result{{"integrator", to_name(summary.integrator)},
                         {"seeds", summary.seeds},
                         {"equal_time", goal_json(summary.equal_time)},
                         {"equal_samples", goal_json(summary.equal_samples)},

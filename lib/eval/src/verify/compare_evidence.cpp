@@ -87,7 +87,7 @@ MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell, in
     const Moments& found = length.others[integrator];
     const double variance = squared_error(found) + squared_error(expected);
     const double samples = evidence.bdpt_samples_in(cell);
-    const double own_samples = samples / bdpt_samples * samples_of(kind, edges);
+    const double own_samples = samples / bdpt_samples * count_samples(kind, edges);
     const double rare = unseen_variance({.samples = own_samples,
                                          .seen = length.seen[integrator],
                                          .expected_samples = samples,

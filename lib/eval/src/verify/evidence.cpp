@@ -88,7 +88,7 @@ void Evidence::add_lengths(const Batch& batch)
         evidence.from_light.add(sums.from_light.radiance / samples);
         for (std::size_t i = 0; i < others_; ++i) {
             evidence.others[i].add(others.radiance[i] /
-                                   (samples_of(other_integrators[i], edges) * pixels(cell)));
+                                   (count_samples(other_integrators[i], edges) * pixels(cell)));
             evidence.seen[i] += others.seen[i];
         }
     };
@@ -118,7 +118,7 @@ void Evidence::add_merges(const MergeSums& sums)
         const MergeSumsOfLength& of_batch = sums.length(edges);
         evidence.sums += of_batch;
         evidence.difference.add((of_batch.tested - of_batch.expected) /
-                                (samples_of(IntegratorKind::vcm, edges) * pixels(whole())));
+                                (count_samples(IntegratorKind::vcm, edges) * pixels(whole())));
     }
 }
 
@@ -130,7 +130,7 @@ void Evidence::add_images(const Batch& batch)
             sums[0] += batch.bdpt.length(tile, edges).all.radiance / bdpt_samples;
             for (std::size_t i = 0; i < others_; ++i) {
                 sums[i + 1] +=
-                    batch.others[i].at(tile, edges) / samples_of(other_integrators[i], edges);
+                    batch.others[i].at(tile, edges) / count_samples(other_integrators[i], edges);
             }
         }
     }

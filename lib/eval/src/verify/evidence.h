@@ -28,7 +28,7 @@ constexpr std::array<IntegratorKind, 5> other_integrators{IntegratorKind::pt, In
 }
 
 /// Returns the samples per pixel that a batch takes of paths of this length.
-[[nodiscard]] constexpr int samples_of(IntegratorKind integrator, int edges)
+[[nodiscard]] constexpr int count_samples(IntegratorKind integrator, int edges)
 {
     return integrator == IntegratorKind::bdpt               ? bdpt_samples
            : integrator == IntegratorKind::mis              ? mis_samples
@@ -129,7 +129,7 @@ public:
     /// Returns the samples of an integrator in a cell, for paths of that length.
     [[nodiscard]] double samples_in(std::size_t cell, IntegratorKind kind, int edges) const
     {
-        return samples_of(kind, edges) * pixels(cell) * static_cast<double>(batches_);
+        return count_samples(kind, edges) * pixels(cell) * static_cast<double>(batches_);
     }
     /// Returns the samples of bdpt in a cell.
     [[nodiscard]] double bdpt_samples_in(std::size_t cell) const

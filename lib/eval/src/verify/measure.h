@@ -24,7 +24,7 @@ constexpr std::array<Measure, 3> channel_measures{Measure::red, Measure::green, 
 }
 
 /// Returns the edges of a path; the two vertices of a merge count as one.
-[[nodiscard]] inline int edges_of(const PathContribution& path)
+[[nodiscard]] inline int count_edges(const PathContribution& path)
 {
     return path.strategy.s + path.strategy.t - (path.merged ? 2 : 1);
 }

@@ -36,7 +36,7 @@ MergeSumsOfLength& MergeSumsOfLength::operator+=(const MergeSumsOfLength& other)
 
 void MergeSums::add(const PathContribution& path)
 {
-    const int edges = edges_of(path);
+    const int edges = count_edges(path);
     // By the balance heuristic a weighted contribution is f over the sum of all densities.
     const double weighted = static_cast<double>(path.weight) * measured(measure_, path.unweighted);
     if (edges > static_cast<int>(lengths_.size()) || !std::isfinite(weighted)) {

@@ -34,7 +34,7 @@ void add_pair(SecondMoment& moment, double weighted, double all, Technique a, Te
     moment.add(size * y * b.max_weight, weighted * size / sum * y * y * y * b.max_weight);
 }
 
-double share_of(const PathContribution& path, std::size_t s)
+double find_share(const PathContribution& path, std::size_t s)
 {
     return s < path.shares.size() ? static_cast<double>(path.shares[s]) : 0.0;
 }
@@ -109,7 +109,7 @@ void PathSums::add(const PathContribution& path)
         squares += square(static_cast<double>(share));
     }
     const auto own = static_cast<std::size_t>(path.strategy.s);
-    const double own_share = share_of(path, own);
+    const double own_share = find_share(path, own);
     // A strategy that finds a path which it claims it cannot find has no share: its weight is
     // wrong.
     check_weight(path, squares > 0.0 ? square(own_share) / squares : 0.0);
@@ -123,7 +123,7 @@ void PathSums::add(const PathContribution& path)
                       .moment = 0.0,
                       .largest = 0.0};
     for (std::size_t s = 0; s < path.shares.size(); ++s) {
-        const double share = share_of(path, s);
+        const double share = find_share(path, s);
         // w / b with w = b^2 / squares
         const double sample = share / squares * all * max_weight(edges, s);
         measure.moment += sample * square(share) / squares;
@@ -137,7 +137,7 @@ void PathSums::add(const PathContribution& path)
     sums.weighted += measure.weighted;
     sums.unweighted += unweighted;
     const bool alone = own_share > 1.0 - 1e-6;
-    const bool from_camera = own <= 1 || share_of(path, 0) > 0.0 || share_of(path, 1) > 0.0;
+    const bool from_camera = own <= 1 || find_share(path, 0) > 0.0 || find_share(path, 1) > 0.0;
     sums.solitary += alone ? measure.weighted : 0.0;
     sums.unchecked += alone && !from_camera ? measure.weighted : 0.0;
     add_to_length(lengths_[tile * static_cast<std::size_t>(row_.max_depth()) +
@@ -152,7 +152,7 @@ void PathSums::add_to_strategies(const PathContribution& path, const PathValue& 
     const auto own = static_cast<std::size_t>(path.strategy.s);
     const int edges = path.strategy.s + path.strategy.t - 1;
     for (std::size_t u = 0; u < path.shares.size(); ++u) {
-        const double share = share_of(path, u);
+        const double share = find_share(path, u);
         if (!(share > 0.0)) {
             continue;
         }
@@ -183,7 +183,7 @@ void PathSums::add_to_length(LengthSums& sums, const PathContribution& path,
     const std::size_t n = path.shares.size() - 1;  // vertices
     const int edges = path.strategy.s + path.strategy.t - 1;
     const auto technique = [&](std::size_t s) {
-        return Technique{.share = share_of(path, s), .max_weight = max_weight(edges, s)};
+        return Technique{.share = find_share(path, s), .max_weight = max_weight(edges, s)};
     };
     const Technique hit = technique(0);
     // For paths of one edge, s = 1 passes through the lens, which no path tracer samples.

@@ -28,7 +28,7 @@ public:
     /// ignored.
     void add(const PathContribution& path)
     {
-        const int edges = edges_of(path);
+        const int edges = count_edges(path);
         const double value = static_cast<double>(path.weight) * measured(measure_, path.unweighted);
         if (edges <= max_depth_ && std::isfinite(value)) {
             const std::size_t place = index(grid_.tile_at(path.raster), edges);

@@ -11,7 +11,7 @@ namespace bdpt::eval {
 namespace {
 
 /// Returns a seed per integrator and batch, as otherwise all would trace the same camera paths.
-std::uint64_t seed_of(const VerifyOptions& options, IntegratorKind integrator, std::int64_t number)
+std::uint64_t derive_seed(const VerifyOptions& options, IntegratorKind integrator, std::int64_t number)
 {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // spreads consecutive numbers
     constexpr std::uint64_t integrators = 8;
@@ -32,7 +32,7 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     result.transport.rr_start = Roulette::start;
     result.transport.rr_survival = Roulette(options.max_depth).min_survival();
     // Sobol points of one sequence are correlated; those of different seeds are not.
-    result.sampling.samples = {.begin = 0, .end = samples_of(integrator, shortest)};
+    result.sampling.samples = {.begin = 0, .end = count_samples(integrator, shortest)};
     if (integrator != IntegratorKind::lt && integrator != IntegratorKind::pt) {
         result.sampling.light_samples = options.light_samples;
     }
@@ -47,7 +47,7 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     }
     result.system.threads = 1;
     result.sampling.seed =
-        seed_of(options, integrator, number) + static_cast<std::uint64_t>(shortest);
+        derive_seed(options, integrator, number) + static_cast<std::uint64_t>(shortest);
     return result;
 }
 
@@ -164,7 +164,7 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
         int shortest = 1;
         while (shortest <= longest) {
             int last = shortest;
-            while (last < longest && samples_of(kind, last + 1) == samples_of(kind, shortest)) {
+            while (last < longest && count_samples(kind, last + 1) == count_samples(kind, shortest)) {
                 ++last;
             }
             const RenderResult other = render(

@@ -58,7 +58,7 @@ void add_tests(ordered_json& object, const Finding& finding, const VerifyReport&
 ordered_json to_json(const ImageFinding& image)
 {
     ordered_json object{
-        {"integrator", name_of(image.integrator)}, {"radiance", number_or_null(image.radiance)},
+        {"integrator", to_name(image.integrator)}, {"radiance", number_or_null(image.radiance)},
         {"error", number_or_null(image.error)},    {"invalid", image.defects.invalid},
         {"saturated", image.defects.saturated},    {"lost", number_or_null(image.lost)}};
     if (const auto& place = image.defects.first_invalid) {
@@ -118,7 +118,7 @@ std::string verify_json(const VerifyReport& report, std::string_view scene)
         object["strategies"].push_back(std::move(entry));
     }
     for (const IntegratorFinding& integrator : report.integrators) {
-        ordered_json entry{{"integrator", name_of(integrator.integrator)},
+        ordered_json entry{{"integrator", to_name(integrator.integrator)},
                            {"edges", integrator.edges}};
         add_tests(entry, integrator, report);
         object["comparisons"].push_back(std::move(entry));

@@ -96,7 +96,7 @@ public:
     [[nodiscard]] bool operator==(const IdFilm& other) const = default;
 
 private:
-    [[nodiscard]] std::size_t begin_of(int row) const;
+    [[nodiscard]] std::size_t row_begin(int row) const;
 
     PixelRect region_;
     IdNames names_;

@@ -94,11 +94,11 @@ private:
         Sum3 Pixel::*sums;
         std::size_t channel;
     };
-    [[nodiscard]] PlaneRow place_of(std::size_t plane, int row) const;
+    [[nodiscard]] PlaneRow plane_row(std::size_t plane, int row) const;
 
     /// Returns the index in `pixels_` where the images of a strategy begin; the size of `pixels_`
     /// if it has none.
-    [[nodiscard]] std::size_t begin_of(Strategy strategy) const noexcept;
+    [[nodiscard]] std::size_t find_begin(Strategy strategy) const noexcept;
     [[nodiscard]] Image develop(Strategy strategy, Sum3 Pixel::*sums) const;
 
     PixelRect region_;

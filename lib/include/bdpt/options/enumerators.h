@@ -4,8 +4,8 @@
 /// Gives the values of enumerations their names in options and files.
 ///
 /// @code{.cpp}
-/// if (const auto kind = bdpt::enumerator_of<bdpt::IntegratorKind>("vcm")) {
-///     std::cout << "--integrator " << bdpt::name_of(*kind) << '\n';
+/// if (const auto kind = bdpt::parse_enumerator<bdpt::IntegratorKind>("vcm")) {
+///     std::cout << "--integrator " << bdpt::to_name(*kind) << '\n';
 /// }
 /// @endcode
 
@@ -35,7 +35,7 @@ concept HasEnumerators = !std::is_null_pointer_v<std::remove_cv_t<decltype(enume
 
 /// Returns the name of `value` in options and files.
 template <HasEnumerators Enum>
-[[nodiscard]] constexpr std::string_view name_of(Enum value)
+[[nodiscard]] constexpr std::string_view to_name(Enum value)
 {
     for (const auto& enumerator : enumerators<Enum>) {
         if (enumerator.value == value) {
@@ -47,7 +47,7 @@ template <HasEnumerators Enum>
 
 /// Returns the enumerator with that name; nullopt if there is none.
 template <HasEnumerators Enum>
-[[nodiscard]] constexpr std::optional<Enum> enumerator_of(std::string_view name)
+[[nodiscard]] constexpr std::optional<Enum> parse_enumerator(std::string_view name)
 {
     for (const auto& enumerator : enumerators<Enum>) {
         if (enumerator.name == name) {

@@ -157,9 +157,10 @@ inline constexpr auto fields<SamplingOptions> = all_fields(
                          "two as --spp) or independent"}},
     OptionField{"env_sampling",
                 &SamplingOptions::environment,
-                {.help = "Light sampling of environments: learned (by what a pilot finds visible "
-                         "from where, and as compensated), compensated (MIS compensation, leaves "
-                         "uniform light to BSDF sampling) or plain"}},
+                {.help = "Light sampling of environments: plain (by luminance), compensated (MIS "
+                         "compensation: leaves uniform light to BSDF sampling) or learned "
+                         "(compensated, and a pilot learns how much of the environment, suns and "
+                         "placed lights reaches each place)"}},
     OptionField{"light_sampling",
                 &SamplingOptions::lights,
                 {.help = "Choice of one light: power (by emitted power), tree (light tree: by "

@@ -36,7 +36,7 @@ requires std::is_arithmetic_v<T>
 template <HasEnumerators Enum>
 [[nodiscard]] inline std::string option_text(Enum value)
 {
-    return std::string(name_of(value));
+    return std::string(to_name(value));
 }
 
 /// Formats a strategy: "s2t1".

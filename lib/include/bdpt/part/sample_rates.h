@@ -52,14 +52,14 @@ public:
                           static_cast<std::size_t>(x)];
     }
     /// Returns the samples per round of pixel (x, y).
-    [[nodiscard]] float rate(int x, int y) const { return rate_of(exponent(x, y)); }
+    [[nodiscard]] float rate(int x, int y) const { return to_rate(exponent(x, y)); }
     /// Returns the mean rate of the whole image, exact up to one rounding.
     [[nodiscard]] double mean() const { return mean_; }
     [[nodiscard]] float least() const;
     [[nodiscard]] float greatest() const;
 
     /// Returns 2^exponent.
-    [[nodiscard]] static float rate_of(int exponent)
+    [[nodiscard]] static float to_rate(int exponent)
     {
         return static_cast<float>(1 << (exponent - min_exponent)) /
                static_cast<float>(1 << -min_exponent);

@@ -18,7 +18,7 @@ namespace bdpt::io {
 namespace {
 
 /// Returns line `name` of /proc/self/status [bytes]; 0 if there is none. Allocates nothing.
-std::uint64_t status_of(std::string_view name)
+std::uint64_t read_status(std::string_view name)
 {
     const int descriptor = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) {
@@ -48,12 +48,12 @@ std::string memory_figures()
     rlimit limit{};
     if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
         return fmt::format("the process had up to {} and needs more, but its limit is {}",
-                           text(status_of("VmPeak:")), text(limit.rlim_cur));
+                           text(read_status("VmPeak:")), text(limit.rlim_cur));
     }
     const auto machine = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                          static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
     return fmt::format("the process had up to {} and needs more; the machine has {}",
-                       text(status_of("VmHWM:")), text(machine));
+                       text(read_status("VmHWM:")), text(machine));
 }
 
 }  // namespace bdpt::io

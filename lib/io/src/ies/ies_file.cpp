@@ -40,7 +40,7 @@ struct IesLines {
 };
 
 /// Returns the text after `TILT=`, in capitals; empty for other lines.
-std::string tilt_of(std::string_view line)
+std::string parse_tilt(std::string_view line)
 {
     std::string text;
     for (const char c : line.substr(0, 300)) {
@@ -137,9 +137,9 @@ IesFile read_ies(ByteView bytes, const std::string& place, Warnings& warnings)
         lines.rest.remove_prefix(byte_order_mark.size());
     }
     const std::string_view first = lines.take();
-    std::string tilt = tilt_of(first);
+    std::string tilt = parse_tilt(first);
     while (tilt.empty() && !lines.rest.empty()) {
-        tilt = tilt_of(lines.take());
+        tilt = parse_tilt(lines.take());
     }
     if (tilt.empty()) {
         throw Error(ErrorCode::invalid_input, "no line that begins with TILT=: not an IES file");

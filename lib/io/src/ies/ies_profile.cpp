@@ -83,7 +83,7 @@ Web transposed(const Web& web)
 }
 
 /// Returns the web as stored in the file: along the horizontal angles.
-Web web_of(const IesFile& file)
+Web make_web(const IesFile& file)
 {
     Web web{file.horizontal_angles, file.vertical_angles, {}};
     const auto rows = static_cast<std::ptrdiff_t>(file.vertical_angles.size());
@@ -190,7 +190,7 @@ IesProfile from_type_a(Web web)
 
 IesProfile make_profile(const IesFile& file, const std::string& place, Warnings& warnings)
 {
-    Web web = web_of(file);
+    Web web = make_web(file);
     snap_ends(web.along);
     snap_ends(web.across);
     switch (file.photometry) {

@@ -217,7 +217,7 @@ std::optional<std::uint32_t> plain_channels(std::uint32_t format)
     }
 }
 
-Ktx2Format ktx2_format_of(const Ktx2Head& head, const FormatDescriptor& descriptor)
+Ktx2Format find_ktx2_format(const Ktx2Head& head, const FormatDescriptor& descriptor)
 {
     if (head.format == vk_format_undefined && descriptor.model() == model_etc1s) {
         return format_of_etc1s(head, descriptor);
@@ -318,7 +318,7 @@ void add_ktx2_remarks(const Ktx2Head& head, const Ktx2Format& format,
     }
 }
 
-ColorEncoding encoding_of(std::uint8_t transfer)
+ColorEncoding to_encoding(std::uint8_t transfer)
 {
     return transfer == transfer_srgb     ? ColorEncoding::srgb
            : transfer == transfer_linear ? ColorEncoding::linear
@@ -348,12 +348,12 @@ Ktx2Header read_ktx2_header(ByteView bytes)
     const Ktx2Head head = read_ktx2_head(file);
     check_ktx2_shape(head);
     const FormatDescriptor descriptor(file, file.u32(48), file.u32(52));
-    const Ktx2Format format = ktx2_format_of(head, descriptor);
+    const Ktx2Format format = find_ktx2_format(head, descriptor);
     check_global_data(file, head);
     Ktx2Header result{.width = static_cast<int>(head.width),
                       .height = static_cast<int>(head.height),
                       .channels = format.channels,
-                      .encoding = encoding_of(descriptor.transfer()),
+                      .encoding = to_encoding(descriptor.transfer()),
                       .pixels = check_ktx2_levels(file, head, format),
                       .remarks = {}};
     check_ktx2_metadata(file.part("its metadata", file.u32(56), file.u32(60)), result.remarks);

@@ -40,7 +40,7 @@ ImageFile open(ByteView bytes, Ktx2Decoder* ktx2)
 }
 
 /// Returns the image without its texels.
-TexelImage layout_of(const ImageFile& file)
+TexelImage read_layout(const ImageFile& file)
 {
     return std::visit(
         [](const auto& image) {
@@ -59,9 +59,9 @@ TexelImage layout_of(const ImageFile& file)
 EncodedImage::EncodedImage(ByteView bytes, const ReadLimits& limits, Ktx2Decoder* ktx2)
     : file_(open(bytes, ktx2))
 {
-    const TexelImage layout = layout_of(file_);
+    const TexelImage layout = read_layout(file_);
     const std::uint64_t texel_bytes =
-        static_cast<std::uint64_t>(layout.channels) * size_of(layout.type);
+        static_cast<std::uint64_t>(layout.channels) * count_value_bytes(layout.type);
     check_image_size(layout.width, layout.height, texel_bytes, limits);
     width_ = layout.width;
     height_ = layout.height;
@@ -71,7 +71,7 @@ EncodedImage::EncodedImage(ByteView bytes, const ReadLimits& limits, Ktx2Decoder
 
 DecodedImage EncodedImage::decode() &&
 {
-    DecodedImage decoded{.image = layout_of(file_)};
+    DecodedImage decoded{.image = read_layout(file_)};
     resize_in_huge_pages(decoded.image.bytes, decoded_bytes_);
     std::visit([&](auto& image) { image.read(decoded.image.bytes.data()); }, file_);
     if (const auto* const jpeg = std::get_if<JpegImage>(&file_)) {

@@ -92,7 +92,7 @@ TexelImage to_display(const Image& image, std::span<const float> coverage,
                       .channels = has_alpha ? 4 : 3,
                       .type = options.type};
     result.bytes.reserve(image.pixels.size() * static_cast<std::size_t>(result.channels) *
-                         size_of(options.type));
+                         count_value_bytes(options.type));
     CodeWriter codes(result);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const float alpha = opaque ? 1.0f : coverage[i] > 0.0f ? std::min(coverage[i], 1.0f) : 0.0f;

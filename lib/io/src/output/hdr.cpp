@@ -19,7 +19,7 @@ namespace {
 /// Mantissas of red, green and blue and their exponent e: values are mantissa * 2^(e - 136).
 using RgbePixel = std::array<std::uint8_t, 4>;
 
-RgbePixel rgbe_of(const Rgb& color)
+RgbePixel encode_rgbe(const Rgb& color)
 {
     constexpr float largest = 0x1.fep126f;  // 255 * 2^119
     std::array<float, 3> values{};
@@ -96,7 +96,7 @@ void append_line(const std::vector<RgbePixel>& line, std::string& bytes)
     }
 }
 
-std::string header_of(const Image& image, const ImageMetadata& metadata)
+std::string make_header(const Image& image, const ImageMetadata& metadata)
 {
     std::string header = "#?RADIANCE\nSOFTWARE=" + software_name(metadata) + "\n";
     for (auto [name, value] : text_entries(metadata)) {
@@ -113,11 +113,11 @@ std::string header_of(const Image& image, const ImageMetadata& metadata)
 void write_hdr(const std::filesystem::path& file, const Image& image, const ImageMetadata& metadata)
 {
     check_pixels(file, image.width, image.height, image.pixels.size());
-    std::string bytes = header_of(image, metadata);
+    std::string bytes = make_header(image, metadata);
     std::vector<RgbePixel> line(static_cast<std::size_t>(image.width));
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
-            line[static_cast<std::size_t>(x)] = rgbe_of(image.at(x, y));
+            line[static_cast<std::size_t>(x)] = encode_rgbe(image.at(x, y));
         }
         append_line(line, bytes);
     }

@@ -91,7 +91,7 @@ struct JpegEncoder {
 };
 
 /// Returns "name: value" texts, without those that do not fit into a comment.
-std::vector<std::string> comments_of(const PngOptions& options)
+std::vector<std::string> make_comments(const PngOptions& options)
 {
     constexpr std::size_t longest = 65533;
     std::vector<std::string> comments;
@@ -114,7 +114,7 @@ void write_jpeg(const std::filesystem::path& file, const TexelImage& image,
     const auto channels = static_cast<std::size_t>(image.channels);
     const bool whole = image.bytes.size() % channels == 0;
     check_pixels(file, image.width, image.height, whole ? image.bytes.size() / channels : 0);
-    const std::vector<std::string> comments = comments_of(options);
+    const std::vector<std::string> comments = make_comments(options);
     const auto encoder = std::make_unique<JpegEncoder>();
     if (!encoder->encode(image, comments)) {
         throw Error(ErrorCode::output, fmt::format("{}: cannot write: JPEG: {}", file.string(),

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path folder_of(const fs::path& file)
+fs::path find_folder(const fs::path& file)
 {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
@@ -33,7 +33,7 @@ std::optional<int> own_descriptor(const fs::path& file)
         return std::nullopt;
     }
     std::error_code missing;
-    const std::string folder = fs::canonical(folder_of(file), missing).string();
+    const std::string folder = fs::canonical(find_folder(file), missing).string();
     const std::string process = fmt::format("/proc/{}/", ::getpid());
     const bool lists_descriptors =
         folder == process + "fd" ||
@@ -144,7 +144,7 @@ OutputTarget find_target(const fs::path& name)
             refuse_output(name, error_text(errno));
         }
         std::error_code ignored;
-        if (const fs::path folder = folder_of(path); !fs::exists(folder, ignored)) {
+        if (const fs::path folder = find_folder(path); !fs::exists(folder, ignored)) {
             refuse_output(name, fmt::format("there is no folder \"{}\"", folder.string()));
         }
         return {.path = std::move(path)};

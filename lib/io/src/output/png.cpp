@@ -218,7 +218,7 @@ void write_png(const std::filesystem::path& file, const TexelImage& image,
                  {.width = image.width,
                   .height = image.height,
                   .channels = image.channels,
-                  .bits = static_cast<int>(8 * size_of(image.type)),
+                  .bits = static_cast<int>(8 * count_value_bytes(image.type)),
                   .bytes = image.bytes},
                  options);
 }

@@ -240,7 +240,7 @@ PartHeader read(const JsonValue& json)
 
 }  // namespace
 
-PartHeader header_of(const RenderPart& part, const PartNotes& notes)
+PartHeader make_part_header(const RenderPart& part, const PartNotes& notes)
 {
     return {.identity = part.identity,
             .samples = part.samples,

@@ -29,7 +29,7 @@ struct PartHeader {
     PartNotes notes;
 };
 
-[[nodiscard]] PartHeader header_of(const RenderPart& part, const PartNotes& notes);
+[[nodiscard]] PartHeader make_part_header(const RenderPart& part, const PartNotes& notes);
 
 [[nodiscard]] std::string to_text(const PartHeader& header);
 

@@ -23,7 +23,7 @@ std::vector<std::string> id_planes(const IdRanks& ranks)
 }
 
 /// Returns the position in memory of the 32 bits of that rank, 0 being the lowest.
-std::size_t place_of(int rank)
+std::size_t compute_offset(int rank)
 {
     constexpr bool little = std::endian::native == std::endian::little;
     return sizeof(std::uint32_t) * static_cast<std::size_t>(little ? rank : rank ^ 1);
@@ -61,8 +61,8 @@ Imf::FrameBuffer PlaneRow::frame_buffer()
     constexpr std::size_t stride = sizeof(ExactSum::Words);
     std::size_t i = 0;
     for (const std::string& channel : channels()) {
-        auto* const first = reinterpret_cast<char*>(row_of(i / words_of_sum).data());
-        char* const base = first + place_of(static_cast<int>(i % words_of_sum)) -
+        auto* const first = reinterpret_cast<char*>(plane_sums(i / words_of_sum).data());
+        char* const base = first + compute_offset(static_cast<int>(i % words_of_sum)) -
                            static_cast<std::ptrdiff_t>(stride) * left_;
         buffer.insert(channel, Imf::Slice(Imf::UINT, base, stride, 0));  // all rows in one place
         ++i;
@@ -70,12 +70,12 @@ Imf::FrameBuffer PlaneRow::frame_buffer()
     return buffer;
 }
 
-std::span<ExactSum::Words> PlaneRow::row_of(std::size_t plane)
+std::span<ExactSum::Words> PlaneRow::plane_sums(std::size_t plane)
 {
     return {words_.data() + plane * width_, width_};
 }
 
-std::span<const ExactSum::Words> PlaneRow::row_of(std::size_t plane) const
+std::span<const ExactSum::Words> PlaneRow::plane_sums(std::size_t plane) const
 {
     return {words_.data() + plane * width_, width_};
 }
@@ -85,7 +85,7 @@ void PlaneRow::take(const RenderPart& part, int row)
     std::size_t plane = 0;
     const auto take_planes = [&](const auto& film, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
-            film.read_row(i, row, row_of(plane++));
+            film.read_row(i, row, plane_sums(plane++));
         }
     };
     take_planes(part.film, film_.size());
@@ -93,7 +93,7 @@ void PlaneRow::take(const RenderPart& part, int row)
     take_planes(part.strategies, strategies_.size());
     for (const IdKind kind : id_kinds) {
         for (std::size_t rank = 0; rank < ranks_[static_cast<std::size_t>(kind)]; ++rank) {
-            part.ids.read_row(kind, rank, row, row_of(plane++));
+            part.ids.read_row(kind, rank, row, plane_sums(plane++));
         }
     }
 }
@@ -103,7 +103,7 @@ void PlaneRow::add_to(RenderPart& part, int row, std::int64_t samples) const
     std::size_t plane = 0;
     const auto add_planes = [&](auto& film, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
-            film.add_row(i, row, row_of(plane++));
+            film.add_row(i, row, plane_sums(plane++));
         }
     };
     add_planes(part.film, film_.size());

@@ -30,8 +30,8 @@ public:
     void add_to(RenderPart& part, int row, std::int64_t samples) const;
 
 private:
-    [[nodiscard]] std::span<ExactSum::Words> row_of(std::size_t plane);
-    [[nodiscard]] std::span<const ExactSum::Words> row_of(std::size_t plane) const;
+    [[nodiscard]] std::span<ExactSum::Words> plane_sums(std::size_t plane);
+    [[nodiscard]] std::span<const ExactSum::Words> plane_sums(std::size_t plane) const;
 
     int left_;
     std::size_t width_;

@@ -42,7 +42,7 @@ Seal make_seal(std::uint64_t size, const ContentHash& hash)
 }
 
 template <typename File>
-ContentHash hash_of(const File& file, std::uint64_t size)
+ContentHash hash_file(const File& file, std::uint64_t size)
 {
     ContentHasher hasher;
     std::vector<char> block(static_cast<std::size_t>(std::min<std::uint64_t>(block_size, size)));
@@ -105,7 +105,7 @@ void SealedFile::check()
     if (!std::equal(seal_name.begin(), seal_name.end(), found.begin())) {
         fail();  // before all of a large file is read
     }
-    hash_ = hash_of(*this, size_);
+    hash_ = hash_file(*this, size_);
     if (found != make_seal(size_, hash_)) {
         fail();
     }
@@ -133,7 +133,7 @@ void SealedFile::read(std::uint64_t position, std::span<char> bytes) const
 
 void seal(OutputFile& file, std::uint64_t size)
 {
-    const Seal seal = make_seal(size, hash_of(file, size));
+    const Seal seal = make_seal(size, hash_file(file, size));
     file.seek(size);
     file.write(seal);
 }

@@ -62,7 +62,7 @@ Imf::Header sums_header(const RenderPart& part, const PartNotes& notes, const Pl
     for (const std::string& channel : row.channels()) {
         header.channels().insert(channel, Imf::Channel(Imf::UINT));
     }
-    header.insert("bdpt.part", Imf::StringAttribute(to_text(header_of(part, notes))));
+    header.insert("bdpt.part", Imf::StringAttribute(to_text(make_part_header(part, notes))));
     return header;
 }
 

@@ -13,10 +13,10 @@ namespace bdpt::io {
 namespace {
 
 /// Returns the exponent of the rate `value`; one more than the greatest if it is invalid.
-std::int8_t exponent_of(Rgb value)
+std::int8_t find_exponent(Rgb value)
 {
     int exponent = SampleRates::min_exponent;
-    while (exponent <= SampleRates::max_exponent && value != Rgb(SampleRates::rate_of(exponent))) {
+    while (exponent <= SampleRates::max_exponent && value != Rgb(SampleRates::to_rate(exponent))) {
         ++exponent;
     }
     return static_cast<std::int8_t>(exponent);
@@ -30,7 +30,7 @@ void write_rates(const std::filesystem::path& file, const SampleRates& rates,
     Image image{rates.width(), rates.height(), {}};
     image.pixels.reserve(rates.exponents().size());
     for (const std::int8_t exponent : rates.exponents()) {
-        image.pixels.emplace_back(SampleRates::rate_of(exponent));
+        image.pixels.emplace_back(SampleRates::to_rate(exponent));
     }
     ExrOptions options;
     options.type = ExrChannelType::half_float;
@@ -44,7 +44,7 @@ SampleRates read_rates(const std::filesystem::path& file)
     std::vector<std::int8_t> exponents;
     exponents.reserve(image.pixels.size());
     for (const Rgb& pixel : image.pixels) {
-        exponents.push_back(exponent_of(pixel));
+        exponents.push_back(find_exponent(pixel));
         if (exponents.back() > SampleRates::max_exponent) {
             const std::size_t i = exponents.size() - 1;
             const auto width = static_cast<std::size_t>(image.width);

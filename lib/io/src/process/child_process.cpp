@@ -111,7 +111,7 @@ std::string last_line(int file)
 }
 
 /// Creates a file in memory that holds `bytes`, to be read from its start; -1 if there are none.
-int file_of(std::span<const std::uint8_t> bytes)
+int make_memory_file(std::span<const std::uint8_t> bytes)
 {
     if (bytes.empty()) {
         return -1;
@@ -154,7 +154,7 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
     if (output_.number() < 0 || written.number() < 0) {
         fail("no pipe to a new process", errno);
     }
-    const Descriptor given(file_of(input));
+    const Descriptor given(make_memory_file(input));
     std::vector<std::string> words{program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;

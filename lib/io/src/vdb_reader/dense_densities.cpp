@@ -57,7 +57,7 @@ void check_background(const openvdb::GridBase& grid)
 
 }  // namespace
 
-io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t max_bytes)
+io::VdbReply make_header(const openvdb::GridBase& grid, std::uint64_t max_bytes)
 {
     check_background(grid);
     const CoordBBox box = grid.evalActiveVoxelBoundingBox();

@@ -13,7 +13,7 @@ namespace bdpt::vdb {
 /// Returns the box of the densities of `grid`: that of its active voxels, extended by one voxel.
 /// Throws `Error` (invalid_input) if it has none, if its background is not 0, or if they take more
 /// than `max_bytes`.
-[[nodiscard]] io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t max_bytes);
+[[nodiscard]] io::VdbReply make_header(const openvdb::GridBase& grid, std::uint64_t max_bytes);
 
 /// Returns the size of all densities, or of those that are in memory at a time [bytes].
 [[nodiscard]] std::uint64_t density_bytes(const io::VdbReply& header);

@@ -24,7 +24,7 @@ struct Head {
     GridBase::Ptr grid;
 };
 
-std::vector<Head> heads_of(openvdb::io::File& file)
+std::vector<Head> read_heads(openvdb::io::File& file)
 {
     std::vector<Head> heads;
     for (auto name = file.beginName(); name != file.endName(); ++name) {
@@ -33,7 +33,7 @@ std::vector<Head> heads_of(openvdb::io::File& file)
     return heads;
 }
 
-std::string list_of(const std::vector<Head>& heads)
+std::string list_grids(const std::vector<Head>& heads)
 {
     constexpr std::size_t most = 20;
     std::string text;
@@ -58,7 +58,7 @@ const Head& chosen(const std::vector<Head>& heads, const std::string& wanted)
     }
     if (!wanted.empty()) {
         throw Error(ErrorCode::invalid_input,
-                    "no grid \"" + plain(wanted) + "\"; it has " + list_of(heads));
+                    "no grid \"" + plain(wanted) + "\"; it has " + list_grids(heads));
     }
     const auto is_candidate = [](const Head& head) { return has_floats(*head.grid); };
     const auto first = std::find_if(heads.begin(), heads.end(), is_candidate);
@@ -66,12 +66,12 @@ const Head& chosen(const std::vector<Head>& heads, const std::string& wanted)
         throw Error(ErrorCode::invalid_input, "no grids");
     }
     if (first == heads.end()) {
-        throw Error(ErrorCode::unsupported, "no grid of floats; it has " + list_of(heads));
+        throw Error(ErrorCode::unsupported, "no grid of floats; it has " + list_grids(heads));
     }
     if (std::any_of(std::next(first), heads.end(), is_candidate)) {
         throw Error(ErrorCode::invalid_input,
                     "no grid \"density\", but several of floats, so one must be named; it has " +
-                        list_of(heads));
+                        list_grids(heads));
     }
     return *first;
 }
@@ -117,7 +117,7 @@ std::string label(const GridBase& grid)
 
 std::string chosen_grid(openvdb::io::File& file, const std::string& wanted)
 {
-    const std::vector<Head> heads = heads_of(file);
+    const std::vector<Head> heads = read_heads(file);
     const Head& head = chosen(heads, wanted);
     check(*head.grid);
     return head.name;

@@ -33,9 +33,9 @@ void read(const std::string& name, const std::string& wanted, std::uint64_t max_
     openvdb::io::File file(name);
     file.open(/*delayLoad=*/false);
     const openvdb::GridBase::Ptr grid = file.readGrid(chosen_grid(file, wanted));
-    const io::VdbReply header = header_of(*grid, max_bytes);
+    const io::VdbReply header = make_header(*grid, max_bytes);
     io::write_output(&header, sizeof(header));
-    // From here on the work is proportional to the densities, which `header_of` has limited.
+    // From here on the work is proportional to the densities, which `make_header` has limited.
     constexpr std::uint64_t bytes_per_second = std::uint64_t{64} << 20U;
     allowance.memory += slab_bytes(header);
     allowance.seconds += density_bytes(header) / bytes_per_second;

@@ -146,18 +146,18 @@ LightPathCache::Choice LightPathCache::choose(int x, int y, const ScheduledSampl
 
 std::span<const PathVertex> LightPathCache::path(const Choice& choice, int which) const
 {
-    const Chunk& chunk = chunk_of(choice.bundle);
-    const std::size_t path = path_of(choice, which);
-    const std::size_t begin = chunk.begin_of(path).vertices;
+    const Chunk& chunk = find_chunk(choice.bundle);
+    const std::size_t path = find_path(choice, which);
+    const std::size_t begin = chunk.path_begin(path).vertices;
     return std::span(chunk.vertices).subspan(begin, chunk.path_ends[path].vertices - begin);
 }
 
 void LightPathCache::prefetch(const Choice& choice) const
 {
-    const Chunk& chunk = chunk_of(choice.bundle);
+    const Chunk& chunk = find_chunk(choice.bundle);
     for (int i = 0; i < choice.count; ++i) {
-        const std::size_t path = path_of(choice, i);
-        const PathEnd begin = chunk.begin_of(path);
+        const std::size_t path = find_path(choice, i);
+        const PathEnd begin = chunk.path_begin(path);
         const PathEnd& end = chunk.path_ends[path];
         prefetch_bytes(chunk.vertices.data() + begin.vertices,
                        chunk.vertices.data() + end.vertices);

@@ -65,7 +65,7 @@ public:
     /// connected to them.
     [[nodiscard]] const TimeAndWavelength& moment(std::int64_t bundle) const
     {
-        return chunk_of(bundle).moments[place_of(bundle)];
+        return find_chunk(bundle).moments[index_in_chunk(bundle)];
     }
     /// Visits the light paths of the chunks [first, last) in order.
     template <typename Visit>
@@ -95,23 +95,23 @@ private:
         std::vector<PathVertex> vertices;  // one path after another
         std::vector<Bsdf> bsdfs;           // BSDFs of the connectible vertices, in order
 
-        [[nodiscard]] PathEnd begin_of(std::size_t path) const
+        [[nodiscard]] PathEnd path_begin(std::size_t path) const
         {
             return path == 0 ? PathEnd{} : path_ends[path - 1];
         }
     };
-    [[nodiscard]] const Chunk& chunk_of(std::int64_t bundle) const
+    [[nodiscard]] const Chunk& find_chunk(std::int64_t bundle) const
     {
         return chunks_[static_cast<std::size_t>(bundle / chunk_bundles)];
     }
-    [[nodiscard]] static std::size_t place_of(std::int64_t bundle)
+    [[nodiscard]] static std::size_t index_in_chunk(std::int64_t bundle)
     {
         return static_cast<std::size_t>(bundle % chunk_bundles);
     }
     /// Returns the index of light path `which` of the choice in its chunk.
-    [[nodiscard]] std::size_t path_of(const Choice& choice, int which) const
+    [[nodiscard]] std::size_t find_path(const Choice& choice, int which) const
     {
-        return place_of(choice.bundle) * static_cast<std::size_t>(counts_.bundle) +
+        return index_in_chunk(choice.bundle) * static_cast<std::size_t>(counts_.bundle) +
                static_cast<std::size_t>((choice.first + which) % counts_.bundle);
     }
 

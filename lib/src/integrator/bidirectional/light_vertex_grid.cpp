@@ -23,12 +23,12 @@ constexpr std::size_t max_parts = 64;
 template <typename Visit>
 void for_each_vertex(const LightPathCache& cache, std::size_t block, const Visit& visit)
 {
-    const auto begin_of = [&cache](std::size_t number) {
+    const auto find_begin = [&cache](std::size_t number) {
         return cache.chunks() * static_cast<std::int64_t>(number) /
                static_cast<std::int64_t>(blocks);
     };
     cache.for_each_path(
-        begin_of(block), begin_of(block + 1), [&](std::span<const PathVertex> path) {
+        find_begin(block), find_begin(block + 1), [&](std::span<const PathVertex> path) {
             for (std::size_t size = 2; size <= path.size(); ++size) {
                 if (path[size - 1].kind == VertexKind::surface && path[size - 1].connectible) {
                     visit(path.first(size));
@@ -62,7 +62,7 @@ void LightVertexGrid::build(const LightPathCache& cache, Vec3 center, float radi
     const std::size_t buckets_of_part = buckets / parts;
     using Places = std::array<std::size_t, max_parts>;
     std::vector<Places> places(blocks);
-    const auto bucket = [&](Vec3 p) { return bucket_of(cell_of(p, 0.0)); };
+    const auto bucket = [&](Vec3 p) { return find_bucket(find_cell(p, 0.0)); };
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
         Places found{};
         for_each_vertex(cache, block, [&](std::span<const PathVertex> light) {
@@ -98,7 +98,7 @@ void LightVertexGrid::sort_part(std::size_t first, std::span<const Entry> part,
                                 std::span<std::size_t> begins)
 {
     const auto bucket = [&](const Entry& entry) -> std::size_t& {
-        return begins[bucket_of(cell_of(entry.p, 0.0)) & (begins.size() - 1)];
+        return begins[find_bucket(find_cell(entry.p, 0.0)) & (begins.size() - 1)];
     };
     std::fill(begins.begin(), begins.end(), std::size_t{0});
     for (const Entry& entry : part) {
@@ -114,7 +114,7 @@ void LightVertexGrid::sort_part(std::size_t first, std::span<const Entry> part,
     }
 }
 
-LightVertexGrid::Cell LightVertexGrid::cell_of(Vec3 p, double offset) const
+LightVertexGrid::Cell LightVertexGrid::find_cell(Vec3 p, double offset) const
 {
     Cell cell{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -125,7 +125,7 @@ LightVertexGrid::Cell LightVertexGrid::cell_of(Vec3 p, double offset) const
     return cell;
 }
 
-std::size_t LightVertexGrid::bucket_of(const Cell& cell) const
+std::size_t LightVertexGrid::find_bucket(const Cell& cell) const
 {
     const std::uint64_t hash = static_cast<std::uint64_t>(cell[0]) * 73856093U ^
                                static_cast<std::uint64_t>(cell[1]) * 19349663U ^
@@ -137,14 +137,14 @@ std::array<std::size_t, 8> LightVertexGrid::buckets_near(Vec3 p) const
 {
     // Cubes are as wide as the diameter of the search sphere, which overlaps at most two along each
     // axis.
-    const Cell first = cell_of(p, -0.5);
+    const Cell first = find_cell(p, -0.5);
     std::array<std::size_t, 8> buckets{};
     for (std::size_t i = 0; i < buckets.size(); ++i) {
         const auto bit = [i](std::size_t axis) {
             return static_cast<std::int64_t>(i >> axis & 1U);
         };
         const std::size_t bucket =
-            bucket_of({first[0] + bit(0), first[1] + bit(1), first[2] + bit(2)});
+            find_bucket({first[0] + bit(0), first[1] + bit(1), first[2] + bit(2)});
         // Cubes may share a bucket, which must not be visited twice.
         const auto end = buckets.begin() + static_cast<std::ptrdiff_t>(i);
         buckets[i] = std::find(buckets.begin(), end, bucket) == end ? bucket : none;

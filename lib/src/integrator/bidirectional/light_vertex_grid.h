@@ -57,8 +57,8 @@ public:
 private:
     static constexpr std::size_t none = ~std::size_t{0};
 
-    [[nodiscard]] Cell cell_of(Vec3 p, double offset) const;
-    [[nodiscard]] std::size_t bucket_of(const Cell& cell) const;
+    [[nodiscard]] Cell find_cell(Vec3 p, double offset) const;
+    [[nodiscard]] std::size_t find_bucket(const Cell& cell) const;
     /// Sorts the entries of a part, which begin at entry `first`, into its buckets `begins`.
     void sort_part(std::size_t first, std::span<const Entry> part, std::span<std::size_t> begins);
     /// Returns those of the eight cubes that have a point near `p`, without duplicates; the rest is

@@ -11,7 +11,7 @@ namespace {
 constexpr float max_half = 65504.0f;
 
 /// Returns the nearest half float, ties to even, of a float in [0, 65504].
-std::uint16_t half_of(float value)
+std::uint16_t to_half(float value)
 {
     constexpr float min_normal = 0x1p-14f;
     if (value < min_normal) {
@@ -77,7 +77,7 @@ bool EnvironmentTexels::encode(const Image& image)
     resize_in_huge_pages(halves_, 3 * image.pixels.size());
     const float* const values = &image.pixels[0].r;
     for (std::size_t i = 0; i < halves_.size(); ++i) {
-        halves_[i] = half_of(values[i] * inverse);
+        halves_[i] = to_half(values[i] * inverse);
         const float error = std::abs(decoded(halves_[i]) * scale_ - values[i]);
         if (error > std::max(relative * values[i], unseen)) {
             return false;

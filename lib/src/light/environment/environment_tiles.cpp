@@ -24,7 +24,7 @@ EnvironmentTiles::Range part(std::uint32_t i, std::uint32_t count, std::uint32_t
 }
 
 /// Returns the part that contains `thing`.
-std::uint32_t part_of(std::uint32_t thing, std::uint32_t count, std::uint32_t size)
+std::uint32_t find_part(std::uint32_t thing, std::uint32_t count, std::uint32_t size)
 {
     return static_cast<std::uint32_t>(((std::uint64_t{thing} + 1) * count - 1) / size);
 }
@@ -102,7 +102,7 @@ Pick pick(const float* numbers, std::size_t count, float sum, float u)
 }
 
 /// Returns the number of parts per side of a tile, for its dim weights.
-std::uint32_t parts_of(std::uint32_t cells)
+std::uint32_t count_parts(std::uint32_t cells)
 {
     constexpr std::uint32_t most = 16;
     return std::min(cells, most);
@@ -112,10 +112,10 @@ std::uint32_t parts_of(std::uint32_t cells)
 std::vector<float> sums_of_parts(std::span<const float> weights, std::uint32_t columns,
                                  std::uint32_t rows)
 {
-    const std::uint32_t across = parts_of(columns);
-    std::vector<double> sums(std::size_t{across} * parts_of(rows), 0.0);
+    const std::uint32_t across = count_parts(columns);
+    std::vector<double> sums(std::size_t{across} * count_parts(rows), 0.0);
     for (std::uint32_t y = 0; y < rows; ++y) {
-        const std::size_t first = std::size_t{part_of(y, parts_of(rows), rows)} * across;
+        const std::size_t first = std::size_t{find_part(y, count_parts(rows), rows)} * across;
         for (std::uint32_t i = 0; i < across; ++i) {
             const std::uint32_t end = begin_of_part(i + 1, across, columns);
             for (std::uint32_t x = begin_of_part(i, across, columns); x < end; ++x) {
@@ -227,23 +227,23 @@ void EnvironmentTiles::add_shape(std::size_t tile, Range columns, Range rows)
 void EnvironmentTiles::add_tile(std::size_t tile, std::span<const float> bright,
                                 std::span<const float> dim, double total)
 {
-    const auto sum_of = [](std::span<const float> weights) {
+    const auto compute_sum = [](std::span<const float> weights) {
         double sum = 0.0;
         for (const float weight : weights) {
             sum += static_cast<double>(weight);
         }
         return sum;
     };
-    const double light = sum_of(bright);
-    const double rest = sum_of(dim);
+    const double light = compute_sum(bright);
+    const double rest = compute_sum(dim);
     const double of_total =
         total > 0.0 ? 1.0 / (total * static_cast<double>(cells_of_weight_)) : 0.0;
     all_.of[tile] = static_cast<float>((light + rest) * of_total);
     bright_.of[tile] = static_cast<float>(light * of_total);
     bright_in_tile_[tile] = rest > 0.0 ? static_cast<float>(light / (light + rest)) : 1.0f;
     grid_of_tile_[tile] = grids_++;
-    cells_.add(bright, columns_of(tile));
-    parts_.add(sums_of_parts(dim, columns_of(tile), rows_of(tile)), parts_of(columns_of(tile)));
+    cells_.add(bright, count_columns(tile));
+    parts_.add(sums_of_parts(dim, count_columns(tile), count_rows(tile)), count_parts(count_columns(tile)));
 }
 
 void EnvironmentTiles::Worth::sum_up() noexcept
@@ -292,18 +292,18 @@ float EnvironmentTiles::density(std::size_t tile, const Worth& worth, float cell
 float EnvironmentTiles::cell_pdf(std::size_t tile, std::uint32_t column, std::uint32_t row,
                                  EnvironmentSampling sampling) const noexcept
 {
-    const std::uint32_t columns = columns_of(tile);
-    const std::uint32_t rows = rows_of(tile);
+    const std::uint32_t columns = count_columns(tile);
+    const std::uint32_t rows = count_rows(tile);
     const std::size_t grid = grid_of_tile_[tile];
     const float bright = cells_.probability(grid, column, row) *
                          (static_cast<float>(columns) * static_cast<float>(rows));
     if (sampling != EnvironmentSampling::plain || !(bright_in_tile_[tile] < 1.0f)) {
         return bright;
     }
-    const std::uint32_t i = part_of(column, parts_of(columns), columns);
-    const std::uint32_t j = part_of(row, parts_of(rows), rows);
-    const Range part_columns = part(i, parts_of(columns), columns);
-    const Range part_rows = part(j, parts_of(rows), rows);
+    const std::uint32_t i = find_part(column, count_parts(columns), columns);
+    const std::uint32_t j = find_part(row, count_parts(rows), rows);
+    const Range part_columns = part(i, count_parts(columns), columns);
+    const Range part_rows = part(j, count_parts(rows), rows);
     const float dim = parts_.probability(grid, i, j) *
                       (static_cast<float>(columns) / static_cast<float>(part_columns.size()) *
                        (static_cast<float>(rows) / static_cast<float>(part_rows.size())));
@@ -351,12 +351,12 @@ CellTables::Cell EnvironmentTiles::sample_cell(std::size_t tile, Vec2 u,
         cell = cells.begin + whole;
         in_cell = std::min(at - static_cast<float>(whole), below_one);
     };
-    const std::uint32_t columns = columns_of(tile);
-    const std::uint32_t rows = rows_of(tile);
+    const std::uint32_t columns = count_columns(tile);
+    const std::uint32_t rows = count_rows(tile);
     CellTables::Cell cell;
-    place(part(of_parts.column, parts_of(columns), columns), of_parts.offset.x, cell.column,
+    place(part(of_parts.column, count_parts(columns), columns), of_parts.offset.x, cell.column,
           cell.offset.x);
-    place(part(of_parts.row, parts_of(rows), rows), of_parts.offset.y, cell.row, cell.offset.y);
+    place(part(of_parts.row, count_parts(rows), rows), of_parts.offset.y, cell.row, cell.offset.y);
     return cell;
 }
 
@@ -369,16 +369,16 @@ std::optional<EnvironmentTiles::Sample> EnvironmentTiles::sample(
                : sample(u, shares(sampling), sampling);
 }
 
-std::size_t EnvironmentTiles::tile_of(int column, int row) const noexcept
+std::size_t EnvironmentTiles::find_tile(int column, int row) const noexcept
 {
-    return part_of(static_cast<std::uint32_t>(column), tile_columns, width_) * max_rows +
-           part_of(static_cast<std::uint32_t>(row), rows_, height_);
+    return find_part(static_cast<std::uint32_t>(column), tile_columns, width_) * max_rows +
+           find_part(static_cast<std::uint32_t>(row), rows_, height_);
 }
 
 float EnvironmentTiles::pdf(int column, int row, const std::optional<Vec3>& normal,
                             const TileFactors* factors, EnvironmentSampling sampling) const noexcept
 {
-    const std::size_t tile = tile_of(column, row);
+    const std::size_t tile = find_tile(column, row);
     const Worth& known = shares(sampling);
     if (!(known.of[tile] > 0.0f)) {
         return 0.0f;

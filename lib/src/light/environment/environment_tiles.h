@@ -75,7 +75,7 @@ public:
         const TileFactors* factors = nullptr,
         EnvironmentSampling sampling = EnvironmentSampling::compensated) const noexcept;
     /// Returns the tile that contains the cell, in [0, tile_count).
-    [[nodiscard]] std::size_t tile_of(int column, int row) const noexcept;
+    [[nodiscard]] std::size_t find_tile(int column, int row) const noexcept;
     /// Returns the memory of the tables of cells [bytes].
     [[nodiscard]] std::size_t bytes() const noexcept { return cells_.bytes() + parts_.bytes(); }
 
@@ -114,11 +114,11 @@ private:
         return sampling == EnvironmentSampling::plain ? all_ : bright_;
     }
     // Numbers of cells in the tile.
-    [[nodiscard]] std::uint32_t columns_of(std::size_t tile) const noexcept
+    [[nodiscard]] std::uint32_t count_columns(std::size_t tile) const noexcept
     {
         return column_begins_[tile / max_rows + 1] - column_begins_[tile / max_rows];
     }
-    [[nodiscard]] std::uint32_t rows_of(std::size_t tile) const noexcept
+    [[nodiscard]] std::uint32_t count_rows(std::size_t tile) const noexcept
     {
         return row_begins_[tile % max_rows + 1] - row_begins_[tile % max_rows];
     }

@@ -35,7 +35,7 @@ Probabilities probabilities(std::span<const Trial> trials, const Probabilities& 
 }
 
 /// The share of samples that has the least variance goes with the root of the second moment.
-TileFactors factors_of(const Probabilities& visible)
+TileFactors compute_factors(const Probabilities& visible)
 {
     TileFactors factors;
     for (std::size_t tile = 0; tile < visible.size(); ++tile) {
@@ -49,7 +49,7 @@ TileFactors factors_of(const Probabilities& visible)
 EnvironmentVisibility::EnvironmentVisibility(std::vector<Trial> trials)
     : tree_(std::span(trials), trials_of_cell, Probabilities(EnvironmentTiles::tile_count, 1.0f),
             probabilities,
-            [this](const Probabilities& visible) { cells_.push_back(factors_of(visible)); })
+            [this](const Probabilities& visible) { cells_.push_back(compute_factors(visible)); })
 {}
 
 }  // namespace bdpt

@@ -36,7 +36,7 @@ double soft_step(double x)
     return smooth_step(x / soft_edge + 0.5);
 }
 
-double radiance_of(const SoftBox& box, const StudioDirection& direction)
+double evaluate_radiance(const SoftBox& box, const StudioDirection& direction)
 {
     const StudioDirection forward = glm::normalize(box.towards);
     const double ahead = glm::dot(direction, forward);
@@ -68,7 +68,7 @@ EnvironmentLightDesc studio_environment()
     return painted_environment(painted_128_rows, [](const StudioDirection& direction) {
         double value = studio_room(direction.y);
         for (const SoftBox& box : studio_boxes) {
-            value += radiance_of(box, direction);
+            value += evaluate_radiance(box, direction);
         }
         return value;
     });

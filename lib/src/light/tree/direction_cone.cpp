@@ -39,7 +39,7 @@ DirectionCone merged(const DirectionCone& a, const DirectionCone& b)
     }
     // Exceeds the rounding error, so that no number of unions loses a direction.
     constexpr float margin = 4e-6f;
-    const auto cos_of = [](float angle) {
+    const auto compute_cos = [](float angle) {
         return angle < pi ? std::max(sin_cos(angle).cos - margin, -1.0f) : -1.0f;
     };
     const float between = acos_exact(cos_between);
@@ -53,11 +53,11 @@ DirectionCone merged(const DirectionCone& a, const DirectionCone& b)
     const float length = std::sqrt(dot(across, across));
     constexpr float parallel = 1e-5f;  // below this the axes define no plane of rotation
     if (length < parallel) {
-        return {.axis = wide.axis, .cos_angle = cos_of(between + narrow_angle)};
+        return {.axis = wide.axis, .cos_angle = compute_cos(between + narrow_angle)};
     }
     const SinCos turn = sin_cos(angle - wide_angle);
     return {.axis = normalize(turn.cos * wide.axis + turn.sin * (across / length)),
-            .cos_angle = cos_of(angle)};
+            .cos_angle = compute_cos(angle)};
 }
 
 }  // namespace bdpt

@@ -20,7 +20,7 @@ float greater(float a, float b)
     return a > b ? a : b;
 }
 
-Angle angle_of(float cosine)
+Angle to_angle(float cosine)
 {
     return {cosine, std::sqrt(greater((1.0f - cosine) * (1.0f + cosine), 0.0f))};
 }
@@ -28,7 +28,7 @@ Angle angle_of(float cosine)
 /// Returns the angle in [0, pi / 2] with that sine.
 Angle angle_of_sine(float sine)
 {
-    return {angle_of(sine).sin, sine};
+    return {to_angle(sine).sin, sine};
 }
 
 /// Returns a - b, or 0 if b is larger.
@@ -75,10 +75,10 @@ LightQuad::Four<double> LightQuad::importance(const LightSampleContext& receiver
         const Angle size = angle_of_sine(radius[i] * inverse);
 
         const float along = -inverse * (axis_x[i] * dx + axis_y[i] * dy + axis_z[i] * dz);
-        const Angle from_axis = angle_of(both_sides[i] > 0.0f ? std::abs(along) : along);
+        const Angle from_axis = to_angle(both_sides[i] > 0.0f ? std::abs(along) : along);
         const float emitted = less(less(from_axis, {cos_spread[i], sin_spread[i]}), size).cos;
         const float above = inverse * (normal.x * dx + normal.y * dy + normal.z * dz);
-        const float received = greater(less(angle_of(above), size).cos, min_cosine);
+        const float received = greater(less(to_angle(above), size).cos, min_cosine);
 
         float cosines = greater(emitted, min_emitted) * greater(received, min_received);
         cosines = emitted >= cos_falloff[i] - slack ? cosines : 0.0f;

@@ -71,7 +71,7 @@ Division cheapest(const Bins& bins, int axis, double elongation)
 
 /// Returns the radius of a sphere around the box, slightly enlarged for rounding of corners and
 /// sampled points.
-float radius_of(const LightBounds& bounds)
+float compute_radius(const LightBounds& bounds)
 {
     const Vec3 half = 0.5f * bounds.max - 0.5f * bounds.min;
     const Vec3 farthest = max(abs(bounds.min), abs(bounds.max));
@@ -99,7 +99,7 @@ LightTreeBuilder::LightTreeBuilder(std::span<const LightBounds> lights) : lights
     build(ids, LightTree::no_slot, 0);
 }
 
-LightTreeBuilder::Group LightTreeBuilder::group_of(std::span<std::uint32_t> ids) const
+LightTreeBuilder::Group LightTreeBuilder::make_group(std::span<std::uint32_t> ids) const
 {
     LightBounds bounds = lights_[ids[0]];
     for (const std::uint32_t id : ids.subspan(1)) {
@@ -114,10 +114,10 @@ void LightTreeBuilder::build(std::span<std::uint32_t> ids, std::uint32_t parent_
     std::size_t count = 1;
     if (ids.size() <= groups.size()) {
         for (count = 0; count < ids.size(); ++count) {
-            groups[count] = group_of(ids.subspan(count, 1));
+            groups[count] = make_group(ids.subspan(count, 1));
         }
     } else {
-        groups[0] = group_of(ids);
+        groups[0] = make_group(ids);
     }
     while (count < groups.size()) {
         // Single lights have no cost; coincident ones may have none either.
@@ -132,8 +132,8 @@ void LightTreeBuilder::build(std::span<std::uint32_t> ids, std::uint32_t parent_
         const std::span<std::uint32_t> all = dearest->ids;
         const std::size_t middle =
             depth < deepest_choice ? split(all, dearest->bounds) : all.size() / 2;
-        *dearest = group_of(all.first(middle));
-        groups[count] = group_of(all.subspan(middle));
+        *dearest = make_group(all.first(middle));
+        groups[count] = make_group(all.subspan(middle));
         ++count;
     }
     const auto node = static_cast<std::uint32_t>(tree_.nodes_.size());
@@ -170,7 +170,7 @@ void LightTreeBuilder::put(const Group& group, std::size_t slot)
     quad.x[i] = center.x;
     quad.y[i] = center.y;
     quad.z[i] = center.z;
-    quad.radius[i] = radius_of(bounds);
+    quad.radius[i] = compute_radius(bounds);
     quad.axis_x[i] = axis.x;
     quad.axis_y[i] = axis.y;
     quad.axis_z[i] = axis.z;
@@ -196,7 +196,7 @@ std::size_t LightTreeBuilder::split(std::span<std::uint32_t> ids, const LightBou
         low = min(low, lights_[id].center());
         high = max(high, lights_[id].center());
     }
-    const auto bin_of = [&](std::uint32_t id, int axis) {
+    const auto find_bin = [&](std::uint32_t id, int axis) {
         const float at = (lights_[id].center()[axis] - low[axis]) / (high[axis] - low[axis]);
         return std::min(static_cast<std::size_t>(at * static_cast<float>(bin_count)),
                         bin_count - 1);
@@ -211,7 +211,7 @@ std::size_t LightTreeBuilder::split(std::span<std::uint32_t> ids, const LightBou
         }
         Bins bins;
         for (std::size_t i = 0; i < ids.size(); i += step) {
-            add(bins[bin_of(ids[i], axis)], lights_[ids[i]]);
+            add(bins[find_bin(ids[i], axis)], lights_[ids[i]]);
         }
         const Division division = cheapest(bins, axis, static_cast<double>(longest / extent[axis]));
         if (division.cost < best.cost) {
@@ -222,7 +222,7 @@ std::size_t LightTreeBuilder::split(std::span<std::uint32_t> ids, const LightBou
         return ids.size() / 2;
     }
     const auto middle = std::partition(ids.begin(), ids.end(), [&](std::uint32_t id) {
-        return bin_of(id, best.axis) < best.first_bins;
+        return find_bin(id, best.axis) < best.first_bins;
     });
     return static_cast<std::size_t>(middle - ids.begin());
 }

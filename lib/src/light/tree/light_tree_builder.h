@@ -27,7 +27,7 @@ private:
         double cost = 0.0;
     };
 
-    [[nodiscard]] Group group_of(std::span<std::uint32_t> ids) const;
+    [[nodiscard]] Group make_group(std::span<std::uint32_t> ids) const;
     void build(std::span<std::uint32_t> ids, std::uint32_t parent_slot, int depth);
     /// Partitions `ids` and returns the size of the first part.
     [[nodiscard]] std::size_t split(std::span<std::uint32_t> ids, const LightBounds& whole) const;

@@ -40,7 +40,7 @@ public:
                             f90 * f90 * mean.below_f90_f90;
         const float below_metal = mean.below - mean.below_f0 - mean.below_f90 + mean.below_f0_f0 +
                                   mean.below_f0_f90 + mean.below_f90_f90;
-        const float average = lost_of(mean, scattered_again(below_metal), below);
+        const float average = compute_loss(mean, scattered_again(below_metal), below);
         if (!(average > min_average)) {
             weight_ = 0.0f;  // a coat of negligible weight loses nothing
             return;
@@ -63,7 +63,7 @@ public:
             loss_->directional(std::clamp(cosine, 0.0f, 1.0f), base_.roughness, coat_);
         const float below_metal = part.below - part.below_f0 - part.below_f90;
         const float below = part.below - base_.f0 * part.below_f0 - base_.f90 * part.below_f90;
-        return weight_ * lost_of(part, from.unreflected * scattered_again(below_metal),
+        return weight_ * compute_loss(part, from.unreflected * scattered_again(below_metal),
                                  from.transmitted * below);
     }
 
@@ -82,7 +82,7 @@ private:
         return base_.unreflected > 1e-6f ? below_metal / base_.unreflected : 0.0f;
     }
     template <typename Loss>
-    [[nodiscard]] float lost_of(const Loss& loss, float metal_again, float below) const
+    [[nodiscard]] float compute_loss(const Loss& loss, float metal_again, float below) const
     {
         const float metal = loss.f0 + loss.f90 + metal_again;
         const float boundary = base_.f0 * loss.f0 + base_.f90 * loss.f90;

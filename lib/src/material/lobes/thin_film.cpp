@@ -23,7 +23,7 @@ namespace {
 }
 
 /// Returns the index relative to air that reflects f0; finite for a perfect mirror.
-[[nodiscard]] float index_of(float f0)
+[[nodiscard]] float to_ior(float f0)
 {
     const float root = std::sqrt(std::clamp(f0, 0.0f, 0.9999f));
     return (1.0f + root) / (1.0f - root);
@@ -115,7 +115,7 @@ Rgb ThinFilm::reflectance(float cosine, Rgb f0) const noexcept
     const Rgb twice = sensitivity(2.0f * path, 2.0f * pi);
     Rgb result;
     for (int c = 0; c < 3; ++c) {
-        const float base = index_of(f0[c]);
+        const float base = to_ior(f0[c]);
         const Interfaces sum = interfaces(index, base, cosine, cos_film);
         const float sign = base < index ? -1.0f : 1.0f;  // cos(x + pi) = -cos(x)
         result[c] = sum.mean + 2.0f * sum.first * (sign * once[c] + sum.quotient * twice[c]);
@@ -129,7 +129,7 @@ float ThinFilm::greatest(float cosine, Rgb f0) const noexcept
     const float cos_film = cosine_within(cosine, index);
     float greatest = 0.0f;
     for (int c = 0; c < 3; ++c) {
-        const Interfaces sum = interfaces(index, index_of(f0[c]), cosine, cos_film);
+        const Interfaces sum = interfaces(index, to_ior(f0[c]), cosine, cos_film);
         const float waves = std::abs(sum.first) * (1.0f + sum.quotient);
         greatest = std::max(greatest, sum.mean + 2.0f * max_sensitivity * waves);
     }

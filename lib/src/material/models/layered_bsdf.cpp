@@ -14,7 +14,7 @@ namespace {
     return above ? w : -w;
 }
 
-[[nodiscard]] LayerBase base_of(const LayeredParameters& parameters)
+[[nodiscard]] LayerBase make_base(const LayeredParameters& parameters)
 {
     return {parameters, *parameters.constants->base,
             AnisotropicRoughness(parameters.roughness, parameters.anisotropy.value()),
@@ -26,7 +26,7 @@ namespace {
 }
 
 /// Returns the approximate albedo of the base; above 0.
-[[nodiscard]] float weight_of(const LayeredParameters& parameters)
+[[nodiscard]] float estimate_weight(const LayeredParameters& parameters)
 {
     const float transmitted = parameters.diffuse_transmission.value() *
                               max_component(parameters.transmission_color.value());
@@ -43,13 +43,13 @@ namespace {
 }  // namespace
 
 LayeredBsdf::LayeredBsdf(const LayeredParameters& parameters)
-    : base_(base_of(parameters)),
+    : base_(make_base(parameters)),
       coat_(parameters.coat.value(), parameters.coat_roughness.value(),
             parameters.coat_normal.value(), parameters.constants->tables->coat.get()),
       sheen_(parameters.sheen.value(), parameters.sheen_roughness.value(),
              parameters.constants->tables->sheen.get()),
       again_(interreflection(coat_, parameters.constants->tables->coat_loss.get())),
-      base_weight_(weight_of(parameters)),
+      base_weight_(estimate_weight(parameters)),
       solid_(parameters.body == Body::solid)
 {}
 

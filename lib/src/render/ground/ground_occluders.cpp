@@ -188,7 +188,7 @@ struct Sector {
     double farthest = 0.0;  // [m]
 };
 
-Sector sector_of(const Rectangle& r)
+Sector find_sector(const Rectangle& r)
 {
     Sector result;
     const auto length = [](double x, double z) { return std::sqrt(x * x + z * z); };
@@ -233,7 +233,7 @@ double row_at(double distance, double height)
 
 void add(const Block& block, const Rectangle& place, GroundOccluders::Skyline& skyline)
 {
-    const Sector sector = sector_of({block.base.x0 - place.x1, block.base.z0 - place.z1,
+    const Sector sector = find_sector({block.base.x0 - place.x1, block.base.z0 - place.z1,
                                      block.base.x1 - place.x0, block.base.z1 - place.z0});
     constexpr double rows = GroundOccluders::rows;
     constexpr auto strips = static_cast<std::int64_t>(GroundOccluders::strips);

@@ -14,7 +14,7 @@ namespace {
 constexpr float below_one = 0x1.fffffep-1f;
 
 /// Returns the unit direction of an azimuth, measured as in `GroundOccluders`, and a polar angle.
-Vec3 direction_of(float azimuth, float sine, float cosine)
+Vec3 to_direction(float azimuth, float sine, float cosine)
 {
     constexpr float radians = 2.0f * pi / static_cast<float>(GroundOccluders::strips);
     const SinCos phi = sin_cos(radians * azimuth);
@@ -22,7 +22,7 @@ Vec3 direction_of(float azimuth, float sine, float cosine)
 }
 
 template <std::size_t count>
-double sum_of(const std::array<float, count>& numbers)
+double compute_sum(const std::array<float, count>& numbers)
 {
     double sum = 0.0;
     for (const float number : numbers) {
@@ -92,7 +92,7 @@ void GroundSky::fill_cells()
                 for (int i = 0; i < across; ++i) {
                     const float x = static_cast<float>(column) +
                                     (static_cast<float>(i) + 0.5f) / static_cast<float>(across);
-                    const Vec3 to_light = direction_of(x / static_cast<float>(columns_of_strip),
+                    const Vec3 to_light = to_direction(x / static_cast<float>(columns_of_strip),
                                                        theta.sin, theta.cos);
                     sum += size * static_cast<double>(luminance(sky_.radiance(to_light)));
                 }
@@ -122,7 +122,7 @@ void GroundSky::fill_cells()
     for (std::size_t strip = 0; strip < strips; ++strip) {
         RowSums& sums = weights_[strip];
         for (std::size_t row = 0; row < rows; ++row) {
-            sums[row + 1] = sums[row] + sum_of(cells(strip, row));
+            sums[row + 1] = sums[row] + compute_sum(cells(strip, row));
         }
     }
     for (std::size_t column = 0; column < columns; ++column) {
@@ -163,7 +163,7 @@ GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
         std::min(static_cast<float>(std::max(height - sums[row], 0.0) / of_row), below_one);
     // A cell of both, by what is left of the first.
     const Cells& row_of_cells = cells(strip, row);
-    const double of_cells = sum_of(row_of_cells);
+    const double of_cells = compute_sum(row_of_cells);
     const float before = strip > 0 ? from.weights[strip - 1] : 0.0f;
     double left = static_cast<double>(target - before) / weight * of_cells;
     std::size_t cell = 0;
@@ -182,7 +182,7 @@ GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
         sines_squared_[row] + along * (sines_squared_[row + 1] - sines_squared_[row]);
     const float azimuth =
         (static_cast<float>(column) + across) / static_cast<float>(columns_of_strip);
-    const Vec3 to_light = direction_of(azimuth, std::sqrt(sine_squared),
+    const Vec3 to_light = to_direction(azimuth, std::sqrt(sine_squared),
                                        std::sqrt(std::max(1.0f - sine_squared, 0.0f)));
     const float projected =
         pi / static_cast<float>(columns) * (sines_squared_[row + 1] - sines_squared_[row]);

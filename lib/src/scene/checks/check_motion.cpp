@@ -153,7 +153,7 @@ void check_places(const SharedSceneDesc& desc, float reach)
     for (std::size_t i = 0; i < desc.meshes.size(); ++i) {
         const MeshDesc& mesh = desc.meshes[i];
         check_moving(mesh, label("mesh", i, mesh.name));
-        extents.push_back(extent_of(mesh));
+        extents.push_back(compute_extent(mesh));
     }
     for (std::size_t i = 0; i < desc.instances.size(); ++i) {
         const InstanceDesc& instance = desc.instances[i];

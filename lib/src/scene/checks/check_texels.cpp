@@ -42,7 +42,7 @@ void check_texels(const TexelImage& image, const std::string& item)
     if (image.channels < 1 || image.channels > 4) {
         fail(std::to_string(image.channels) + " channels, but there must be 1 to 4");
     }
-    const std::size_t value_bytes = size_of(image.type);
+    const std::size_t value_bytes = count_value_bytes(image.type);
     const std::size_t texel_bytes = static_cast<std::size_t>(image.channels) * value_bytes;
     if (image.width < 1 || image.height < 1 ||
         image.bytes.size() != static_cast<std::size_t>(image.width) *

@@ -158,7 +158,7 @@ void check_coordinates(const SharedSceneDesc& desc, float reach)
     std::vector<Vec3> extents;
     extents.reserve(desc.meshes.size());
     for (const MeshDesc& mesh : desc.meshes) {
-        extents.push_back(extent_of(mesh));
+        extents.push_back(compute_extent(mesh));
     }
     for (std::size_t i = 0; i < desc.instances.size(); ++i) {
         const InstanceDesc& instance = desc.instances[i];
@@ -213,7 +213,7 @@ void validate(const SharedSceneDesc& desc, const SharedSceneDesc& valid)
         check_own_limits("fog", *desc.fog);
     }
     const bool same_places = same_meshes && same_instances;
-    const float reach = coordinate_limit_of(desc.instances.values(), desc.meshes.size());
+    const float reach = compute_coordinate_limit(desc.instances.values(), desc.meshes.size());
     if (!same_places || !same_volumes) {
         check_coordinates(desc, reach);
     }

@@ -36,7 +36,7 @@ PartHeader header()
     notes.metadata.frame = FrameNumber{.number = 3, .per_second = 24.0};
     notes.metadata.camera = test::room_camera();
     notes.metadata.camera.motion.emplace_back(1.0f);
-    PartHeader result = header_of(part, notes);
+    PartHeader result = make_part_header(part, notes);
     result.totals.defects.first_invalid = FilmDefects::Place{.x = 1, .y = 2, .sample_index = 1};
     return result;
 }

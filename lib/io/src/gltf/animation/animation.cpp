@@ -40,7 +40,7 @@ constexpr Path paths[] = {
     throw Error(ErrorCode::invalid_input, place + ": " + what);
 }
 
-Interpolation interpolation_of(const tinygltf::AnimationSampler& sampler)
+Interpolation parse_interpolation(const tinygltf::AnimationSampler& sampler)
 {
     if (sampler.interpolation == "STEP") {
         return Interpolation::step;
@@ -84,7 +84,7 @@ KeyFrames read_key_frames(const tinygltf::Model& model, const tinygltf::Animatio
                           LoadContext& context)
 {
     KeyFrames frames;
-    frames.interpolation = interpolation_of(sampler);
+    frames.interpolation = parse_interpolation(sampler);
     frames.width = width;
     const std::string input = place + "/input";
     frames.times = read_column(model, input, sampler.input, TINYGLTF_TYPE_SCALAR,

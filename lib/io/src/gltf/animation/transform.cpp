@@ -91,7 +91,7 @@ glm::dmat4 rotation(const std::vector<double>& xyzw, const std::string& place, L
     return length > 0.0 ? glm::mat4_cast(given / length) : glm::dmat4(1.0);
 }
 
-Mat3 axes_of(const glm::dmat4& world_from_node)
+Mat3 compute_axes(const glm::dmat4& world_from_node)
 {
     const glm::dmat3 m(world_from_node);
     const glm::dvec3 z(-transform_direction(world_from_node, {0.0, 0.0, -1.0}));

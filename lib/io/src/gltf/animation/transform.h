@@ -30,7 +30,7 @@ namespace bdpt::io {
 
 /// Removes scale and shear from a transform: returns orthonormal axes. -z points where the
 /// transform maps it and x as near as possible; mirrors if the transform does.
-[[nodiscard]] Mat3 axes_of(const glm::dmat4& world_from_node);
+[[nodiscard]] Mat3 compute_axes(const glm::dmat4& world_from_node);
 
 /// Tests whether all elements are finite.
 [[nodiscard]] bool is_finite(const Mat4& matrix);

@@ -19,7 +19,7 @@ constexpr std::string_view extension_names[] = {"EXT_meshopt_compression",
                                                 "KHR_meshopt_compression"};
 
 /// Returns the extension that compresses a view, if any.
-std::optional<std::string_view> compression_of(const JsonPlace& view)
+std::optional<std::string_view> find_compression(const JsonPlace& view)
 {
     if (!view.has("extensions")) {
         return std::nullopt;
@@ -156,7 +156,7 @@ std::vector<bool> find_fallback_buffers(const JsonPlace& root)
         const JsonPlace all = root.member("bufferViews");
         const JsonPlace view = all.element(i);
         const auto buffer = static_cast<std::size_t>(view.member("buffer").as_unsigned());
-        const std::optional<std::string_view> name = compression_of(view);
+        const std::optional<std::string_view> name = find_compression(view);
         if (!name) {
             needed[buffer] = true;
             continue;
@@ -196,7 +196,7 @@ void decode_meshopt_views(Json& document, std::vector<Bytes>& buffers, LoadConte
     for (std::size_t i = 0; i < document["bufferViews"].size(); ++i) {
         const JsonPlace views = root.member("bufferViews");
         const JsonPlace view = views.element(i);
-        const std::optional<std::string_view> name = compression_of(view);
+        const std::optional<std::string_view> name = find_compression(view);
         if (!name) {
             continue;
         }
@@ -206,7 +206,7 @@ void decode_meshopt_views(Json& document, std::vector<Bytes>& buffers, LoadConte
     // Only now, as places refer into the document.
     std::size_t next = given;
     for (Json& view : document["bufferViews"]) {
-        if (compression_of(JsonPlace(view))) {
+        if (find_compression(JsonPlace(view))) {
             document["buffers"].push_back({{"byteLength", buffers[next].size()}});
             view["buffer"] = next++;
             view["byteOffset"] = 0u;

@@ -15,7 +15,7 @@
 namespace bdpt::io {
 namespace {
 
-ContentHash hash_of(ByteView bytes)
+ContentHash hash_bytes(ByteView bytes)
 {
     ContentHasher hasher;
     hasher.add(bytes.data(), bytes.size());
@@ -48,7 +48,7 @@ void add_uris(std::set<std::string>& uris, const Json& document, const char* poi
     }
 }
 
-std::set<std::string> uris_of(ByteView file, LoadContext& context)
+std::set<std::string> read_uris(ByteView file, LoadContext& context)
 {
     ByteView text = file;
     if (is_glb(file)) {
@@ -78,7 +78,7 @@ std::optional<ContentHash> hash_if_readable(const std::string& uri, const LoadCo
 ContentHash hash_of_file(const std::filesystem::path& file, const ReadLimits& limits)
 {
     return with_named_errors(file, [&] {
-        return file == "-" ? hash_of(read_named(file, limits.file_bytes))
+        return file == "-" ? hash_bytes(read_named(file, limits.file_bytes))
                            : hash_by_blocks(file, limits.file_bytes);
     });
 }
@@ -89,8 +89,8 @@ std::vector<FileContent> gltf_file_contents(const std::filesystem::path& file,
     return with_named_errors(file, [&] {
         LoadContext context{.folder = file.parent_path(), .limits = limits};
         const Bytes bytes = read_named(file, limits.file_bytes);
-        std::vector<FileContent> result{{.name = file.filename().string(), .hash = hash_of(bytes)}};
-        for (const std::string& uri : uris_of(bytes, context)) {
+        std::vector<FileContent> result{{.name = file.filename().string(), .hash = hash_bytes(bytes)}};
+        for (const std::string& uri : read_uris(bytes, context)) {
             result.push_back({.name = uri, .hash = hash_if_readable(uri, context)});
         }
         return result;

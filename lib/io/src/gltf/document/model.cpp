@@ -262,7 +262,7 @@ Bytes read_source(const tinygltf::Model& model, const std::string& uri, int buff
     }
 }
 
-const tinygltf::Value& light_of(const tinygltf::Model& model, const char* extension,
+const tinygltf::Value& find_light(const tinygltf::Model& model, const char* extension,
                                 std::size_t index)
 {
     // tinygltf's own index is signed in some versions.

@@ -17,7 +17,7 @@ namespace bdpt::io {
 inline constexpr const char* indices_attribute = "INDICES";
 
 /// Returns light `index` of an extension of the document, which must have it.
-[[nodiscard]] const tinygltf::Value& light_of(const tinygltf::Model& model, const char* extension,
+[[nodiscard]] const tinygltf::Value& find_light(const tinygltf::Model& model, const char* extension,
                                               std::size_t index);
 
 /// Reads the bytes of a file or a data URI or, if `uri` is empty, of a view (-1: none). Throws

@@ -53,7 +53,7 @@ std::size_t texel_count(const TexelImage& texels)
 }
 
 /// Returns the upper eight bits of an integer, the precision of RGBD.
-std::uint8_t code_of(const TexelImage& texels, std::size_t texel, int channel)
+std::uint8_t read_code(const TexelImage& texels, std::size_t texel, int channel)
 {
     const auto value =
         texel * static_cast<std::size_t>(texels.channels) + static_cast<std::size_t>(channel);
@@ -77,13 +77,13 @@ Image decode_rgbd(const TexelImage& texels, const std::string& place, LoadContex
     const bool has_alpha = texels.channels % 2 == 0;
     bool is_divided_by_zero = false;
     for (std::size_t i = 0; i < texel_count(texels); ++i) {
-        const auto color_of = [&](int channel) {
-            return srgb_table[code_of(texels, i, is_grey ? 0 : channel)];
+        const auto read_color = [&](int channel) {
+            return srgb_table[read_code(texels, i, is_grey ? 0 : channel)];
         };
         const float divisor =
-            has_alpha ? static_cast<float>(code_of(texels, i, texels.channels - 1)) / 255.0f : 1.0f;
+            has_alpha ? static_cast<float>(read_code(texels, i, texels.channels - 1)) / 255.0f : 1.0f;
         is_divided_by_zero = is_divided_by_zero || divisor == 0.0f;
-        const Rgb color(color_of(0), color_of(1), color_of(2));
+        const Rgb color(read_color(0), read_color(1), read_color(2));
         image.pixels.push_back(divisor > 0.0f ? color / divisor : Rgb(0.0f));
     }
     if (is_divided_by_zero) {
@@ -223,7 +223,7 @@ std::optional<EnvironmentLightDesc> read_image_based_light(const tinygltf::Model
         return std::nullopt;
     }
     const auto index = static_cast<std::size_t>(found->second.Get("light").GetNumberAsInt());
-    const tinygltf::Value& light = light_of(model, "EXT_lights_image_based", index);
+    const tinygltf::Value& light = find_light(model, "EXT_lights_image_based", index);
     const std::string place = fmt::format("/extensions/EXT_lights_image_based/lights/{}", index);
     const std::vector<std::size_t> sides = first_level(light);
     if (sides.size() != 6) {

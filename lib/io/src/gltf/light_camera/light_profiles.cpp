@@ -53,7 +53,7 @@ const LightProfiles::Known& LightProfiles::get(std::size_t index)
         return found->second;
     }
     const std::string place = fmt::format("/extensions/EXT_lights_ies/lights/{}", index);
-    const tinygltf::Value& source = light_of(model_, "EXT_lights_ies", index);
+    const tinygltf::Value& source = find_light(model_, "EXT_lights_ies", index);
     const std::string uri = source.Has("uri") ? source.Get("uri").Get<std::string>() : "";
     const int view = source.Has("bufferView") ? source.Get("bufferView").GetNumberAsInt() : -1;
     try {
@@ -84,7 +84,7 @@ std::optional<LightDesc> LightProfiles::read(std::size_t node, const glm::dmat4&
     ProfileLightDesc desc;
     desc.name = holder.name;
     desc.position = Vec3(world_from_node[3]);
-    desc.world_from_light = axes_of(world_from_node) * known.node_from_profile;
+    desc.world_from_light = compute_axes(world_from_node) * known.node_from_profile;
     desc.scale =
         read_scale(light, fmt::format("/nodes/{}/extensions/EXT_lights_ies", node), context_);
     desc.profile = known.id;

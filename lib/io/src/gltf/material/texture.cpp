@@ -21,7 +21,7 @@ Vec2 pair_or(const tinygltf::Value& object, const std::string& key, Vec2 fallbac
 }
 
 /// Returns the image of a texture by an extension.
-std::optional<std::size_t> source_of(const tinygltf::Texture& texture, const char* extension)
+std::optional<std::size_t> find_source(const tinygltf::Texture& texture, const char* extension)
 {
     const auto found = texture.extensions.find(extension);
     if (found == texture.extensions.end() || !found->second.Has("source")) {
@@ -36,10 +36,10 @@ std::vector<std::size_t> sources(const tinygltf::Texture& texture, const std::st
                                  LoadContext& context)
 {
     std::vector<std::size_t> result;
-    if (const auto webp = source_of(texture, "EXT_texture_webp")) {
+    if (const auto webp = find_source(texture, "EXT_texture_webp")) {
         result.push_back(*webp);
     }
-    if (const auto basis = source_of(texture, "KHR_texture_basisu")) {
+    if (const auto basis = find_source(texture, "KHR_texture_basisu")) {
         const std::string* const obstacle =
             context.ktx2 != nullptr ? context.ktx2->obstacle() : nullptr;
         if (obstacle == nullptr) {
@@ -134,7 +134,7 @@ std::optional<TextureRef> TextureResolver::resolve(const TextureInfo& info,
     const auto& texture = model_.textures[static_cast<std::size_t>(info.index)];
     const std::string texture_place = fmt::format("/textures/{}", info.index);
     const std::vector<std::size_t> images = sources(texture, texture_place, context_);
-    if (images.empty() && !source_of(texture, "KHR_texture_basisu")) {
+    if (images.empty() && !find_source(texture, "KHR_texture_basisu")) {
         context_.warn("the texture has no PNG, JPEG, WebP or KTX2 image and is left out",
                       texture_place + unread_images(texture));
     }

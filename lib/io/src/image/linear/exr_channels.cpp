@@ -18,7 +18,7 @@ bool has(const Imf::ChannelList& channels, const std::string& name)
 }
 
 /// Returns the part of a channel's name before the last dot, with the dot; empty without a dot.
-std::string prefix_of(const std::string& channel)
+std::string find_prefix(const std::string& channel)
 {
     const std::size_t dot = channel.rfind('.');
     return dot == std::string::npos ? "" : channel.substr(0, dot + 1);
@@ -42,7 +42,7 @@ std::string all_layers(const Imf::ChannelList& channels)
 {
     std::set<std::string> names;
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
-        const std::string prefix = prefix_of(channel.name());
+        const std::string prefix = find_prefix(channel.name());
         names.insert(prefix.empty() ? channel.name() : prefix.substr(0, prefix.size() - 1));
     }
     return fmt::format("\"{}\"", fmt::join(names, "\", \""));
@@ -55,7 +55,7 @@ std::optional<ColorChannels> find_colors(const Imf::ChannelList& channels)
     // Every channel's prefix is a candidate; the empty one, if any, comes first.
     std::vector<std::string> prefixes{""};
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
-        const std::string prefix = prefix_of(channel.name());
+        const std::string prefix = find_prefix(channel.name());
         if (!prefix.empty()) {
             prefixes.push_back(prefix);
         }
@@ -87,7 +87,7 @@ ColorChannels find_layer(const Imf::ChannelList& channels, const std::string& na
     }
     std::vector<std::string> own;
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
-        if (prefix_of(channel.name()) == prefix) {
+        if (find_prefix(channel.name()) == prefix) {
             own.emplace_back(channel.name());
         }
     }

@@ -172,7 +172,7 @@ PixelRect filled_part(const Imath::Box2i& data, const Imath::Box2i& display)
     return rect;
 }
 
-std::vector<std::pair<std::string, std::string>> attributes_of(const Imf::Header& header)
+std::vector<std::pair<std::string, std::string>> read_attributes(const Imf::Header& header)
 {
     std::vector<std::pair<std::string, std::string>> result;
     for (auto entry = header.begin(); entry != header.end(); ++entry) {
@@ -225,7 +225,7 @@ ExrImage read(ByteView file, const std::optional<std::string>& layer, const Read
                                             : read_channels(input, colors, data, data_size);
     return {.image = place(std::move(pixels), data, display, data_size, size),
             .filled = filled_part(data, display),
-            .attributes = attributes_of(header)};
+            .attributes = read_attributes(header)};
 }
 
 }  // namespace

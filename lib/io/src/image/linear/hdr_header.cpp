@@ -53,7 +53,7 @@ std::string_view take_word(std::string_view& text)
 }
 
 template <typename Number>
-std::optional<Number> number_of(std::string_view word)
+std::optional<Number> parse_number(std::string_view word)
 {
     Number number{};
     const char* const end = word.data() + word.size();
@@ -62,7 +62,7 @@ std::optional<Number> number_of(std::string_view word)
 }
 
 /// Returns the rest of a line that begins with `name`.
-std::optional<std::string_view> value_of(std::string_view line, std::string_view name)
+std::optional<std::string_view> find_value(std::string_view line, std::string_view name)
 {
     return line.starts_with(name) ? std::optional(line.substr(name.size())) : std::nullopt;
 }
@@ -87,7 +87,7 @@ void expose(std::array<double, 3>& exposure, std::string_view line, std::string_
         for (std::size_t i = 0; i < std::min(c, count - 1); ++i) {
             word = take_word(rest);
         }
-        const std::optional<double> factor = number_of<double>(word);
+        const std::optional<double> factor = parse_number<double>(word);
         exposure[c] *= factor.value_or(0.0);
         if (!(exposure[c] > 0.0) || !std::isfinite(exposure[c])) {
             fail_hdr(quote(line) + ": not positive and finite");
@@ -99,7 +99,7 @@ void expose(std::array<double, 3>& exposure, std::string_view line, std::string_
 std::optional<HdrAxis> take_axis(std::string_view& text)
 {
     const std::string_view name = take_word(text);
-    const std::optional<int> size = number_of<int>(take_word(text));
+    const std::optional<int> size = parse_number<int>(take_word(text));
     if (name != "-Y" && name != "+Y" && name != "-X" && name != "+X") {
         return std::nullopt;
     }
@@ -134,12 +134,12 @@ HdrHeader read_hdr_header(ByteView file)
     Lines lines(file);
     bool has_format = false;
     for (std::string_view line = lines.next(); !line.empty(); line = lines.next()) {
-        if (const auto format = value_of(line, "FORMAT=")) {
+        if (const auto format = find_value(line, "FORMAT=")) {
             check_format(line, *format);
             has_format = true;
-        } else if (const auto factor = value_of(line, "EXPOSURE=")) {
+        } else if (const auto factor = find_value(line, "EXPOSURE=")) {
             expose(header.exposure, line, *factor, 1);
-        } else if (const auto factors = value_of(line, "COLORCORR=")) {
+        } else if (const auto factors = find_value(line, "COLORCORR=")) {
             expose(header.exposure, line, *factors, 3);
         }
     }

@@ -31,7 +31,7 @@ Walk walk_along(const HdrAxis& axis, int width)
     return {.first = (axis.size - 1) * stride, .step = -stride};
 }
 
-Rgb radiance_of(const Rgbe& pixel, const std::array<double, 3>& exposure)
+Rgb decode_radiance(const Rgbe& pixel, const std::array<double, 3>& exposure)
 {
     const double unit = pixel[3] == 0 ? 0.0 : std::ldexp(1.0, pixel[3] - 136);
     Rgb radiance;
@@ -80,7 +80,7 @@ Image read_hdr(ByteView file, const ReadLimits& limits, Warnings& warnings,
         scanlines.read(line);
         std::ptrdiff_t place = outer.first + i * outer.step + inner.first;
         for (const Rgbe& pixel : line) {
-            image.pixels[static_cast<std::size_t>(place)] = radiance_of(pixel, header.exposure);
+            image.pixels[static_cast<std::size_t>(place)] = decode_radiance(pixel, header.exposure);
             place += inner.step;
         }
     }

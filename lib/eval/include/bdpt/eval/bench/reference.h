@@ -8,7 +8,7 @@
 /// {
 ///     const bdpt::eval::HalvedImage render = {
 ///         .image = film.develop(), .first = film.develop_half(0), .second = film.develop_half(1)};
-///     std::cout << "relMSE of its noise: " << bdpt::eval::noise_of(render, render.image) << '\n';
+///     std::cout << "relMSE of its noise: " << bdpt::eval::estimate_noise(render, render.image) << '\n';
 /// }
 /// @endcode
 
@@ -42,7 +42,7 @@ struct HalvedImage {
 
 /// Returns the relMSE of an image's own noise, estimated from its halves, relative to `base` of the
 /// same size. Throws like `bench_scale`.
-[[nodiscard]] BDPT_EXPORT double noise_of(const HalvedImage& image, const Image& base);
+[[nodiscard]] BDPT_EXPORT double estimate_noise(const HalvedImage& image, const Image& base);
 
 /// Combination of two renders by different integrators.
 struct CombinedReference {

@@ -5,8 +5,8 @@
 namespace bdpt::test {
 
 /// Returns a sample at the opening of the shutter, of green light, without a clock.
-[[nodiscard]] inline SampleContext sample_of(const World& world, const Camera& camera,
-                                             const Sampler& sampler, RayCounts& rays)
+[[nodiscard]] inline SampleContext make_sample(const World& world, const Camera& camera,
+                                               const Sampler& sampler, RayCounts& rays)
 {
     return {.world = world,
             .camera = camera,

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Prints how much memory a triangle takes: load_memory.py BDPT [--triangles 1000000].
+"""Measures the memory of a triangle: load_memory.py BDPT [--triangles 1000000].
 
-BDPT is the command. It renders a scene of that many triangles and one of a few; the difference of the greatest amount
-of memory that the two processes ever held, by the number of triangles, is printed.
+BDPT is the command. It renders a scene of that many triangles and one of a few; the script prints the difference of the
+peak memory of both processes, divided by the number of triangles.
 """
 
 import argparse
@@ -16,15 +16,15 @@ MAKER = pathlib.Path(__file__).parent / "make_large_scene.py"
 
 
 def make_scene(path, triangles):
-    """How many triangles the scene has that is written there. In a process of its own: what this one ever held in
-    memory would count for its children too."""
+    """Writes the scene; returns its number of triangles. Runs in a separate process: peak memory of this one would
+    count for its children too."""
     done = subprocess.run([sys.executable, str(MAKER), str(path), "--triangles", str(triangles)], check=True,
                           capture_output=True, text=True)
     return int(done.stdout.split()[-2])
 
 
 def peak_bytes(command):
-    """The greatest resident set of a process [bytes]."""
+    """Returns the peak resident set of a process [bytes]."""
     process = subprocess.Popen(command)
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes a scene of many triangles for the benchmarks: make_large_scene.py FILE.glb [--triangles 1000000].
 
-A bumpy sphere in a white room with a lamp under the ceiling; nearly all triangles are the sphere's. It has positions,
-normals and texture coordinates, as scanned models do. The file is a pure function of the number of triangles.
+The scene is a bumpy sphere in a white room with a lamp under the ceiling; nearly all triangles are the sphere's. It has
+positions, normals and texture coordinates, like scanned models. The file is a pure function of the number of triangles.
 """
 
 import argparse
@@ -14,15 +14,15 @@ import sys
 
 
 def radius(theta, phi):
-    """Of the sphere in a direction: bumps of several sizes, so that rays meet no regular pattern."""
+    """Returns the radius of the sphere in a direction. Bumps of several sizes avoid regular patterns for rays."""
     return (0.6 + 0.05 * math.sin(7 * theta + 1) * math.sin(5 * phi) + 0.02 * math.sin(31 * phi + 3 * theta)
             * math.sin(29 * theta) + 0.008 * math.sin(97 * theta + 11 * phi) * math.sin(89 * phi))
 
 
 def ball(rings, segments):
-    """Positions, normals, texture coordinates and indices of the sphere. Seams have their vertices twice."""
+    """Returns positions, normals, texture coordinates and indices of the sphere. Seams have duplicate vertices."""
 
-    def row_of(ring):
+    def find_row(ring):
         theta = math.pi * ring / rings
         row = []
         for i in range(segments + 1):
@@ -32,8 +32,8 @@ def ball(rings, segments):
         return row
 
     positions, normals, uvs = array.array("f"), array.array("f"), array.array("f")
-    row = row_of(0)
-    above, below = row, row_of(1)
+    row = find_row(0)
+    above, below = row, find_row(1)
     for ring in range(rings + 1):
         for i, p in enumerate(row):
             a, b = row[(i + 1) % segments], row[(i - 1) % segments]
@@ -47,7 +47,7 @@ def ball(rings, segments):
             normals.extend((n[0] / length, n[1] / length, n[2] / length))
             uvs.extend((i / segments, ring / rings))
         above, row = row, below
-        below = row_of(ring + 2) if ring + 2 <= rings else row
+        below = find_row(ring + 2) if ring + 2 <= rings else row
     indices = array.array("I")
     for ring in range(rings):
         for i in range(segments):
@@ -61,7 +61,8 @@ def ball(rings, segments):
 
 
 def quads(corners):
-    """The same for quadrangles, whose four corners run counter-clockwise from the front; normals are the faces'."""
+    """Returns the same arrays for quadrilaterals, whose corners run counter-clockwise seen from the front, with face
+    normals."""
     positions, indices = array.array("f"), array.array("I")
     for n, quad in enumerate(corners):
         for corner in quad:
@@ -89,7 +90,7 @@ class Glb:
                      "materials": [], "meshes": [], "accessors": [], "bufferViews": []}
 
     def accessor(self, values, width, kind):
-        """`width` numbers each, of the component type `kind`."""
+        """Adds elements of `width` numbers each, of the component type `kind`."""
         if sys.byteorder == "big":
             values.byteswap()
         self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data),
@@ -125,7 +126,7 @@ class Glb:
 
 
 def write(path, triangles):
-    """Writes a scene of about that many triangles; how many they are."""
+    """Writes a scene of about that many triangles; returns the exact number."""
     rings = max(2, math.ceil(math.sqrt(triangles / 4) + 0.5))
     white = {"pbrMetallicRoughness": {"baseColorFactor": [0.7, 0.7, 0.7, 1], "metallicFactor": 0}}
     glb = Glb()

@@ -52,7 +52,7 @@ def lit_room():
 
 
 def balls(count, by_nodes):
-    """Each 320 triangles, on a grid in the room."""
+    """Places spheres of 320 triangles each on a grid in the room."""
     glb = lit_room()
     mesh, indices = make_large_scene.ball(9, 18)
     glb.add((mesh, indices), WHITE)
@@ -82,7 +82,7 @@ def balls(count, by_nodes):
 
 
 def png(size, rng):
-    """Slopes of colour with a little noise, so that it packs as photographs do, not as drawings."""
+    """Returns a PNG of colour gradients with a little noise, which compresses like photographs, not like drawings."""
     low, high = ([rng.randrange(256) for _ in range(3)] for _ in range(2))
     rows = bytearray()
     for y in range(size):
@@ -123,13 +123,13 @@ ROOM, ROOMS, HEIGHT = 4.0, 10, 3.0  # width of a room [m], rooms in a row, heigh
 
 
 def hall():
-    """ROOMS x ROOMS rooms without ceiling under a black sky; each wall has a door of a third of its width."""
+    """Builds ROOMS x ROOMS rooms without ceiling under a black sky; each wall has a door of a third of its width."""
     size, y = ROOM * ROOMS, HEIGHT
     corners = [((0, 0, size), (size, 0, size), (size, 0, 0), (0, 0, 0))]
     for i in range(ROOMS + 1):
         for k in range(ROOMS):
             at, begin = i * ROOM, k * ROOM
-            # The outer walls have no doors.
+            # Outer walls have no doors.
             ends = ((0, 1),) if i in (0, ROOMS) else ((0, 1 / 3), (2 / 3, 1))
             for low, high in ends:
                 a, b = begin + ROOM * low, begin + ROOM * high
@@ -138,7 +138,7 @@ def hall():
     glb = Glb()
     glb.add(quads(corners), WHITE)
     middle = ROOM * (ROOMS // 2 + 0.5)
-    # From a corner of a room in the middle, through its doors into others.
+    # The camera looks from a corner of a central room through its doors into others.
     glb.json["nodes"][0] = {"camera": 0, "translation": [middle + 1.6, 1.7, middle + 1.6],
                             "rotation": [0, math.sin(math.pi / 8), 0, math.cos(math.pi / 8)]}
     glb.json["cameras"][0]["perspective"]["yfov"] = 1.1
@@ -146,13 +146,13 @@ def hall():
 
 
 def place_in_hall(rng):
-    """Not closer to a surface than 0.4 m."""
+    """Returns a random position at least 0.4 m away from surfaces."""
     x, z = ((rng.randrange(ROOMS) * ROOM + 0.4 + (ROOM - 0.8) * rng.random()) for _ in range(2))
     return (x, 0.8 + (HEIGHT - 0.8) * rng.random(), z)
 
 
 def panels(count):
-    """Of 4 to 20 cm, facing anywhere, some a hundred times as bright as others."""
+    """Makes panels of 4 to 20 cm in random orientations; some are a hundred times as bright as others."""
     glb = hall()
     rng = random.Random(3)
     kinds = [[] for _ in range(4)]
@@ -178,7 +178,7 @@ def lamps(count):
     lights = []
     for i in range(count):
         axis = unit_vector(rng)
-        half = math.acos(max(-1.0, min(1.0, -axis[2]))) / 2  # turns -z to the axis
+        half = math.acos(max(-1.0, min(1.0, -axis[2]))) / 2  # rotates -z to the axis
         length = math.hypot(axis[0], axis[1])
         s = math.sin(half) / length if length > 1e-6 else 0.0
         light = {"intensity": round(0.5 * 100 ** rng.random(), 3), "type": "point" if i % 2 else "spot"}

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Prints how scenes load that are large in one respect: scale_table.py BDPT [KIND...] [--count KIND=N] [--rounds 3].
+"""Measures how large scenes load: scale_table.py BDPT [KIND...] [--count KIND=N] [--rounds 3].
 
-BDPT is the command. Each scene of make_scale_scene.py is written to a temporary folder (--folder), rendered to 32 x 32
+BDPT is the command. Each scene of make_scale_scene.py is written to a temporary folder (--folder), rendered at 32 x 32
 pixels with one sample each, and deleted before the next. The table has, for the median round, the time to read the
-file, to build the scene and to render, the time from the start of the process to its end, its CPU time, which other programs
-disturb less, and its greatest memory.
+file, to build the scene and to render, the wall-clock time of the process, its CPU time, which other programs disturb
+less, and its peak memory.
 """
 
 import argparse
@@ -22,7 +22,7 @@ MAKER = pathlib.Path(__file__).parent / "make_scale_scene.py"
 
 
 def run(command):
-    """Seconds, CPU seconds and greatest resident set [bytes] of a process."""
+    """Runs a process; returns seconds, CPU seconds and peak resident set [bytes]."""
     begin = os.times().elapsed
     process = subprocess.Popen(command)
     _, status, usage = os.wait4(process.pid, 0)
@@ -33,7 +33,7 @@ def run(command):
 
 
 def measure(bdpt, scene, folder, threads):
-    """One line's figures: those of --stats, and what the process took."""
+    """Returns one line's figures: those of --stats, and the resources of the process."""
     stats = folder / "stats.json"
     command = [bdpt, "render", str(scene), "--size", "32x32", "--spp", "1", "--quiet", "-o", str(folder / "out.exr"),
                "--stats", str(stats)] + (["--threads", str(threads)] if threads else [])
@@ -43,7 +43,7 @@ def measure(bdpt, scene, folder, threads):
 
 
 def line(kind, count, size, rounds, empty):
-    """`empty`: bytes of a process that renders next to nothing."""
+    """Formats a line. `empty` is the memory [bytes] of a process that renders almost nothing."""
     median = {key: statistics.median(r[key] for r in rounds) for key in rounds[0]}
     each = (median["memory"] - empty) / count
     times = " | ".join(f"{median[key]:.2f} s" for key in ("load", "build", "render", "process", "cpu"))

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Measures `bdpt view` through a browser: view_latency.py BDPT SCENE... [--size 640x480] [--moves 60] [BDPT options].
 
-For each scene: from the page's start to the first pixels; from a move of the mouse to the first pixels on the screen that
-show it (median, and what 95 % stay below); pictures a second while the mouse turns; the processor time that the server
-takes when all is done and nothing moves. Needs Debian's chromium and chromium-driver. The browser runs on the same
-processors, and draws by them where there is no GPU.
+Prints for each scene: the time from the page's start to the first pixels; the time from a move of the mouse to the
+first pixels on the screen that show it (median and 95th percentile); pictures per second while the mouse turns the
+camera; and the server's CPU time when all is done and nothing moves. Needs Debian's chromium and chromium-driver. The
+browser shares the CPU, and draws on it where there is no GPU.
 """
 
 import argparse
@@ -18,7 +18,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests" / "
 from served import Server  # noqa: E402
 from window import STAGE, Window, missing  # noqa: E402
 
-# Times of moves are taken in the page: from the event to the end of the frame that draws pixels with its number.
+# The page measures the time of moves: from the event to the end of the frame that draws pixels with its number.
 MOVES = """
 const [count, pause, done] = arguments;
 const stage = document.querySelector('.stage');

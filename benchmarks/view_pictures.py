@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Photographs the page of `bdpt view` for docs/view.md and the README: view_pictures.py BDPT FOLDER.
+"""Takes screenshots of the page of `bdpt view` for docs/view.md and the README: view_pictures.py BDPT FOLDER.
 
 Writes growing.png, wiper.png, inspected.png, noise.png, broken.png and strip.png. Needs Debian's chromium,
 chromium-driver and python3-pil."""
@@ -18,12 +18,12 @@ from served import Server  # noqa: E402
 from window import Window  # noqa: E402
 
 SIZE = 1180, 860
-SHRUNK = 0.72  # noise does not compress
-PANEL = 300  # [CSS pixels] width of the page's panel, whose colours are those of all controls
+SHRUNK = 0.72  # scale of noisy pictures, as noise does not compress
+PANEL = 300  # [CSS pixels] width of the page's panel; all controls share its colours
 
 
-def quantised(image, controls=None):
-    """With a palette for the picture, and some colours of the controls of the page."""
+def quantise(image, controls=None):
+    """Reduces the image to a palette, with some colours reserved for the controls of the page."""
     def colors(part, count):
         return part.convert("RGB").quantize(count, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).getpalette()[:3 * count]
 
@@ -41,7 +41,7 @@ class Photographer:
             "features": [{"name": "prefers-color-scheme", "value": name}]}})
 
     def page(self):
-        """What the window shows."""
+        """Takes a screenshot of the window."""
         self.window.drawn()
         path = self.folder / "window.png"
         self.window.screenshot(path)
@@ -51,7 +51,7 @@ class Photographer:
         return image
 
     def stage(self):
-        """The picture alone, with what is drawn over it."""
+        """Takes a screenshot of the picture alone, with its overlays."""
         left, top, width, height = self.window.box()
         return self.page().crop((round(left), round(top), round(left + width), round(top + height)))
 
@@ -59,7 +59,7 @@ class Photographer:
         page = self.page()
         page = page.resize([round(SHRUNK * length) for length in page.size], Image.Resampling.LANCZOS)
         controls = page.crop((page.width - round(SHRUNK * PANEL), 0, page.width, page.height))
-        quantised(page, controls).save(self.folder / name, optimize=True)
+        quantise(page, controls).save(self.folder / name, optimize=True)
 
 
 def samples(window, count):
@@ -112,7 +112,7 @@ def take(bdpt, folder):
             together = Image.new("RGB", (4 * width + 3 * 6, height), "white")
             for i, image in enumerate(strip):
                 together.paste(image.resize((width, height), Image.Resampling.LANCZOS), (i * (width + 6), 0))
-            quantised(together).save(folder / "strip.png", optimize=True)
+            quantise(together).save(folder / "strip.png", optimize=True)
         with Server(bdpt, "door-ajar.gltf", "--size", "480x360", "--spp", "32", "--integrator", "mis", folder=ROOT / "scenes") as server:
             camera.scheme("dark")
             window.show(server)

@@ -1,10 +1,11 @@
-# The target bdpt_archive: bdpt-VERSION-linux-PROCESSOR.tar.xz in the build folder, with the command, its man pages and
-# completions, the reader of volumes, and all libraries that they need but glibc. It runs where it is unpacked.
+# Defines the target bdpt_archive: bdpt-VERSION-linux-PROCESSOR.tar.xz in the build folder, with the command, its man
+# pages and completions, the reader of volumes, and all libraries that they need except glibc. The archive runs wherever
+# it is unpacked.
 if(NOT BUILD_SHARED_LIBS OR NOT BDPT_BUILD_APPS OR BDPT_SANITIZE OR NOT CMAKE_SYSTEM_NAME STREQUAL "Linux")
   return()
 endif()
 set(BDPT_ARCHIVE_NAME "bdpt-${PROJECT_VERSION}-linux-${CMAKE_SYSTEM_PROCESSOR}")
-# The module that reads TIFF images is left out: OpenImageIO would bring some 260 libraries.
+# Omits the module that reads TIFF images, because OpenImageIO would add about 260 libraries.
 set(archive_components bdpt_runtime)
 if(BDPT_HAS_OPENVDB)
   list(APPEND archive_components bdpt_openvdb)

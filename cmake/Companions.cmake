@@ -1,7 +1,7 @@
-# Companions of bdpt::io are files that it opens or starts only when it needs them: the module that reads TIFF
-# images, and the program that reads volumes. It looks for them beside itself (lib/io/src/file/companion.cpp).
+# Companions of bdpt::io are files that it loads or starts only on demand: the module that reads TIFF images, and the
+# program that reads volumes. It looks for them next to itself (lib/io/src/file/companion.cpp).
 
-# bdpt_add_companion(TARGET): builds TARGET with bdpt_io, in a folder of its own.
+# bdpt_add_companion(TARGET): builds TARGET with bdpt_io in a separate folder.
 function(bdpt_add_companion target)
   set_target_properties(${target} PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/companions"
@@ -10,8 +10,8 @@ function(bdpt_add_companion target)
   set_property(GLOBAL APPEND PROPERTY BDPT_COMPANIONS ${target})
 endfunction()
 
-# bdpt_put_companions_beside(TARGET): links them into the folder where TARGET is built, which holds the code of
-# bdpt_io: that library itself, or a program that its static library is linked into.
+# bdpt_put_companions_beside(TARGET): links the companions into the build folder of TARGET, which contains the code of
+# bdpt_io: the shared library itself, or a program that links the static one.
 function(bdpt_put_companions_beside target)
   get_property(companions GLOBAL PROPERTY BDPT_COMPANIONS)
   foreach(companion IN LISTS companions)

@@ -1,15 +1,14 @@
-# Run by cpack -G DEB before it packs what is installed below CPACK_TEMPORARY_DIRECTORY: makes it what Debian's policy asks
-# for, where that is not what other systems have.
+# Adapts the files below CPACK_TEMPORARY_DIRECTORY to Debian's policy. cpack -G DEB runs it before packing.
 
-# zsh of Debian looks for completions of packages in another folder than elsewhere.
+# Debian's zsh looks for packaged completions in a folder of its own.
 file(GLOB folders "${CPACK_TEMPORARY_DIRECTORY}/*/usr/share/zsh/site-functions")
 foreach(folder IN LISTS folders)
   cmake_path(REPLACE_FILENAME folder vendor-completions OUTPUT_VARIABLE debian_folder)
   file(RENAME "${folder}" "${debian_folder}")
 endforeach()
 
-# Each package has a changelog and its copyright; the text of the licence is on all Debian systems.
-string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # or that of SOURCE_DATE_EPOCH
+# Adds changelog and copyright to each package; Debian systems have the text of the licence already.
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # uses SOURCE_DATE_EPOCH if it is set
 file(GLOB folders "${CPACK_TEMPORARY_DIRECTORY}/*/usr/share/doc/*")
 foreach(folder IN LISTS folders)
   cmake_path(GET folder FILENAME package)
@@ -33,7 +32,7 @@ if(files)
   execute_process(COMMAND gzip -9 -n ${files} COMMAND_ERROR_IS_FATAL ANY)
 endif()
 
-# Findings of lintian that are wanted: wanted(COMPONENT PACKAGE TEXT) where the component is packed.
+# wanted(COMPONENT PACKAGE TEXT): overrides a finding of lintian that is intended, if the component is packed.
 function(wanted component package text)
   if(EXISTS "${CPACK_TEMPORARY_DIRECTORY}/${component}/usr")
     file(APPEND "${CPACK_TEMPORARY_DIRECTORY}/${component}/usr/share/lintian/overrides/${package}" "${text}\n")

@@ -1,10 +1,11 @@
-# cpack -G DEB, in the build folder: bdpt (the command, the libraries, man pages, completions, documents),
+# Defines the packages of cpack -G DEB: bdpt (the command, the libraries, man pages, completions, documents),
 # bdpt-openimageio (the module that reads TIFF images), bdpt-openvdb (the program that reads volumes), libbdpt-dev
-# (headers, and what CMake and pkg-config need) and, if the Python package is built with Debian's Python, python3-bdpt.
+# (headers, CMake and pkg-config files) and, if the Python package is built with Debian's Python, python3-bdpt.
 if(NOT BUILD_SHARED_LIBS OR NOT BDPT_BUILD_APPS)
   return()
 endif()
-# Who makes a package maintains it: the variables that Debian's own tools take. Nobody has the other address (RFC 2606).
+# The builder of a package is its maintainer, as in the variables of Debian's own tools. The default address cannot
+# exist (RFC 2606).
 set(contact "bdpt <nobody@bdpt.invalid>")
 if(DEFINED ENV{DEBEMAIL})
   set(contact "bdpt <$ENV{DEBEMAIL}>")
@@ -17,7 +18,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME bdpt)
 set(CPACK_PACKAGE_CONTACT "${BDPT_PACKAGE_CONTACT}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # or all packages would have it before their own first line
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # otherwise it would come before each package's own first line
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL bdpt_runtime bdpt_openimageio bdpt_development)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -30,7 +31,7 @@ set(CPACK_DEBIAN_BDPT_RUNTIME_DESCRIPTION
 "renderer for glTF scenes by bidirectional path tracing
 The command bdpt renders glTF 2.0 scenes to OpenEXR and PNG images, alone or
 on a farm, and compares integrators. Its libraries do the same for programs.")
-# Packages of the libraries that ours are linked to, found by dpkg-shlibdeps.
+# dpkg-shlibdeps finds the packages of the libraries that ours are linked to.
 set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_SUGGESTS "bdpt-openimageio, bdpt-openvdb")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS

@@ -1,10 +1,10 @@
-# Third-party libraries, each found once. Versions as in Debian 12 and newer.
+# Finds each third-party library once. Minimum versions are those of Debian 12.
 find_package(Threads REQUIRED)
 
 find_package(glm CONFIG REQUIRED)
 
-# The version file of Embree accepts its own major version only, so none is asked for: 3.13 and 4.x
-# both serve (lib/src/geometry/embree.h hides the difference).
+# Requests no version of Embree, because its version file accepts only its own major version: both 3.13 and 4.x work
+# (lib/src/geometry/embree.h hides the difference).
 find_package(embree CONFIG REQUIRED)
 if(NOT EMBREE_VERSION_MAJOR)
   string(REGEX MATCH "^[0-9]+" EMBREE_VERSION_MAJOR "${embree_VERSION}")
@@ -15,7 +15,7 @@ endif()
 
 find_package(TBB CONFIG REQUIRED)
 
-# The header of xxHash alone, from 0.8 on: it is compiled in.
+# Uses only the header of xxHash, from 0.8 on: it is compiled in.
 find_path(BDPT_XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 
 set(BDPT_HAS_DRACO OFF)
@@ -24,16 +24,16 @@ set(BDPT_HAS_OPENVDB OFF)
 if(BDPT_BUILD_IO)
   find_package(OpenEXR CONFIG REQUIRED)
   find_package(Imath CONFIG REQUIRED)
-  find_package(JPEG REQUIRED)  # of libjpeg-turbo or another one with its interface
+  find_package(JPEG REQUIRED)  # libjpeg-turbo or a library with the same interface
   list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
   find_package(WebP REQUIRED MODULE)  # FindWebP.cmake
   find_package(nlohmann_json CONFIG REQUIRED)
   find_package(fmt CONFIG REQUIRED)
 
-  # Only the header of tinygltf is used, with the system's JSON library and without its image code.
+  # Uses only the header of tinygltf, with the system's JSON library and without its image code.
   find_path(BDPT_TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 
-  # Decoders of compressed meshes: without them such files are refused by name.
+  # Looks for decoders of compressed meshes; without them bdpt refuses such files with an error that names the decoder.
   if(BDPT_WITH_DRACO)
     find_package(draco CONFIG QUIET)
     if(TARGET draco::draco)
@@ -48,8 +48,8 @@ if(BDPT_BUILD_IO)
   endif()
   message(STATUS "Compressed meshes: Draco ${BDPT_HAS_DRACO}, meshoptimizer ${BDPT_HAS_MESHOPT}")
 
-  # Volumes: without it such files are refused by name. Its header says what it was built with, and is
-  # tried, as it needs headers of Boost that packages of OpenVDB do not bring.
+  # Looks for the reader of volumes; without it bdpt refuses such files with an error that names it. Tries to compile a
+  # program with its headers, which need Boost headers that OpenVDB packages do not depend on.
   if(BDPT_WITH_OPENVDB)
     find_path(BDPT_OPENVDB_INCLUDE_DIR openvdb/openvdb.h)
     find_library(BDPT_OPENVDB_LIBRARY openvdb)
@@ -57,7 +57,7 @@ if(BDPT_BUILD_IO)
       add_library(bdpt_openvdb INTERFACE IMPORTED)
       target_include_directories(bdpt_openvdb SYSTEM INTERFACE "${BDPT_OPENVDB_INCLUDE_DIR}")
       target_link_libraries(bdpt_openvdb INTERFACE "${BDPT_OPENVDB_LIBRARY}" TBB::tbb Imath::Imath)
-      # Its templates hold variables, which must be those of the library.
+      # Its templates define variables that must be shared with the library.
       target_compile_options(bdpt_openvdb INTERFACE -fvisibility=default -fno-visibility-inlines-hidden)
       include(CheckCXXSourceCompiles)
       set(CMAKE_REQUIRED_LIBRARIES bdpt_openvdb)
@@ -71,14 +71,14 @@ if(BDPT_BUILD_IO)
         set(BDPT_HAS_OPENVDB ON)
       else()
         message(STATUS "OpenVDB is here, but does not compile: are there headers of Boost (libboost-dev)?")
-        unset(BDPT_OPENVDB_COMPILES CACHE)  # the next time there may be
+        unset(BDPT_OPENVDB_COMPILES CACHE)  # OpenVDB may be complete at the next configuration
       endif()
     endif()
   endif()
   message(STATUS "Volumes: OpenVDB ${BDPT_HAS_OPENVDB}")
 
   find_package(OpenImageIO CONFIG REQUIRED)
-  # Debian's package exports include directories that its dependencies do not install.
+  # Removes include directories that Debian's package exports but does not install.
   foreach(target OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
     get_target_property(directories ${target} INTERFACE_INCLUDE_DIRECTORIES)
     set(existing "")
@@ -93,7 +93,7 @@ endif()
 
 if(BDPT_BUILD_APPS)
   find_package(CLI11 CONFIG REQUIRED)
-  find_package(Boost 1.74 REQUIRED)  # headers of Beast: the server of bdpt view
+  find_package(Boost 1.74 REQUIRED)  # Beast headers for the server of bdpt view
 endif()
 
 if(BDPT_BUILD_TESTS)

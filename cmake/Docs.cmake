@@ -1,5 +1,6 @@
-# The target `docs`: an API reference of the libraries that are built, from their public headers, when Doxygen is
-# installed. A warning of Doxygen is an error. A project that bdpt is a part of may have a target of that name.
+# Defines the target `docs`, if Doxygen is installed: an API reference from the public headers of the libraries that are
+# built. Doxygen warnings are errors. A parent project may have a target of that name, so only top-level builds define
+# it.
 if(NOT PROJECT_IS_TOP_LEVEL)
   return()
 endif()
@@ -9,7 +10,7 @@ if(NOT DOXYGEN_FOUND)
 endif()
 
 set(headers "")
-foreach(library IN ITEMS bdpt bdpt_io bdpt_eval)  # those that there are
+foreach(library IN ITEMS bdpt bdpt_io bdpt_eval)  # those that are built
   if(TARGET ${library})
     get_target_property(folders ${library} INTERFACE_INCLUDE_DIRECTORIES)
     string(REGEX REPLACE "\\$<BUILD_INTERFACE:([^>]*)>" "\\1" folders "${folders}")
@@ -21,7 +22,7 @@ list(REMOVE_DUPLICATES headers)
 
 set(DOXYGEN_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/docs")
 set(DOXYGEN_FILE_PATTERNS *.h *.md)
-set(DOXYGEN_EXTRACT_ALL YES)  # names and types say enough of many members
+set(DOXYGEN_EXTRACT_ALL YES)  # the names and types of many members need no comment
 set(DOXYGEN_STRIP_FROM_PATH ${headers})
 set(DOXYGEN_STRIP_FROM_INC_PATH ${headers})
 set(DOXYGEN_PREDEFINED BDPT_EXPORT=)

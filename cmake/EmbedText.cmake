@@ -1,5 +1,5 @@
-# bdpt_embed_text(OUTPUT NAME FILE...): appends a C++ function NAME() to OUTPUT that returns the files,
-# one after the other, as a std::string_view. For scripts that run while the project is built.
+# bdpt_embed_text(OUTPUT NAME FILE...): appends a C++ function NAME() to OUTPUT that returns the concatenated files as a
+# std::string_view. Scripts that run during the build use it.
 function(bdpt_embed_text output name)
   set(digits "")
   foreach(source IN LISTS ARGN)

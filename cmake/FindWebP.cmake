@@ -1,5 +1,5 @@
-# libwebp and its reader of chunks: targets WebP::webp and WebP::webpdemux. libwebp's own package for
-# CMake has them too, but Debian builds libwebp without it.
+# Finds libwebp and its demuxer, as targets WebP::webp and WebP::webpdemux. libwebp's own CMake package defines the same
+# targets, but Debian builds libwebp without it.
 find_package(WebP CONFIG QUIET)
 if(TARGET WebP::webp AND TARGET WebP::webpdemux)
   set(WebP_FOUND TRUE)

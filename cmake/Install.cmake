@@ -1,5 +1,5 @@
-# Installation: libraries, headers, the command, and what CMake and pkg-config need to find them. All
-# of it may be moved to another place afterwards; every path inside is relative.
+# Installs libraries, headers, the command, and the files by which CMake and pkg-config find them. The installation is
+# relocatable: all paths in it are relative.
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/bdpt")
@@ -11,11 +11,11 @@ if(BDPT_BUILD_EVAL)
   list(APPEND libraries bdpt_eval)
 endif()
 
-# Before 1.0 every minor version may break what was compiled with another.
+# Before 1.0 every minor version may break the ABI.
 set_target_properties(${libraries} PROPERTIES VERSION ${PROJECT_VERSION}
                       SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
-# bdpt_install_library(TARGET EXPORT_NAME EXPORT): a library and its entry in the CMake package.
+# bdpt_install_library(TARGET EXPORT_NAME EXPORT): installs a library and adds it to the CMake package.
 function(bdpt_install_library target export_name export)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
   install(TARGETS ${target} EXPORT ${export}
@@ -37,12 +37,12 @@ if(BDPT_BUILD_IO)
   set_property(TARGET bdpt_io APPEND PROPERTY INSTALL_RPATH "$ORIGIN")
   install(DIRECTORY lib/io/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
           COMPONENT bdpt_development FILES_MATCHING PATTERN "*.h")
-  # bdpt_io looks for it there: lib/io/src/file/companion.cpp
-  # A component of its own: it brings OpenImageIO with 260 libraries, and all else works without it.
-  # So is the reader of volumes.
+  # Installs the companions where bdpt_io looks for them (lib/io/src/file/companion.cpp). The TIFF module is a component
+  # of its own, because it depends on OpenImageIO and its 260 libraries, and everything else works without it. So is the
+  # reader of volumes.
   install(TARGETS bdpt_oiio LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
           COMPONENT bdpt_openimageio)
-  # It needs no library but the one that it opens at run time.
+  # The KTX reader links no library; it opens libktx at run time.
   install(TARGETS bdpt_ktx_reader RUNTIME DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
           COMPONENT bdpt_runtime)
   if(BDPT_HAS_OPENVDB)
@@ -90,8 +90,8 @@ include(cmake/PkgConfig.cmake)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}"
         COMPONENT bdpt_runtime)
 install(FILES LICENSE RENAME copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}"
-        COMPONENT bdpt_runtime)  # where Debian looks for it
-# The same of each other package.
+        COMPONENT bdpt_runtime)  # where Debian's tools look for it
+# Installs the same for each other package.
 set(packages bdpt-openimageio bdpt-openvdb libbdpt-dev)
 set(components bdpt_openimageio bdpt_openvdb bdpt_development)
 foreach(package component IN ZIP_LISTS packages components)

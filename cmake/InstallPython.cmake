@@ -1,4 +1,5 @@
-# The Python package, for pip (SKBUILD, which sets where) and for cmake --install; and what Debian's package of it depends on.
+# Installs the Python package, for pip (SKBUILD, which sets the folder) and for cmake --install; records the
+# dependencies of its Debian package.
 execute_process(COMMAND "${Python_EXECUTABLE}" -c
   "import sys; print('%d;%d;%s' % (*sys.version_info[:2], sys.base_prefix))"
   OUTPUT_STRIP_TRAILING_WHITESPACE OUTPUT_VARIABLE python COMMAND_ERROR_IS_FATAL ANY)
@@ -6,8 +7,7 @@ list(GET python 0 major)
 list(GET python 1 minor)
 list(GET python 2 python_prefix)
 
-# Debian's own Python, also where a virtual environment of it builds. What its package is compiled for is one
-# minor version of Python.
+# Detects Debian's own Python, also in a virtual environment. Its package works with one minor version of Python only.
 set(BDPT_PYTHON_DEBIAN_DEPENDS "")
 if(python_prefix STREQUAL "/usr" AND EXISTS "/etc/debian_version")
   math(EXPR next "${minor} + 1")
@@ -31,7 +31,7 @@ install(TARGETS bdpt_python LIBRARY DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt
 install(FILES "${package}/__init__.py" "${package}/_signatures.py" "${package}/py.typed" "${package}/_bdpt.pyi"
         DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
 if(DEFINED SKBUILD)
-  # A wheel has bdpt_io in its module and in its program, which find companions beside themselves.
+  # A wheel contains bdpt_io twice, in its module and in its program; both find companions beside themselves.
   install(TARGETS bdpt_app RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
   install(FILES apps/python/package/_command.py apps/python/package/__main__.py
           DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
@@ -42,14 +42,14 @@ if(DEFINED SKBUILD)
     install(TARGETS bdpt_vdb_reader RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt"
             COMPONENT bdpt_python_companions)
   endif()
-  return()  # the rest is pip's
+  return()  # pip does the rest
 endif()
 
 file(RELATIVE_PATH to_libdir "${CMAKE_INSTALL_PREFIX}/${BDPT_PYTHON_INSTALL_DIR}/bdpt"
      "${CMAKE_INSTALL_FULL_LIBDIR}")
 set_property(TARGET bdpt_python APPEND PROPERTY INSTALL_RPATH "$ORIGIN/${to_libdir}")
 
-# What tells pip that it is there, and who removes it.
+# Writes the metadata by which pip recognises the package and its installer.
 set(information "${PROJECT_BINARY_DIR}/cmake/bdpt-${PROJECT_VERSION}.dist-info")
 file(STRINGS "${PROJECT_SOURCE_DIR}/pyproject.toml" project REGEX "^(description|requires-python) = ")
 foreach(line IN LISTS project)

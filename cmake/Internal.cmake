@@ -1,5 +1,5 @@
-# The libraries show their public interface only; NAME_internal holds the same objects with all that
-# is inside, for the tests of that.
+# The libraries export their public interface only; NAME_internal holds the same objects with all internal symbols
+# visible, for unit tests.
 function(bdpt_add_internal library)
   add_library(${library}_internal STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${library}>)
   add_dependencies(${library}_internal ${library})

@@ -1,9 +1,9 @@
-# Packages for pkg-config: bdpt, bdpt_io and bdpt_eval. With static libraries ask with --static.
+# Writes the pkg-config packages bdpt, bdpt_io and bdpt_eval. Static libraries need pkg-config --static.
 file(RELATIVE_PATH pc_to_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
 file(RELATIVE_PATH pc_libdir "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_LIBDIR}")
 file(RELATIVE_PATH pc_includedir "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
 
-# Not every GLM has a pkg-config file.
+# Some distributions of GLM have no pkg-config file.
 find_package(PkgConfig QUIET)
 if(PkgConfig_FOUND)
   pkg_check_modules(BDPT_PC_GLM QUIET glm)
@@ -19,8 +19,8 @@ else()
   string(JOIN "" pc_cflags ${directories})
 endif()
 
-# What a static library is made with. pkg-config looks for it at every call, so a shared one names
-# nothing.
+# Lists the dependencies of static libraries. pkg-config requires them on every call, so packages of shared libraries
+# list none.
 set(pc_core_requires "")
 set(pc_core_libs "")
 set(pc_io_requires "")

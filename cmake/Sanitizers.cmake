@@ -1,7 +1,7 @@
-# Applies to everything that is built here.
+# Applies the sanitizers to everything in this build.
 set(bdpt_sanitizers ${BDPT_SANITIZE})
 
-# Where libFuzzer is missing, tests/fuzz says so and does without.
+# Checks for libFuzzer; without it tests/fuzz prints a message and replays seeds instead.
 set(BDPT_HAS_LIBFUZZER OFF)
 if(BDPT_BUILD_FUZZERS)
   include(CheckCXXSourceCompiles)

@@ -1,4 +1,5 @@
-"""Scenes that show one feature each: many lights on gloss, a textured lamp, parallel projection, transparency."""
+"""Builds scenes that show one feature each: many lights on glossy surfaces, a textured lamp, parallel projection,
+transparency."""
 
 import math
 
@@ -9,13 +10,13 @@ from shapes import box_quads, card, inner_quads, quads, sphere
 
 
 def facing(direction):
-    """The rotation that turns +z to `direction`."""
+    """Returns the rotation that turns +z to `direction`."""
     return rotation_towards(tuple(-d for d in direction))
 
 
 # --- Veach's plates -------------------------------------------------------------------------------------------------
-# After figure 9.2 of Eric Veach's thesis (1997): spheres of equal power and growing size above plates of growing
-# roughness. The radii 0.2, 0.75, 2 and 3 are taken as decimetres.
+# The scene follows figure 9.2 of Eric Veach's thesis (1997): spheres of equal power and growing size above plates of
+# growing roughness. The radii 0.2, 0.75, 2 and 3 are taken as decimetres.
 
 PLATE_ROUGHNESS = (0.07, 0.16, 0.28, 0.45, 0.75)  # alpha is the square: 0.005 to 0.56
 
@@ -35,7 +36,7 @@ def veach_plates(title):
     plate = gltf.shape(*quads(*box_quads((-1.4, -0.33, -0.02), (1.4, 0.33, 0))))
     places = ((0.98, -0.1), (0.66, 0.45), (0.4, 1), (0.22, 1.55), (0.12, 2.1))  # y, z
     for i, (roughness, (y, z)) in enumerate(zip(PLATE_ROUGHNESS, places)):
-        # The half vector between the camera and the row of lamps.
+        # Each plate's normal is the half vector between the camera and the row of lamps.
         to_eye, to_lamps = normalized((0, eye[1] - y, eye[2] - z)), normalized((0, row[0] - y, row[1] - z))
         normal = tuple(a + b for a, b in zip(to_eye, to_lamps))
         metal = gltf.material(f"metal of roughness {roughness}", (0.7, 0.7, 0.72), metallic=1, roughness=roughness)
@@ -48,7 +49,7 @@ def veach_plates(title):
 # --- A screen that lights a room --------------------------------------------------------------------------------------
 
 def landscape(x, y):
-    """A sun over the sea."""
+    """Returns the colour of a picture of the sun over the sea."""
     distance = math.sqrt(x * x + (y - 0.15) * (y - 0.15))
     if y < -0.25:
         glitter = max(0.0, 1 - 6 * abs(x)) * (0.6 if int(30 * (y + 1)) % 2 else 0.25)
@@ -80,7 +81,8 @@ def textured_emitter(title):
 # --- Parallel projection ----------------------------------------------------------------------------------------------
 
 def orthographic(title):
-    """An isometric view of cubes of one size, steps and spheres: equal lengths along an axis look equal everywhere."""
+    """Builds an isometric view of cubes of one size, steps and spheres: equal lengths along an axis look equal
+    everywhere."""
     gltf = Gltf(title)
     floor, clay, teal, white = (gltf.lambertian(name, color) for name, color in (
         ("floor", (0.6, 0.58, 0.55)), ("clay", (0.65, 0.35, 0.25)), ("teal", (0.2, 0.45, 0.45)),
@@ -107,7 +109,7 @@ def orthographic(title):
 # --- Transparency -----------------------------------------------------------------------------------------------------
 
 def leaf(x, y):
-    """A pointed leaf with a vein, upright; nothing around it."""
+    """Returns the colour and alpha of an upright, pointed leaf with a vein; its surroundings are transparent."""
     half_width = 0.55 * (1 - y * y) * (1 - 0.35 * y)
     inside = abs(x) < half_width and abs(y) < 0.97
     vein = abs(x) < 0.04 or abs((y - 0.8 * abs(x)) * 3 % 1 - 0.5) < 0.06
@@ -116,7 +118,7 @@ def leaf(x, y):
 
 
 def stained(x, y):
-    """Coloured lozenges that are half transparent, in an opaque frame."""
+    """Returns the colour and alpha of half-transparent lozenges in an opaque frame."""
     if max(abs(x), abs(y)) > 0.92 or abs((abs(x) + abs(y)) * 2 % 1 - 0.5) > 0.46:
         return (0.2, 0.2, 0.2, 1)
     colors = ((0.95, 0.3, 0.2), (0.95, 0.8, 0.2), (0.3, 0.75, 0.4), (0.3, 0.45, 0.9))

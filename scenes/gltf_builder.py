@@ -1,7 +1,7 @@
 """Writes glTF 2.0 files: a list of meshes, materials, lights and nodes, with all data in one embedded buffer.
 
-The output is a pure function of the calls: every number is rounded before it is written, so that the last bits of a
-machine's sine do not show.
+The output is a pure function of the calls: every number is rounded before it is written, so that the last bits of sines
+do not depend on the machine.
 """
 
 import base64
@@ -9,11 +9,11 @@ import json
 import math
 import struct
 
-DIGITS = 7  # decimals that are kept: 0.1 micrometre
+DIGITS = 7  # number of decimals: resolves 0.1 micrometre
 
 
 def rounded(value):
-    """A float, or a nested sequence of them, with DIGITS decimals and without negative zeros."""
+    """Rounds a float, or a nested sequence of them, to DIGITS decimals without negative zeros."""
     if isinstance(value, (list, tuple)):
         return [rounded(item) for item in value]
     result = round(float(value), DIGITS) + 0.0
@@ -34,19 +34,20 @@ def normalized(a):
 
 
 def rotation_about(axis, degrees):
-    """Unit quaternion (x, y, z, w)."""
+    """Returns a unit quaternion (x, y, z, w)."""
     half = math.radians(degrees) / 2
     x, y, z = normalized(axis)
     return (x * math.sin(half), y * math.sin(half), z * math.sin(half), math.cos(half))
 
 
 def rotation_towards(direction, up=(0, 1, 0)):
-    """The quaternion that turns -z to `direction` and keeps +y on the side of `up`: what cameras and lights need."""
+    """Returns the quaternion that turns -z, along which cameras and lights look, to `direction` and keeps +y on the
+    side of `up`."""
     z = normalized(tuple(-x for x in direction))
     x = normalized(cross(up, z))
     y = cross(z, x)
     m = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]
-    # The largest of the four squared components is divided by, so nothing cancels.
+    # Divides by the component with the largest square, so nothing cancels.
     squares = (1 + m[0][0] - m[1][1] - m[2][2], 1 - m[0][0] + m[1][1] - m[2][2],
                1 - m[0][0] - m[1][1] + m[2][2], 1 + m[0][0] + m[1][1] + m[2][2])
     best = max(range(4), key=lambda i: squares[i])
@@ -95,9 +96,9 @@ class Gltf:
         return self._accessor(packed, 34962, description)
 
     def shape(self, positions, triangles, normals=None, uvs=None, targets=(), joints=None):
-        """Stores geometry; what it returns may serve several meshes. Without normals the faces are flat. `targets`:
-        displacements of all positions, one list for each morph target. `joints`: weights of up to four joints of a skin,
-        for each vertex."""
+        """Stores geometry; the result may serve several meshes. Without normals the faces are flat. `targets` has the
+        displacements of all positions, one list for each morph target. `joints` has the weights of up to four joints of
+        a skin, for each vertex."""
         assert len(positions) <= 65535
         attributes = {"POSITION": self._vectors(positions, bounds=True)}
         if normals:
@@ -116,20 +117,21 @@ class Gltf:
                                                            "type": "SCALAR"})}
 
     def mesh(self, name, *parts):
-        """A mesh of (shape, material) pairs."""
+        """Adds a mesh of (shape, material) pairs."""
         return self._append("meshes", {"name": name, "primitives": [{**shape, "material": material}
                                                                     for shape, material in parts]})
 
     def texture(self, name, png):
-        """An embedded PNG file that is not repeated beyond its edges."""
+        """Adds an embedded PNG file, clamped at its edges."""
         image = self._append("images", {"name": name, "mimeType": "image/png", "bufferView": self._view(png)})
         clamped = self._append("samplers", {"magFilter": 9729, "minFilter": 9729, "wrapS": 33071, "wrapT": 33071})
         return self._append("textures", {"name": name, "source": image, "sampler": clamped})
 
     def material(self, name, color, metallic=0.0, roughness=1.0, emission=None, extensions=None, double_sided=False,
                  texture=None, emission_texture=None, alpha=1.0, **more):
-        """`emission` is a radiance in nit; the textures multiply `color` with `alpha` and `emission`. `extensions` maps
-        the names of KHR_materials_* to their properties; `more` are properties of the glTF material."""
+        """Adds a material. `emission` is a radiance in nit; the textures multiply `color` with `alpha` and `emission`.
+        `extensions` maps the names of KHR_materials_* to their properties; `more` are properties of the glTF
+        material."""
         extensions = dict(extensions or {})
         material = {"name": name, "pbrMetallicRoughness": {"baseColorFactor": rounded((*color, alpha)),
                                                            "metallicFactor": rounded(metallic),
@@ -150,7 +152,7 @@ class Gltf:
         return self._append("materials", material)
 
     def lambertian(self, name, color, **more):
-        """Without the dielectric coat of glTF materials: specularFactor 0."""
+        """Adds a diffuse material without the dielectric coat of glTF materials: specularFactor 0."""
         return self.material(name, color, extensions={"specular": {"specularFactor": 0}}, **more)
 
     def node(self, name, translation=None, rotation=None, scale=None, parent=None, **content):
@@ -167,13 +169,13 @@ class Gltf:
         return index
 
     def skin(self, name, joints):
-        """Joints are nodes; they and the mesh are as at the start when the skin is at rest, so the mesh is in the space
-        of the joints, which have the identity as their transform then."""
+        """Adds a skin. Joints are nodes; the skin is at rest while they and the mesh keep their initial transforms. The
+        mesh is then in the space of the joints, whose transforms are the identity."""
         return self._append("skins", {"name": name, "joints": list(joints)})
 
     def animate(self, node, path, keys, interpolation="LINEAR"):
-        """Adds a channel to the only animation. `keys`: (second, value) pairs; with CUBICSPLINE (second, in-tangent,
-        value, out-tangent). `path`: translation, rotation, scale, or weights of one morph target."""
+        """Adds a channel to the only animation. `keys` are (second, value) pairs; with CUBICSPLINE (second, in-tangent,
+        value, out-tangent). `path` is translation, rotation, scale, or weights of one morph target."""
         if not self.json["animations"]:
             self.json["animations"].append({"name": "action", "channels": [], "samplers": []})
         animation = self.json["animations"][0]
@@ -193,20 +195,21 @@ class Gltf:
                                       "target": {"node": node, "path": path}})
 
     def camera(self, position, direction, vertical_fov, aspect_ratio, name="camera", lens=None):
-        """`vertical_fov` in radians. `lens`: (radius, distance in focus) of a thin lens [m], else a pinhole."""
+        """Adds a camera. `vertical_fov` is in radians. `lens` is (radius, focus distance) of a thin lens [m]; without
+        it the camera is a pinhole."""
         extras = {"extras": {"lensRadius": rounded(lens[0]), "focusDistance": rounded(lens[1])}} if lens else {}
         camera = self._append("cameras", {"name": name, "type": "perspective", "perspective": {
             "yfov": rounded(vertical_fov), "aspectRatio": rounded(aspect_ratio), "znear": 0.001}, **extras})
         return self.node(name, position, rotation_towards(direction), camera=camera)
 
     def orthographic_camera(self, position, direction, width, height, name="camera"):
-        """Sees parallel beams over a rectangle of `width` times `height` [m]."""
+        """Adds a camera with parallel projection of a rectangle of `width` times `height` [m]."""
         camera = self._append("cameras", {"name": name, "type": "orthographic", "orthographic": {
             "xmag": rounded(width / 2), "ymag": rounded(height / 2), "znear": 0.001, "zfar": 1000}})
         return self.node(name, position, rotation_towards(direction), camera=camera)
 
     def light(self, name, kind, intensity, color=(1, 1, 1), position=None, direction=None, **properties):
-        """Of KHR_lights_punctual; `intensity` in candela (point, spot) or lux (directional)."""
+        """Adds a light of KHR_lights_punctual; `intensity` is in candela (point, spot) or lux (directional)."""
         self.lights.append({"name": name, "type": kind, "color": rounded(color), "intensity": rounded(intensity),
                             **properties})
         self.extensions.add("KHR_lights_punctual")
@@ -215,7 +218,7 @@ class Gltf:
                          extensions={"KHR_lights_punctual": {"light": len(self.lights) - 1}})
 
     def profile_lights(self, name, text, color, places):
-        """One light for each (position, direction, up), by the text of one IES file [EXT_lights_ies]."""
+        """Adds one light for each (position, direction, up), with the text of one IES file [EXT_lights_ies]."""
         data = base64.b64encode(text.encode("ascii")).decode("ascii")
         self.profiles.append({"name": name, "uri": "data:application/x-ies-lm-63;base64," + data})
         self.extensions.add("EXT_lights_ies")
@@ -224,11 +227,11 @@ class Gltf:
                 "light": len(self.profiles) - 1, "color": rounded(color)}})
 
     def sphere_light(self, name, intensity, radius, position, color=(1, 1, 1)):
-        """A sphere of radiance intensity / (pi radius^2); `intensity` in candela."""
+        """Adds a sphere of radiance intensity / (pi radius^2); `intensity` is in candela."""
         return self.light(name, "point", intensity, color, position, extras={"radius": rounded(radius)})
 
     def text(self):
-        """The file's text."""
+        """Returns the file's text."""
         result = {key: value for key, value in self.json.items() if value != []}
         if self.extensions:
             result["extensionsUsed"] = sorted(self.extensions)

@@ -1,4 +1,4 @@
-"""Rooms that no light reaches straight from its lamp: where paths from the camera alone do badly."""
+"""Builds rooms whose lamp lights nothing visible directly, which is hard for unidirectional path tracing."""
 
 import math
 
@@ -8,13 +8,13 @@ from shapes import box_quads, filleted, flipped, inner_quads, lathe, quads, sphe
 
 
 def lamp_box(title):
-    """4 x 3 x 5 m. The lamp lies on the bottom of a box under the ceiling and shines upwards; all light leaves the
-    box by a hole of 0.3 x 0.3 m in that bottom, after at least one bounce within."""
+    """Builds a room of 4 x 3 x 5 m. The lamp lies on the bottom of a box under the ceiling and emits upwards; all light
+    leaves the box by a hole of 0.3 x 0.3 m in that bottom, after at least one bounce inside."""
     gltf = Gltf(title)
     white, red, blue, grey = (gltf.lambertian(name, color) for name, color in (
         ("white", (0.8, 0.8, 0.8)), ("red", (0.6, 0.2, 0.15)), ("blue", (0.2, 0.3, 0.6)), ("grey", (0.5, 0.5, 0.5))))
     low, high = (-2, 0, 0), (2, 3, 5)
-    # The box is 1.2 x 0.5 x 1.2 m: four sides and four strips about the hole.
+    # The box is 1.2 x 0.5 x 1.2 m: four sides, and four strips around the hole.
     bottom, near, far, hole = 2.5, 0.6, -0.6, 0.15
     centre = (0, 0, 1.9)
     sides = inner_quads((far, bottom, far), (near, 3, near), "-x+x-z+z")
@@ -40,15 +40,15 @@ def lamp_box(title):
 
 
 def vase(gltf):
-    """A solid body 0.32 m high."""
+    """Returns a solid vase 0.32 m high."""
     outline = filleted([(0, 0.32, 0), (0.05, 0.32, 0.008), (0.035, 0.25, 0.06), (0.12, 0.12, 0.08), (0.06, 0, 0.008),
                         (0, 0, 0)], steps=8)
     return gltf.shape(*lathe(outline, 48))
 
 
 def door_ajar(title):
-    """Two rooms of 4 x 2.7 m and the door between them. The lamp of the far one shines at its ceiling and is seen from
-    nowhere in the near one, where the camera is."""
+    """Builds two rooms of 4 x 2.7 m with a door between them. The lamp of the far room lights its ceiling and is
+    invisible from the near room, where the camera is."""
     gltf = Gltf(title)
     white, green, wood, brown = (gltf.lambertian(name, color) for name, color in (
         ("white", (0.78, 0.76, 0.72)), ("green", (0.3, 0.45, 0.3)), ("wood", (0.45, 0.28, 0.15)),
@@ -57,7 +57,7 @@ def door_ajar(title):
     wall = [*box_quads((low[0], 0, -thickness), (left, 2.7, 0), "+x-z+z"),
             *box_quads((right, 0, -thickness), (high[0], 2.7, 0), "-x-z+z"),
             *box_quads((left, top, -thickness), (right, 2.7, 0), "-y-z+z")]
-    # The table's top is a block; its legs stand well within.
+    # The table's top is a block; its legs stand well inside its edges.
     table = box_quads((-0.55, 0.7, -0.35), (0.55, 0.74, 0.35))
     for x in (-0.5, 0.45):
         for z in (-0.3, 0.25):

@@ -1,4 +1,4 @@
-"""A scene of materials with layers and other extensions."""
+"""Builds a scene of layered materials and other material extensions."""
 
 from shapes import sphere
 from specular_scenes import specular_room

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """Writes the classical scenes of this folder as glTF files: make_scenes.py [FOLDER]. README.md says what each is for.
 
-Needs nothing but Python 3. Run twice, it writes the same bytes.
+Needs only Python 3. Every run writes the same bytes.
 """
 
 import math
 import pathlib
 import sys
 
-sys.dont_write_bytecode = True  # leave nothing behind but the scenes
+sys.dont_write_bytecode = True  # writes no files but the scenes
 
 from feature_scenes import FEATURE_SCENES
 from gltf_builder import Gltf, rotation_about, sub
@@ -23,9 +23,9 @@ from specular_scenes import SPECULAR_SCENES
 
 
 # --- The Cornell box ------------------------------------------------------------------------------------------------
-# Coordinates as measured and published by the Program of Computer Graphics of Cornell University, in millimetres: +x
-# points to the viewer's left, +y up, +z away from the viewer. The RGB reflectances are the usual Rec. 709 equivalents
-# of the measured spectra.
+# Coordinates are those that the Program of Computer Graphics of Cornell University measured and published, in
+# millimetres: +x points to the viewer's left, +y up, +z away from the viewer. The RGB reflectances are the usual Rec.
+# 709 equivalents of the measured spectra.
 
 FLOOR = ((552.8, 0, 0), (0, 0, 0), (0, 0, 559.2), (549.6, 0, 559.2))
 CEILING = ((556, 548.8, 0), (556, 548.8, 559.2), (0, 548.8, 559.2), (0, 548.8, 0))
@@ -48,7 +48,7 @@ def metres(*millimetre_quads):
 
 
 def block(corners, height):
-    """The visible sides of a block that stands on the floor, from the corners of its base."""
+    """Returns the visible sides of a block that stands on the floor, from the corners of its base."""
     top = tuple((x, height, z) for x, z in corners)
     sides = [((*a[:1], 0, a[1]), (a[0], height, a[1]), (b[0], height, b[1]), (b[0], 0, b[1]))
              for a, b in zip(corners[1:] + corners[:1], corners)]
@@ -56,7 +56,7 @@ def block(corners, height):
 
 
 def cornell_room(title, hidden):
-    """The empty box with its lamp and camera. Hidden: the lamp hangs lower and shines at the ceiling."""
+    """Builds the empty box with its lamp and camera. If `hidden`, the lamp hangs lower and lights the ceiling."""
     gltf = Gltf(title)
     white = gltf.lambertian("white", WHITE)
     for name, material, *sides in (("floor, ceiling and back wall", white, FLOOR, CEILING, BACK),
@@ -68,7 +68,7 @@ def cornell_room(title, hidden):
     lamp_material = gltf.lambertian("lamp", (LAMP_REFLECTANCE,) * 3, emission=LAMP_RADIANCE)
     shape = gltf.shape(*quads(*metres(flipped(lamp) if hidden else lamp)))
     gltf.node("lamp", mesh=gltf.mesh("lamp", (shape, lamp_material)))
-    # The published camera: a film of 25 mm behind a lens of 35 mm.
+    # The published camera has a film of 25 mm behind a lens of 35 mm.
     gltf.camera((0.278, 0.273, -0.8), (0, 0, 1), 2 * math.atan(0.025 / 2 / 0.035), 1)
     return gltf, white
 
@@ -87,7 +87,7 @@ def cornell_spheres(title, hidden=False):
     mirror = gltf.material("mirror", (0.95, 0.95, 0.95), metallic=1, roughness=0)
     glass = gltf.material("glass", (1, 1, 1), roughness=0, extensions={
         **SOLID_GLASS, "volume": {"thicknessFactor": 0.2}})
-    # A millimetre above the floor: a sphere that touches it would make joins of infinite variance there.
+    # Spheres hover a millimetre above the floor: connections near a point of contact would have infinite variance.
     gltf.node("mirror ball", (0.395, 0.101, 0.37), mesh=gltf.mesh("mirror ball", (ball, mirror)))
     gltf.node("glass ball", (0.165, 0.101, 0.2), mesh=gltf.mesh("glass ball", (ball, glass)))
     return gltf
@@ -104,7 +104,7 @@ def cornell_lambertian(title):
 # --- A furnace ------------------------------------------------------------------------------------------------------
 
 def furnace(title):
-    """A closed box in which every wall has albedo 1/2 and emits 1 nit inwards."""
+    """Builds a closed box in which every wall has albedo 1/2 and emits 1 nit inwards."""
     gltf = Gltf(title)
     wall = gltf.lambertian("glowing wall", (0.5, 0.5, 0.5), emission=(1, 1, 1))
     walls = [flipped(quad) for quad in box_quads((-1, -1, -1), (1, 1, 1))]
@@ -116,8 +116,8 @@ def furnace(title):
 # --- A Lambertian room under lights of all kinds --------------------------------------------------------------------
 
 def room(title, roof):
-    """4 x 3 x 5 m with a block, a sphere and a camera at its front. `roof`: the depth that is covered [m], from z = 0
-    (back) to 5."""
+    """Builds a room of 4 x 3 x 5 m with a block, a sphere and a camera at its front. `roof` is the covered depth [m],
+    from z = 0 (back) to 5."""
     gltf = Gltf(title)
     white, blue, ochre, grey = (gltf.lambertian(name, color) for name, color in (
         ("white", (0.8, 0.8, 0.8)), ("blue", (0.2, 0.3, 0.6)), ("ochre", (0.65, 0.45, 0.2)), ("grey", (0.5, 0.5, 0.5))))
@@ -152,7 +152,7 @@ def room_spot(title):
 
 
 def ies_file(vertical, horizontal, candela):
-    """The text of a light profile of type C; `candela` takes both angles in degrees."""
+    """Returns the text of a type C light profile; `candela` takes both angles in degrees."""
     rows = [" ".join(f"{candela(v, h):.1f}" for v in vertical) for h in horizontal]
     return "\r\n".join(("IES:LM-63-2019", "[TEST] none: made by bdpt scenes/make_scenes.py", "[MANUFAC] bdpt", "TILT=NONE",
                         f"1 -1 1 {len(vertical)} {len(horizontal)} 1 2 0 0 0", "1 1 60",
@@ -161,10 +161,10 @@ def ies_file(vertical, horizontal, candela):
 
 def room_profiles(title):
     gltf = room(title, roof=5)
-    # A ring of light around a bright middle, the same all around.
+    # Has a ring of light around a bright centre, with rotational symmetry.
     spot = ies_file(range(0, 91, 5), (0,), lambda v, h: max(0, 250 * math.cos(math.radians(4 * v)) + 150) if v < 70 else 0)
     gltf.profile_lights("downlight", spot, (1, 0.85, 0.65), [((x, 2.95, 0.45), (0, -1, 0), (0, 0, -1)) for x in (-1.3, 0, 1.3)])
-    # Two wings, along +x and -x of the luminaire; a quarter of it is measured.
+    # Has two lobes, along +x and -x of the luminaire; the file holds one quadrant.
     wings = ies_file(range(0, 181, 10), range(0, 91, 15), lambda v, h: 300 * math.sin(math.radians(v)) ** 4
                      * math.cos(math.radians(h)) ** 8 * (1.5 - v / 180))
     gltf.profile_lights("wings", wings, (0.7, 0.85, 1), [((0.2, 1.9, 3.1), (0, -1, 0), (0, 0, -1))])
@@ -184,7 +184,7 @@ def room_environment(title):
 # --- Stage: two walls and a floor with a lamp above, for single subjects --------------------------------------------
 
 def stage(title, lamp_radiance, stripes=False):
-    """A floor and a back wall 6 m wide with a lamp of 1.2 x 0.8 m at 2.9 m; subjects stand about the origin."""
+    """Builds a floor and a back wall 6 m wide with a lamp of 1.2 x 0.8 m at 2.9 m; objects stand near the origin."""
     gltf = Gltf(title)
     grey = gltf.lambertian("grey", (0.6, 0.6, 0.6))
     backdrop = [((-3, 0, 2), (3, 0, 2), (3, 0, -1.6), (-3, 0, -1.6))]
@@ -213,7 +213,7 @@ def shading_normals(title):
     def waves(x, z):
         return 0.03 * math.sin(16 * x) * math.cos(12 * z)
 
-    # A flat sheet that is shaded as if it had waves, and a sheet with coarse waves and normals of finer ones.
+    # Shows a flat sheet with wavy shading normals, and a sheet with coarse waves and shading normals of finer ones.
     flat = gltf.shape(*height_field(1.2, 48, lambda x, z: 0.0, waves))
     wavy = gltf.shape(*height_field(1.0, 9, lambda x, z: 0.06 * math.sin(8 * x), waves))
     gltf.node("flat sheet", (0, 0.02, 0.9), mesh=gltf.mesh("flat sheet", (flat, clay)))
@@ -222,7 +222,7 @@ def shading_normals(title):
 
 
 def instances(title):
-    """One chiral mesh under every kind of transform, and one-sided lamps of which one is mirrored."""
+    """Places one chiral mesh with every kind of transform, and one-sided lamps of which one is mirrored."""
     gltf = stage(title, 30)
     spring = gltf.mesh("spring", (gltf.shape(*coil(2.25, 0.16, 0.05, 0.15, 72, 10)),
                                   gltf.material("paint", (0.75, 0.3, 0.1), roughness=0.35)))
@@ -233,7 +233,7 @@ def instances(title):
     for i, (name, rotation, scale) in enumerate(rows):
         height = 0.65 if scale[1] < 0 else 0.3
         gltf.node(name, (-1.35 + 0.54 * i, height, 0.1), rotation, scale, mesh=spring)
-    # A stretched parent and a turned child give a sheared instance; two mirrors give none.
+    # A stretched parent and a rotated child make a sheared instance; two mirrored transforms cancel.
     stretched = gltf.node("stretched parent", (-0.8, 1.0, -0.7), scale=(2, 0.7, 1))
     gltf.node("sheared", rotation=rotation_about((0, 0, 1), 40), parent=stretched, mesh=spring)
     mirror = gltf.node("mirrored parent", (0.7, 0.9, -0.7), scale=(-1, 1, 1))
@@ -241,7 +241,7 @@ def instances(title):
     for i in range(11):
         gltf.node(f"small {i + 1}", (-1.5 + 0.3 * i, 0.1, 0.9), rotation_about((0, 1, 0.2), 33 * i),
                   (0.3 * (-1) ** i, 0.3, 0.3), mesh=spring)
-    # Both glow on the side that faces the floor, mirrored or not.
+    # Both emit on the side that faces the floor, mirrored or not.
     glow = gltf.lambertian("glow", (0.5, 0.5, 0.5), emission=(20, 28, 40))
     corners = ((-0.15, 0, -0.15), (0.15, 0, -0.15), (0.15, 0, 0.15), (-0.15, 0, 0.15))
     plate = gltf.mesh("glowing plate", (gltf.shape(*quads(corners)), glow))

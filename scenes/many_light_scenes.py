@@ -1,4 +1,4 @@
-"""Scenes of many lights: where it matters which of them a point asks."""
+"""Builds scenes of many lights, which depend on the selection of lights."""
 
 import math
 
@@ -7,9 +7,9 @@ from shapes import box_quads, quads, sphere
 
 
 def night_market(title):
-    """A lane of 6 x 26 m between stalls and a wall of 3 m, at night. 48 bulbs on strings and 8 lanterns are spheres of
-    light, 8 lamps and 20 spots are without size, and the stalls have signs. The brightest lights of all, panels that
-    face away and spots, are behind the wall: the lane sees nothing of them but what comes back over it."""
+    """Builds a lane of 6 x 26 m between stalls and a wall of 3 m, at night. 48 bulbs on strings and 8 lanterns are
+    spheres of light, 8 lamps and 20 spots have no size, and the stalls have luminous signs. The brightest lights,
+    panels that face away and spots, are behind the wall; they reach the lane only indirectly, over the wall."""
     gltf = Gltf(title)
     grey, wall, wood, cloth, iron, wet = (
         gltf.lambertian("paving", (0.4, 0.4, 0.42)), gltf.lambertian("plaster", (0.65, 0.6, 0.5)),

@@ -1,4 +1,4 @@
-"""Materials that several scenes use."""
+"""Defines materials that several scenes use."""
 
 SOLID_GLASS = {"transmission": {"transmissionFactor": 1}, "ior": {"ior": 1.5}, "volume": {"thicknessFactor": 0.1}}
 THIN_GLASS = {"transmission": {"transmissionFactor": 1}, "ior": {"ior": 1.5}}
@@ -9,7 +9,7 @@ def mirror(gltf, name, color=(0.95, 0.95, 0.95)):
 
 
 def glass(gltf, name, absorption=None):
-    """Smooth and solid. `absorption`: (colour that is left of white light, after what distance [m])."""
+    """Adds smooth, solid glass. `absorption` is (remaining colour of white light, after which distance [m])."""
     volume = dict(SOLID_GLASS["volume"])
     if absorption:
         color, distance = absorption

@@ -1,4 +1,4 @@
-"""Light that is scattered on its way: by fog in a room, within tea, within wax."""
+"""Builds scenes with scattering media: fog in a room, tea, wax."""
 
 import math
 
@@ -9,11 +9,11 @@ from shapes import box_quads, filleted, flipped, inner_quads, lathe, quads, sphe
 
 # --- A beam in fog --------------------------------------------------------------------------------------------------
 
-WINDOW = (1.75, 2.35, 1.7, 2.3)  # of the left wall: y, then z [m]
+WINDOW = (1.75, 2.35, 1.7, 2.3)  # in the left wall: y, then z [m]
 
 
 def left_wall(x, height, depth):
-    """Four strips about the window, fronts inwards, and the cross in it."""
+    """Returns four strips around the window, which face inwards, and the cross in it."""
     bottom, top, near, far = WINDOW
     strips = [((x, y0, z0), (x, y1, z0), (x, y1, z1), (x, y0, z1)) for y0, y1, z0, z1 in (
         (0, bottom, 0, depth), (top, height, 0, depth), (bottom, top, 0, near), (bottom, top, far, depth))]
@@ -24,10 +24,10 @@ def left_wall(x, height, depth):
 
 
 def searchlight(gltf, position, direction):
-    """A lamp in the focus of a mirror, whose rim is as far out as the focus: all its light goes to the mirror and leaves
-    as a beam. The lamp shows its back to everybody else. `position` is that of the lamp."""
+    """Adds a lamp at `position` in the focus of a parabolic mirror, whose rim is level with the focus: all light of the
+    lamp hits the mirror and leaves as a beam. Everywhere else only the black back of the lamp is visible."""
     focus, segments = 0.17, 64
-    # y = r^2 / (4 focus) - focus, with the normals of the inside.
+    # The mirror is y = r^2 / (4 focus) - focus, with normals on the inside.
     outline = [(r, r * r / (4 * focus) - focus, *normalized((-r / (2 * focus), 1.0)))
                for r in (2 * focus * k / 24 for k in range(25))]
     positions, triangles, normals = lathe(outline, segments)
@@ -43,7 +43,8 @@ def searchlight(gltf, position, direction):
 
 
 def fog_beam(title):
-    """A closed room of 4 x 3 x 5 m. A searchlight outside shines through a window of 0.6 x 0.6 m; give fog to see it."""
+    """Builds a closed room of 4 x 3 x 5 m. A searchlight outside shines through a window of 0.6 x 0.6 m; its beam is
+    visible only in fog (--fog)."""
     gltf = Gltf(title)
     white, blue, clay = (gltf.lambertian(name, color) for name, color in (
         ("white", (0.55, 0.55, 0.53)), ("blue", (0.2, 0.28, 0.45)), ("clay", (0.6, 0.35, 0.22))))
@@ -64,8 +65,8 @@ def fog_beam(title):
 # --- A table at night -----------------------------------------------------------------------------------------------
 
 def table(title, lamp=None):
-    """A table top and a wall behind it; subjects of about 0.1 m stand near the origin. `lamp`: (centre, side [m],
-    radiance) of a square that shines at the origin."""
+    """Builds a table top and a wall behind it; objects of about 0.1 m stand near the origin. `lamp` is (centre, side
+    [m], radiance) of a square that emits towards the origin."""
     gltf = Gltf(title)
     for name, color, corners in (
             ("table", (0.5, 0.42, 0.34), ((-0.6, 0, 0.6), (0.6, 0, 0.6), (0.6, 0, -0.3), (-0.6, 0, -0.3))),
@@ -82,8 +83,8 @@ def table(title, lamp=None):
 
 
 def body(ior, attenuation, scattered, anisotropy=0.0):
-    """The extensions of the inside of a body: `attenuation` is (colour that is left of white light, after what distance
-    [m]), `scattered` what a deep body of it looks like."""
+    """Returns the extensions of a body's medium: `attenuation` is (remaining colour of white light, after which
+    distance [m]), `scattered` the multiple-scattering albedo."""
     color, distance = attenuation
     return {"ior": {"ior": ior},
             "volume": {"thicknessFactor": 0.1, "attenuationColor": list(color), "attenuationDistance": distance},
@@ -91,8 +92,8 @@ def body(ior, attenuation, scattered, anisotropy=0.0):
 
 
 def tea_glass(title):
-    """A hair's gap of air is between tea and glass: what lies in a body only partly, as tea that reaches into the glass,
-    would be lost where a ray goes from glass to glass."""
+    """Leaves a tiny gap of air between tea and glass: nested media must not overlap partly, or rays from glass to glass
+    would ignore the tea."""
     gltf = table(title, lamp=((-0.35, 0.5, -0.12), 0.14, (420, 390, 340)))
     tumbler = filleted([(0, 0.012, 0), (0.032, 0.012, 0.008), (0.038, 0.1, 0.0008), (0.041, 0.1, 0.0008),
                         (0.036, 0, 0.003), (0, 0, 0)])
@@ -100,7 +101,7 @@ def tea_glass(title):
     liquid = gltf.material("tea", (1, 1, 1), roughness=0, extensions={
         "transmission": {"transmissionFactor": 1},
         **body(1.33, ((0.78, 0.33, 0.08), 0.03), (0.4, 0.18, 0.06), 0.6)})
-    place = (0, 0.001, 0)  # a millimetre above the table, as all specular things here
+    place = (0, 0.001, 0)  # a millimetre above the table, like all specular objects here
     gltf.node("tumbler", place, mesh=gltf.mesh("tumbler", (gltf.shape(*lathe(tumbler, 64)), glass(gltf, "glass"))))
     gltf.node("tea", place, mesh=gltf.mesh("tea", (gltf.shape(*lathe(tea, 64)), liquid)))
     eye = (0.03, 0.17, 0.44)
@@ -109,7 +110,7 @@ def tea_glass(title):
 
 
 def candle(title):
-    """Nothing shines but the flame."""
+    """Builds a candle; the flame is the only light."""
     gltf = table(title)
     wax = gltf.material("wax", (1, 1, 1), roughness=0.5, extensions={
         "diffuse_transmission": {"diffuseTransmissionFactor": 0.9, "diffuseTransmissionColorFactor": [1, 1, 1]},
@@ -121,7 +122,7 @@ def candle(title):
     wick = filleted([(0, 0.012, 0), (0.0009, 0.012, 0.0003), (0.0009, 0, 0.0003), (0, 0, 0)])
     gltf.node("wick", (0, height - 0.0045, 0), mesh=gltf.mesh("wick", (
         gltf.shape(*lathe(wick, 12)), gltf.lambertian("wick", (0.03, 0.025, 0.02)))))
-    # A drop: round below, a point above.
+    # Makes a drop: round below, a point above.
     angles = [math.pi * k / 20 for k in range(21)]
     drop = [(0.0062 * math.sin(a) * (1 - 0.55 * math.sin(a / 2) ** 2) if 0 < k < 20 else 0.0, -0.014 * math.cos(a)
              * (1.35 if a > math.pi / 2 else 1)) for k, a in enumerate(angles)]
@@ -130,7 +131,7 @@ def candle(title):
         before, after = drop[max(k - 1, 0)], drop[min(k + 1, 20)]
         normal = (0.0, -1.0) if k == 0 else (0.0, 1.0) if k == 20 else normalized((after[1] - before[1], before[0] - after[0]))
         outline.append((r, y, *normal))
-    outline.reverse()  # from the top down, as all that is turned
+    outline.reverse()  # runs from top to bottom, as lathe() expects
     flame = gltf.lambertian("flame", (0, 0, 0), emission=(9000, 4900, 1500))
     gltf.node("flame", (0, height + 0.024, 0), mesh=gltf.mesh("flame", (gltf.shape(*lathe(outline, 24)), flame)))
     gltf.node("ball", (0.1, 0.0305, 0.03), mesh=gltf.mesh("ball", (

@@ -1,4 +1,4 @@
-"""A scene whose animation shows what motion blur has to get right."""
+"""Builds an animated scene that tests motion blur."""
 
 import math
 
@@ -7,14 +7,14 @@ from shapes import box_quads, quads, sphere
 
 
 def turns(axis, degrees_per_second, seconds, start=0):
-    """Keys of a steady rotation, a quarter turn apart at most."""
+    """Returns keys of a uniform rotation, at most a quarter turn apart."""
     count = math.ceil(abs(degrees_per_second) * seconds / 90)
     return [(seconds * i / count, rotation_about(axis, start + degrees_per_second * seconds * i / count))
             for i in range(count + 1)]
 
 
 def striped(gltf, segments=32, rings=16, radius=0.25):
-    """A sphere of two shapes, like a beach ball: its sectors show how it turns."""
+    """Returns a sphere of two shapes, like a beach ball, whose sectors make its rotation visible."""
     positions, triangles, normals = sphere(segments, rings, radius)
     parts = ([], [])
     for triangle in triangles:
@@ -24,8 +24,8 @@ def striped(gltf, segments=32, rings=16, radius=0.25):
 
 
 def motion(title):
-    """An action of one second: a pinwheel, a sphere that rolls, one that bounces and is squashed, a reed that bends, a
-    glowing bead on a string, a lamp that travels, and a second camera that follows the rolling sphere."""
+    """Builds an animation of one second: a pinwheel, a rolling sphere, a sphere that bounces and is squashed, a bending
+    reed, a glowing bead on a string, a moving lamp, and a second camera that follows the rolling sphere."""
     gltf = Gltf(title)
     grey = gltf.lambertian("grey", (0.55, 0.55, 0.55))
     dark = gltf.lambertian("dark tiles", (0.2, 0.22, 0.26))
@@ -64,7 +64,7 @@ def motion(title):
     ball = gltf.mesh("rubber", (gltf.shape(positions, triangles, normals, targets=[squash]),
                                 gltf.material("rubber", (0.1, 0.45, 0.2), roughness=0.4)))
     bouncing = gltf.node("bouncing ball", (-0.15, 1.2, 0.2), mesh=ball)
-    # Falls, is squashed on the floor at half time and rises again; tangents are velocities.
+    # The sphere falls, is squashed on the floor at half time and rises again; tangents are velocities.
     gltf.animate(bouncing, "translation", [
         (0, (0, 0, 0), (-0.15, 1.2, 0.2), (0, 0, 0)), (0.45, (0, -4.4, 0), (-0.15, 0.21, 0.2), (0, -2, 0)),
         (0.55, (0, 2, 0), (-0.15, 0.21, 0.2), (0, 4.4, 0)), (1, (0, 0, 0), (-0.15, 1.2, 0.2), (0, 0, 0))],

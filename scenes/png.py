@@ -1,4 +1,4 @@
-"""Writes PNG files whose bytes do not depend on the version of a compressor: their data is stored as it is."""
+"""Writes uncompressed PNG files, whose bytes do not depend on the version of a compressor."""
 
 import struct
 import zlib
@@ -9,15 +9,15 @@ def chunk(kind, data):
 
 
 def stored(data):
-    """A zlib stream of one block that is not compressed."""
+    """Returns a zlib stream with one uncompressed block."""
     assert len(data) <= 65535
     return b"\x78\x01\x01" + struct.pack("<HH", len(data), len(data) ^ 0xFFFF) + data + struct.pack(
         ">I", zlib.adler32(data))
 
 
 def png(width, height, pixel):
-    """A file of 8 bits a channel. `pixel(x, y)` gives red, green, blue and perhaps alpha in [0, 1], sRGB-encoded, with
-    (0, 0) at the centre of the image, x to the right, y up and both in units of half its height."""
+    """Returns a PNG file of 8 bits a channel. `pixel(x, y)` returns red, green, blue and optionally alpha in [0, 1],
+    sRGB-encoded, with (0, 0) at the centre of the image, x to the right, y up and both in units of half its height."""
     rows, channels = [], 0
     for row in range(height):
         values = []

@@ -1,4 +1,4 @@
-"""Triangle shapes as (positions, triangles) or (positions, triangles, normals); fronts are counter-clockwise."""
+"""Makes triangle meshes as (positions, triangles) or (positions, triangles, normals); fronts are counter-clockwise."""
 
 import math
 
@@ -6,7 +6,7 @@ from gltf_builder import cross, normalized
 
 
 def quads(*corners_of_each):
-    """Flat quadrilaterals, each given by its four corners counter-clockwise as seen from its front."""
+    """Makes flat quadrilaterals, each from its four corners counter-clockwise as seen from its front."""
     positions, triangles = [], []
     for corners in corners_of_each:
         first = len(positions)
@@ -20,7 +20,7 @@ def flipped(quad):
 
 
 def box_quads(low, high, sides="-x+x-y+y-z+z"):
-    """The chosen sides of an axis-aligned box, fronts outwards."""
+    """Returns the chosen sides of an axis-aligned box, which face outwards."""
     (x0, y0, z0), (x1, y1, z1) = low, high
     all_sides = {
         "-x": ((x0, y0, z0), (x0, y0, z1), (x0, y1, z1), (x0, y1, z0)),
@@ -34,20 +34,20 @@ def box_quads(low, high, sides="-x+x-y+y-z+z"):
 
 
 def inner_quads(low, high, sides="-x+x-y+y-z+z"):
-    """The chosen sides of an axis-aligned box, fronts inwards: the walls of a room."""
+    """Returns the chosen sides of an axis-aligned box, which face inwards: the walls of a room."""
     return [flipped(quad) for quad in box_quads(low, high, sides)]
 
 
 def card(width, height):
-    """An upright rectangle that stands on the origin and faces +z, with texture coordinates: an image, upper row on
-    top."""
+    """Makes an upright rectangle that stands on the origin and faces +z, with texture coordinates for an image whose
+    first row is on top."""
     x = width / 2
     return ([(-x, 0, 0), (x, 0, 0), (x, height, 0), (-x, height, 0)], [(0, 1, 2), (0, 2, 3)], [(0, 0, 1)] * 4,
             [(0, 1), (1, 1), (1, 0), (0, 0)])
 
 
 def sphere(segments, rings, radius=1.0):
-    """About the origin, closed, with the normals of the true sphere."""
+    """Makes a closed sphere around the origin, with the normals of the exact sphere."""
     normals = [(0.0, 1.0, 0.0)]
     for ring in range(1, rings):
         theta = math.pi * ring / rings
@@ -69,8 +69,8 @@ def sphere(segments, rings, radius=1.0):
 
 
 def height_field(size, cells, height, shading_height):
-    """A square of `cells` by `cells` about the origin: its positions follow the function `height(x, z)`, its normals
-    the function `shading_height(x, z)`."""
+    """Makes a square of `cells` by `cells` around the origin: its positions follow the function `height(x, z)`, its
+    normals the function `shading_height(x, z)`."""
     positions, normals, triangles = [], [], []
     step = 1e-4
     for row in range(cells + 1):
@@ -89,8 +89,8 @@ def height_field(size, cells, height, shading_height):
 
 
 def coil(turns, coil_radius, tube_radius, rise, segments, sides):
-    """A tube along a right-handed helix about +y, closed at both ends by a point: a shape that its mirror image
-    differs from."""
+    """Makes a tube along a right-handed helix around +y, closed at both ends by a point: a shape that differs from its
+    mirror image."""
     positions, normals, triangles, centres, tangents = [], [], [], [], []
     for i in range(segments + 1):
         angle = 2 * math.pi * turns * i / segments
@@ -118,8 +118,8 @@ def coil(turns, coil_radius, tube_radius, rise, segments, sides):
 
 
 def filleted(corners, steps=4, closed=False):
-    """A smooth outline in the half plane (r, y), as (r, y, normal r, normal y), from `corners` = (r, y, radius of the
-    arc that rounds it). Its normals point to the left of the way along it; without `closed` both ends stay."""
+    """Makes a smooth outline in the half plane (r, y), as (r, y, normal r, normal y), from `corners` = (r, y, fillet
+    radius). Its normals point to the left of its direction; unless it is `closed`, both end corners stay sharp."""
     def unit(a, b):
         return normalized((b[0] - a[0], b[1] - a[1]))
 
@@ -146,7 +146,7 @@ def filleted(corners, steps=4, closed=False):
 
 
 def lathe(outline, segments, closed=False):
-    """Turns an outline of (r, y, normal r, normal y) about +y; r = 0 closes it at an end."""
+    """Rotates an outline of (r, y, normal r, normal y) around +y; r = 0 closes it at an end."""
     positions, normals, triangles = [], [], []
     for i in range(segments):
         s, c = math.sin(2 * math.pi * i / segments), math.cos(2 * math.pi * i / segments)
@@ -165,6 +165,6 @@ def lathe(outline, segments, closed=False):
 
 
 def ring(inner, outer, height, fillet, segments):
-    """A ring that lies on the plane y = 0."""
+    """Makes a ring that lies on the plane y = 0."""
     corners = [(r, y, fillet) for r, y in ((inner, 0), (inner, height), (outer, height), (outer, 0))]
     return lathe(filleted(corners, closed=True), segments, closed=True)

@@ -1,4 +1,4 @@
-"""Mirrors and glass: caustics, and rooms full of them."""
+"""Builds scenes of mirrors and glass: caustics, and rooms full of specular objects."""
 
 import math
 
@@ -12,7 +12,7 @@ SILVER, GOLD, COPPER = (0.96, 0.95, 0.92), (1, 0.77, 0.34), (0.95, 0.64, 0.54)
 # --- Caustics on a table --------------------------------------------------------------------------------------------
 
 def table(title, lamp_position):
-    """A table top and a wall behind it, under a lamp of 3 cm across; subjects of about 0.1 m stand near the origin."""
+    """Builds a table top and a wall behind it, under a lamp 3 cm wide; objects of about 0.1 m stand near the origin."""
     gltf = Gltf(title)
     for name, color, corners in (
             ("table", (0.55, 0.5, 0.45), ((-0.8, 0, 0.8), (0.8, 0, 0.8), (0.8, 0, -0.4), (-0.8, 0, -0.4))),
@@ -27,10 +27,10 @@ def table(title, lamp_position):
 def caustic_glass(title):
     gltf = table(title, (0.45, 0.5, -0.25))
     clear = glass(gltf, "glass")
-    # From the middle of the inside up, over the rim and down to the middle of the foot.
+    # The outline runs from the middle of the inside up, over the rim and down to the middle of the foot.
     tumbler = filleted([(0, 0.014, 0), (0.034, 0.014, 0.008), (0.038, 0.1, 0.0008), (0.041, 0.1, 0.0008),
                         (0.038, 0, 0.003), (0, 0, 0)])
-    # A millimetre above the table, as all specular things here: surfaces that touch make joins of infinite variance.
+    # Specular objects hover a millimetre above the table: connections near a contact would have infinite variance.
     gltf.node("tumbler", (-0.05, 0.001, -0.02), mesh=gltf.mesh("tumbler", (gltf.shape(*lathe(tumbler, 72)), clear)))
     gltf.node("ball", (0.09, 0.036, 0.06), mesh=gltf.mesh("ball", (gltf.shape(*sphere(48, 24, radius=0.035)), clear)))
     return gltf
@@ -50,8 +50,8 @@ def caustic_metal(title):
 # --- Rooms full of mirrors and glass ---------------------------------------------------------------------------------
 
 def specular_room(title, low, high, lamp_radiance, focus=None):
-    """A white room with an ochre and a blue wall, a ceiling lamp of 0.8 x 0.8 m and a camera at its front. `focus`: a
-    point that a lens of 16 cm across shows sharp."""
+    """Builds a white room with an ochre and a blue wall, a ceiling lamp of 0.8 x 0.8 m and a camera at its front. A
+    lens of 16 cm diameter is focused on the point `focus`."""
     gltf = Gltf(title)
     parts = [(gltf.shape(*quads(*inner_quads(low, high, sides))), gltf.lambertian(name, color))
              for name, color, sides in (("white", (0.75, 0.75, 0.75), "-y+y-z+z"), ("ochre", (0.65, 0.45, 0.2), "-x"),
@@ -68,7 +68,7 @@ def specular_room(title, low, high, lamp_radiance, focus=None):
 
 
 def specular_palette(gltf):
-    """Mirrors of five colours and glass of five."""
+    """Returns mirrors of five colours and glass of five."""
     mirrors = [mirror(gltf, f"{name} mirror", color) for name, color in (
         ("silver", SILVER), ("gold", GOLD), ("copper", COPPER), ("green", (0.45, 0.9, 0.5)),
         ("blue", (0.4, 0.55, 0.95)))]
@@ -83,7 +83,7 @@ def fourteen_specular(title):
     mirrors, glasses = specular_palette(gltf)
     ball = gltf.shape(*sphere(48, 24))
     cube = gltf.shape(*quads(*box_quads((-1, -1, -1), (1, 1, 1))))
-    # Shape, material, place of the centre on the floor, half the height, turn in degrees.
+    # Each row has shape, material, place of the centre on the floor, half the height, rotation in degrees.
     objects = ((ball, mirrors[0], -1.2, -1.5, 0.5, 0), (cube, mirrors[1], 0.1, -1.7, 0.4, 30),
                (ball, mirrors[2], 1.3, -1.4, 0.45, 0), (cube, glasses[4], -0.5, -0.8, 0.28, 20),
                (ball, glasses[1], 0.55, -0.7, 0.3, 0), (cube, mirrors[3], 1.35, -0.3, 0.27, -25),
@@ -99,8 +99,8 @@ def fourteen_specular(title):
 
 
 def nine_spheres_dof(title):
-    """Twelve specular objects (nine spheres, a mirror, a block and a ring), two diffuse ones (the room and a pedestal)
-    and a lamp. The fifth sphere is in focus."""
+    """Builds twelve specular objects (nine spheres, a mirror, a block and a ring), two diffuse ones (the room and a
+    pedestal) and a lamp. The fifth sphere is in focus."""
     places = [(-0.7 + 0.2 * i, 0.202, 1.3 - 0.5 * i) for i in range(9)]
     gltf = specular_room(title, (-2, 0, -3.4), (2, 2.6, 3.5), (26, 24, 21), focus=places[4])
     mirrors, glasses = specular_palette(gltf)

@@ -9,8 +9,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 
-def errors_of(scene, integrator, reference, steps):
-    """Samples per pixel and relMSE after each step; every step adds its samples to those before it."""
+def measure_errors(scene, integrator, reference, steps):
+    """Returns samples per pixel and relMSE after each step; every step adds its samples to the sum."""
     sum_of_steps, samples, errors = None, [], []
     for begin, end in zip(steps, steps[1:]):
         step = bdpt.render(scene, integrator=integrator, samples=f"{begin}:{end}", size=(160, 120))
@@ -32,7 +32,7 @@ def main():
     picture.imshow((image / image.mean() / 4).clip(0, 1) ** (1 / 2.2))
     picture.set_axis_off()
     for integrator in ("mis", "bdpt"):
-        plot.loglog(*errors_of(scene, integrator, reference, steps), marker="o", label=integrator)
+        plot.loglog(*measure_errors(scene, integrator, reference, steps), marker="o", label=integrator)
     plot.set_xlabel("samples per pixel")
     plot.set_ylabel("relMSE")
     plot.legend()

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Holds --adaptive against uniform sampling: adaptive_table.py BDPT [SCENE...]
+"""Compares --adaptive with uniform sampling: adaptive_table.py BDPT [SCENE...]
 
-Prints for each scene and integrator by how much adaptive sampling gains: CPU time times relMSE of uniform renders over
-those of adaptive ones, the test render included; beside it the same of relMSE over scales. Above 1 it gains: 2 is half
-the time for the same error. Then error and CPU time of adaptive renders over those of uniform ones, at equal --spp.
+Prints the gain of adaptive sampling for each scene and integrator: CPU time times relMSE of uniform renders, over that
+of adaptive ones, whose time includes the pilot; beside it the same with relMSE over scales. A gain of 2 means half the
+time for the same error. Then prints error and CPU time of adaptive renders over those of uniform ones, at equal --spp.
 All are ratios of medians over seeds. The reference is a long uniform render with another seed. A scene may be followed
 by options of bdpt render, in one word: "model.glb --env default"."""
 
@@ -28,7 +28,7 @@ def child_seconds():
 
 
 def render(bdpt, scene, image, arguments, *options):
-    """CPU seconds."""
+    """Renders the scene; returns CPU seconds."""
     before = child_seconds()
     subprocess.run([bdpt, "render", *scene, "-o", image, "--quiet", "--threads", "1", "--size", arguments.size, *options],
                    check=True)
@@ -43,7 +43,7 @@ def errors(bdpt, image, reference):
 
 
 def measure(bdpt, scene, integrator, arguments):
-    """For uniform and adaptive renders: medians of CPU seconds and of each error."""
+    """Returns medians of CPU seconds and of each error, for uniform and adaptive renders."""
     with tempfile.TemporaryDirectory() as folder:
         image = pathlib.Path(folder) / "image.exr"
         words = "_".join([pathlib.Path(scene[0]).stem, *scene[1:], arguments.size])

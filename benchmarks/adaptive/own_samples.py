@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""How wrong adaptive sampling is that keeps the samples it decides by: own_samples.py [--spp N] [--probability P]
+"""Computes the bias of adaptive sampling that keeps its pilot samples: own_samples.py [--spp N] [--probability P]
 [--plot FILE]
 
-A pixel whose samples are bright with probability P, and black else; the truth is 1. A pilot of n samples gives it four
-times the samples if it has found light, and a quarter if it has not. Prints the expectation of the pixel, exactly: where
-the pilot's samples are kept, and where it has samples of its own, for pilots of several sizes. --plot needs matplotlib."""
+The samples of a pixel are bright with probability P, else black; the true mean is 1. A pilot of n samples gives the
+pixel four times the samples if it has found light, and a quarter if it has not. Prints the exact expectation of the
+pixel, with the pilot's samples kept and with separate ones, for several pilot sizes. --plot needs matplotlib."""
 
 import argparse
 import math
@@ -14,24 +14,24 @@ def binomial(n, k, p):
     return math.comb(n, k) * p**k * (1.0 - p) ** (n - k)
 
 
-def samples_after(found, spp):
+def choose_samples(found, spp):
     return 4 * spp if found > 0 else spp // 4
 
 
-def expectation_with_own_samples(pilot, spp, p):
-    """Of the mean over all samples, those of the pilot among them: what it found counts for all of them."""
+def compute_expectation_with_own_samples(pilot, spp, p):
+    """Returns the expected mean over all samples, the pilot's included, whose result also decides their number."""
     total = 0.0
     for found in range(pilot + 1):
-        samples = max(samples_after(found, spp), pilot)
+        samples = max(choose_samples(found, spp), pilot)
         total += binomial(pilot, found, p) * (found / p + samples - pilot) / samples
     return total
 
 
-def expectation_with_fresh_samples(pilot, spp, p):
-    """Whatever the pilot found, samples that know nothing of it have the mean 1."""
+def compute_expectation_with_fresh_samples(pilot, spp, p):
+    """Returns the expected mean over samples that are independent of the pilot: 1, whatever the pilot found."""
     total = 0.0
     for found in range(pilot + 1):
-        samples = samples_after(found, spp)
+        samples = choose_samples(found, spp)
         total += binomial(pilot, found, p) * sum(binomial(samples, k, p) * k / p / samples for k in range(samples + 1))
     return total
 
@@ -64,7 +64,7 @@ def main():
     print(f"{'pilot':>6} {'own samples':>12} {'samples of its own':>19}")
     for pilot in (2, 4, 8, 16, 32, 64):
         own, fresh = (f(pilot, arguments.spp, arguments.probability)
-                      for f in (expectation_with_own_samples, expectation_with_fresh_samples))
+                      for f in (compute_expectation_with_own_samples, compute_expectation_with_fresh_samples))
         rows.append((pilot, own, fresh))
         print(f"{pilot:6} {own:12.3f} {fresh:19.3f}")
     if arguments.plot:

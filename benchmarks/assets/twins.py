@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Renders models and their twins, made by glTF Transform, and says whether the images agree.
+"""Renders models and their twins, made by glTF Transform, and reports whether the images agree.
 
     twins.py COMMAND MODEL... [--converter PROGRAM] [--size WxH] [--spp N] [--noise FACTOR]
              [--kinds NAME,...] [--keep FOLDER]
 
-COMMAND is bdpt. A twin holds the same model packed in another way: compressed meshes (draco, meshopt), integers for
-vertices (quantized), sparse accessors, WebP textures without loss (webp). The difference is the mean of FLIP. A converter
-may change the order of triangles and nodes, and with it which random number is used where: so two renders of the model
-itself with different seeds say what noise makes, and a twin may differ by that, and by a little where vertices are
-rounded. The exit code is 1 if a twin is not equal or is not rendered, 77 if the converter is not there (`npm install
+COMMAND is bdpt. A twin encodes the same model differently: compressed meshes (draco, meshopt), integer vertices
+(quantized), sparse accessors, lossless WebP textures (webp). The difference is mean FLIP. A converter may reorder
+triangles and nodes, which changes the random numbers that each of them gets. Two renders of the model itself with
+different seeds therefore measure the noise; a twin may differ by that, plus a little where vertices are rounded. The
+exit code is 1 if a twin differs or is not rendered, 77 if the converter is not installed (`npm install
 @gltf-transform/cli`).
 """
 
@@ -21,8 +21,8 @@ import subprocess
 import sys
 import tempfile
 
-# How a twin is made, and the mean FLIP that it may differ by beside noise: rounding moves vertices by a 2^14th of the
-# model.
+# For each kind: the converter's arguments, and the mean FLIP that rounding may add to the noise (rounding moves
+# vertices by 1 / 2^14 of the model).
 EXACT, MOVED = 0.001, 0.005
 KINDS = {
     "draco": (["draco"], MOVED),
@@ -52,21 +52,21 @@ def run(*words):
 
 
 def render(options, model, image, seed=0):
-    """None, or why there is no image."""
+    """Renders a model; returns None, or the reason why there is no image."""
     done = run(options.command, "render", model, "-o", image, "--size", options.size, "--spp", options.spp, "--seed",
                seed, "--quiet")
     return None if done.returncode == 0 else done.stderr.strip()
 
 
-def difference(command, image, reference):
-    """The mean of FLIP."""
+def compare_images(command, image, reference):
+    """Returns the mean FLIP between two images."""
     done = run(command, "compare", image, reference, "--json")
     if done.returncode != 0:
         sys.exit(done.stderr)
-    return mean_flip(json.loads(done.stdout))
+    return read_mean_flip(json.loads(done.stdout))
 
 
-def mean_flip(report):
+def read_mean_flip(report):
     return report["metrics"]["flip"]["mean"]
 
 
@@ -77,21 +77,21 @@ class Verdict:
 
 
 def compare(options, twin, model, rounding, folder):
-    """Whether two models are one image, but for noise and what `rounding` allows. Images go to `folder`."""
+    """Compares the images of two models; they may differ by noise and by `rounding`. Writes the images to `folder`."""
     plain, other = (folder / f"{model.stem}-{seed}.exr" for seed in range(2))
     image = folder / f"{twin.stem}.exr"
     for what, where, seed in ((model, plain, 0), (model, other, 1), (twin, image, 0)):
         refusal = render(options, what, where, seed)
         if refusal:
             return Verdict(False, f"NOT RENDERED: {refusal}")
-    tolerance = rounding + options.noise * difference(options.command, other, plain)
-    found = difference(options.command, image, plain)
+    tolerance = rounding + options.noise * compare_images(options.command, other, plain)
+    found = compare_images(options.command, image, plain)
     equal = found <= tolerance
     return Verdict(equal, f"mean FLIP {found:.5f}, at most {tolerance:.5f}: {'equal' if equal else 'NOT EQUAL'}")
 
 
 def check_kind(options, model, kind, folder):
-    """Whether the twin of one kind is equal to the model, or cannot be made."""
+    """Returns whether the twin of one kind equals the model. A twin that cannot be made counts as equal."""
     words, rounding = KINDS[kind]
     twin = folder / f"{model.stem}-{kind}.glb"
     made = run(options.converter, words[0], model, twin, *words[1:])
@@ -105,7 +105,7 @@ def check_kind(options, model, kind, folder):
 
 def check_model(options, model, folder):
     print(model)
-    # All kinds, whatever came of those before.
+    # The list makes all() check every kind, even after a failure.
     return all([check_kind(options, model, kind, folder) for kind in options.kinds.split(",")])
 
 

@@ -1,18 +1,18 @@
-"""Ways to break light transport on purpose, each in one place: what `bdpt verify` is held against."""
+"""Lists ways to break light transport on purpose, each by one change of the code. `bdpt verify` must detect them."""
 
 import dataclasses
 
 
 @dataclasses.dataclass(frozen=True)
 class Breakage:
-    """`old`, which stands once in the file, becomes `new`; then `bdpt verify` has to fail on the scene."""
+    """Replaces `old`, which occurs once in the file, by `new`; `bdpt verify` must then fail on the scene."""
 
     name: str
     file: str
     old: str
     new: str
     scene: str = "cornell-box.gltf"
-    options: tuple = ()  # of `bdpt verify`
+    options: tuple = ()  # options of `bdpt verify`
 
 
 JOINER = "lib/src/integrator/bidirectional/path_joiner.cpp"
@@ -23,11 +23,11 @@ CAMERA = "lib/src/camera/camera.cpp"
 CACHE = "lib/src/integrator/bidirectional/light_path_cache.cpp"
 TRACER = "lib/src/integrator/path/path_integrator.cpp"
 
-# So wide, and so far into the box, that light paths hit it.
+# The lens is so wide, and so far inside the box, that light paths hit it.
 WIDE_LENS = ("--lens-radius", "0.1", "--from", "0.278,0.273,-0.1", "--look-at", "0.278,0.273,0.28", "--fov", "100")
 SHARED = ("--light-paths", "0.25", "--connections", "1.5")
 FOG = ("--fog", "0.3,0.6,1.2", "--fog-anisotropy", "0.5", "--max-depth", "4")
-# In the roughest sphere of glass-rough.gltf, below the lamp.
+# The point lies in the roughest sphere of glass-rough.gltf, below the lamp.
 INSIDE_GLASS = ("--from", "1.05,0.29,0.3", "--look-at", "1.05,1.5,0.31", "--fov", "90")
 
 BREAKAGES = (

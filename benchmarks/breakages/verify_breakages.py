@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Breaks bdpt on purpose, in one place at a time, and holds `bdpt verify` against it: verify_breakages.py [NAME...]
+"""Breaks bdpt on purpose, one change at a time, and tests that `bdpt verify` detects it: verify_breakages.py [NAME...]
 
-Each breakage of breakages.py is put into a copy of the sources, which is built; then `bdpt verify` has to fail on a
-scene that shows it. NAME is a part of its name; without any, all are tried. The exit code is 1 if one is not caught."""
+Applies each breakage of breakages.py to a copy of the sources, builds the copy and runs `bdpt verify`, which must fail
+on the breakage's scene. NAME is a part of a breakage's name; by default all are tried. The exit code is 1 if one is
+missed."""
 
 import argparse
 import pathlib
@@ -18,7 +19,7 @@ CAUGHT = 10  # exit code of `bdpt verify`
 
 
 def copy_sources(folder):
-    """Files that are the same already are left alone, so that a build goes on from what is there."""
+    """Copies the sources. Leaves unchanged files alone, so that builds are incremental."""
     for part in ("CMakeLists.txt", "LICENSE", "README.md", "cmake", "lib", "apps", "benchmarks"):
         for source in [ROOT / part] if (ROOT / part).is_file() else (ROOT / part).rglob("*"):
             copy = folder / source.relative_to(ROOT)
@@ -28,7 +29,7 @@ def copy_sources(folder):
 
 
 def build(folder):
-    """Where the command is. Throws CalledProcessError."""
+    """Builds the copy; returns the path of the command. Raises CalledProcessError."""
     done = folder / "build"
     if not (done / "CMakeCache.txt").exists():
         subprocess.run(["cmake", "-S", folder, "-B", done, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
@@ -40,15 +41,15 @@ def build(folder):
 
 
 def verify(bdpt, breakage, seconds):
-    """Exit code, and the first thing that it found."""
+    """Runs `bdpt verify`; returns its exit code and first finding."""
     done = subprocess.run([bdpt, "verify", ROOT / "scenes" / breakage.scene, "--time", f"{seconds}s",
                            *breakage.options], capture_output=True, text=True)
     _, _, findings = done.stdout.rstrip().rpartition("\n\n")  # the last paragraph: findings, then the verdict
     return done.returncode, findings.splitlines()[0].strip() if findings else done.stderr.strip()
 
 
-def try_out(breakage, folder, seconds):
-    """Is it caught? The sources are as before afterwards."""
+def try_breakage(breakage, folder, seconds):
+    """Returns whether `bdpt verify` detects the breakage. Restores the sources afterwards."""
     file = folder / breakage.file
     text = file.read_text(encoding="utf-8")
     if text.count(breakage.old) != 1:
@@ -74,7 +75,7 @@ def main():
         parser.error("no such breakage; there are: " + "; ".join(b.name for b in BREAKAGES))
     arguments.work.mkdir(parents=True, exist_ok=True)
     copy_sources(arguments.work)
-    caught = [try_out(breakage, arguments.work, arguments.time) for breakage in chosen]
+    caught = [try_breakage(breakage, arguments.work, arguments.time) for breakage in chosen]
     print(f"{sum(caught)} of {len(caught)} caught")
     return 0 if all(caught) else 1
 

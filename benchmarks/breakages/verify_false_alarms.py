@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Counts how often `bdpt verify` fails a sound renderer: verify_false_alarms.py BDPT [SCENE...]
+"""Counts how often `bdpt verify` fails a correct renderer: verify_false_alarms.py BDPT [SCENE...]
 
-Each scene is tried as it is and darkened: with all base colours multiplied by a factor, so that roulette ends as many
-walks as it may. Every run has a seed of its own, 155 batches (the first look with enough samples to be trusted), and may
-be a false alarm with the probability --false-alarm. The exit code is 1 if there are more than chance allows."""
+Tries each scene as it is, and darkened: with all base colours multiplied by a factor, so that Russian roulette ends as
+many walks as possible. Every run has a seed of its own and 155 batches (the first test that has enough samples), and
+may be a false alarm with the probability --false-alarm. The exit code is 1 if there are more than chance explains."""
 
 import argparse
 import json
@@ -19,7 +19,7 @@ FAILED = 10  # exit code of `bdpt verify`
 
 
 def darken(scene, factor, folder):
-    """A copy of the scene with all base colours multiplied by the factor."""
+    """Writes a copy of the scene with all base colours multiplied by the factor."""
     document = json.loads(scene.read_text(encoding="utf-8"))
     for material in document.get("materials", []):
         pbr = material.setdefault("pbrMetallicRoughness", {})
@@ -38,8 +38,8 @@ def is_alarm(bdpt, scene, seed, chance):
     return done.returncode == FAILED
 
 
-def most_by_chance(runs, chance):
-    """So many alarms or fewer, with a probability of 99.9 %."""
+def compute_max_alarms(runs, chance):
+    """Returns the 99.9th percentile of the number of false alarms."""
     below = 0.0
     for count in range(runs + 1):
         below += math.comb(runs, count) * chance**count * (1 - chance) ** (runs - count)
@@ -57,7 +57,7 @@ def main():
     parser.add_argument("--false-alarm", type=float, default=0.1, help="chance of each run (0.1)")
     arguments = parser.parse_args()
     scenes = arguments.scenes or [ROOT / "scenes" / f"{name}.gltf" for name in SCENES]
-    most = most_by_chance(arguments.runs, arguments.false_alarm)
+    most = compute_max_alarms(arguments.runs, arguments.false_alarm)
     total = excess = 0
     with tempfile.TemporaryDirectory() as folder:
         for scene in scenes:

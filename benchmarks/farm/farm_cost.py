@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Measures what parts cost: farm_cost.py BDPT SCENE [--parts 64] [--large-parts 8] [--folder FOLDER].
+"""Measures the cost of parts: farm_cost.py BDPT SCENE [--parts 64] [--large-parts 8] [--folder FOLDER].
 
-- bdpt merge of many parts at 1920x1080, and of some at 3840x2160: CPU time and greatest memory
+- bdpt merge of many parts at 1920x1080, and of some at 3840x2160: CPU time and peak memory
 - a checkpoint at 1920x1080: CPU time
-- one render by one process of two threads, and by two and four processes of one thread: CPU time of all of them, merging
+- one render by one process of two threads, and by two and four processes of one thread: total CPU time, merging
   included, as a ratio
 
-All in CPU time, as machines are shared; prints a table in Markdown. Takes ten minutes and 4 GB of disk."""
+Measures CPU time, because machines are shared; prints a table in Markdown. Takes ten minutes and 4 GB of disk."""
 
 import argparse
 import os
@@ -32,7 +32,7 @@ def parse():
 
 
 class Cost:
-    """What a process took."""
+    """CPU time and peak memory of a process."""
 
     def __init__(self, usage):
         self.cpu = usage.ru_utime + usage.ru_stime  # [s]
@@ -59,7 +59,7 @@ class Command:
         return self.run("render", self.scene, "--integrator", "mis", *words)
 
 
-def merges(command, arguments, folder):
+def measure_merges(command, arguments, folder):
     for size, option in SIZES.items():
         count = getattr(arguments, option)
         parts = [folder / f"{size}-{i}.part.exr" for i in range(count)]
@@ -73,14 +73,14 @@ def merges(command, arguments, folder):
             part.unlink()
 
 
-def checkpoints(command, folder):
-    """Five checkpoints in a row, against none but the last."""
+def measure_checkpoints(command, folder):
+    """Measures five checkpoints in a row, less a render that only writes its final part."""
     words = ["render", command.scene, "--integrator", "mis", "--size", "1920x1080", "--spp", "12", "--threads", "2"]
     costs = []
     for count in (0, CHECKPOINTS):
         part = folder / f"checkpoints-{count}.part.exr"
         process = command.start(*words, "--part", part)
-        time.sleep(3)  # before it has begun, the signal would end it
+        time.sleep(3)  # a signal before the render begins would end it
         written = 0
         before = None
         while written < count and process.poll() is None:
@@ -95,7 +95,7 @@ def checkpoints(command, folder):
           f"| {costs[1].memory:.0f} MB |", flush=True)
 
 
-def processes(command, folder):
+def measure_processes(command, folder):
     words = ["--size", "640x480", "--max-depth", "8"]
     samples = 64
     alone = command.render(*words, "--spp", samples, "--threads", "2", "-o", folder / "alone.exr")
@@ -117,9 +117,9 @@ def main():
     with tempfile.TemporaryDirectory(dir=arguments.folder) as name:
         folder = pathlib.Path(name)
         print("| | time | greatest memory |\n|---|---|---|", flush=True)
-        processes(command, folder)
-        checkpoints(command, folder)
-        merges(command, arguments, folder)
+        measure_processes(command, folder)
+        measure_checkpoints(command, folder)
+        measure_merges(command, arguments, folder)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Kills renders by SIGKILL at random moments, some in the middle of writing a checkpoint, and prints whether what goes on with
-their parts has the pixels of one render: kill_trial.py BDPT SCENE [--kills N].
+"""Kills renders by SIGKILL at random moments, some while they write a checkpoint, and reports whether renders that
+resume from their parts produce the pixels of an uninterrupted render: kill_trial.py BDPT SCENE [--kills N].
 
 - a job of 32 tasks, run by make -j2 -k again and again, until N renders (20) were killed
 - one render with --part, killed five times
@@ -34,7 +34,7 @@ def parse():
 
 
 def renders_in(group, bdpt):
-    """Numbers of the processes of a process group that are renders."""
+    """Returns the pids of the renders in a process group."""
     found = []
     for folder in pathlib.Path("/proc").glob("[0-9]*"):
         try:
@@ -55,14 +55,14 @@ def send(process, number):
 
 
 class Killer:
-    """Kills renders, and counts those that were writing."""
+    """Kills renders, and counts those that were writing a checkpoint."""
 
     def __init__(self):
         self.killed = 0
         self.writing = 0
 
     def kill(self, process, folder):
-        """Checkpoints are made to follow each other, so that some of the kills meet one."""
+        """Kills a render. Triggers many checkpoints before, so that some kills hit one."""
         for _ in range(random.randrange(1, 6)):
             send(process, signal.SIGUSR1)
             time.sleep(random.uniform(0.0, 0.08))
@@ -72,11 +72,11 @@ class Killer:
             left = list(folder.glob(f"*.tmp-*-{process}-*"))
             self.writing += bool(left)
             for file in left:
-                file.unlink()  # as the manual says, that does no harm
+                file.unlink()  # harmless, as the manual says
 
 
 class Trial:
-    """One program, one scene, one folder."""
+    """Runs the trials for one program and scene in one folder."""
 
     def __init__(self, arguments, folder):
         self.bdpt = arguments.bdpt.resolve()
@@ -95,8 +95,8 @@ class Trial:
         print(f"{what}: mean square error {error}", flush=True)
         return error == 0
 
-    def job(self, kills):
-        """A job by make, of which renders are killed."""
+    def try_job(self, kills):
+        """Tests a make job of which renders are killed."""
         job = self.folder / "job"
         killer = Killer()
         self.run("plan", *self.words, "--spp", self.spp, "-o", self.folder / "job.exr", "--parts", TASKS, "--for",
@@ -113,7 +113,7 @@ class Trial:
                 found = renders_in(make.pid, self.bdpt)
                 if found:
                     killer.kill(random.choice(found), job)
-            send(make.pid, signal.SIGTERM)  # make ends its renders with SIGTERM: they write their parts
+            send(make.pid, signal.SIGTERM)  # on SIGTERM make ends its renders, which write their parts
             make.wait()
             if (self.folder / "job.exr").exists():
                 break
@@ -124,8 +124,8 @@ class Trial:
                            f"{killer.writing} of them while writing", self.folder / "job.exr")
         return same and killer.killed >= kills
 
-    def one_render(self, kills=5):
-        """A render with --part."""
+    def try_one_render(self, kills=5):
+        """Tests a render with --part that is killed."""
         part = self.folder / "one.part.exr"
         killer = Killer()
         words = [self.bdpt, "render", *self.words, "--spp", self.spp, "--part", part, "--quiet"]
@@ -139,8 +139,8 @@ class Trial:
                            self.folder / "one.exr")
         return same and killer.killed == kills
 
-    def ranges(self):
-        """Ranges of any size, by any number of threads."""
+    def try_ranges(self):
+        """Tests random ranges of samples by random numbers of threads."""
         ends = sorted(random.sample(range(1, self.spp), 6))
         parts = []
         for begin, end in zip([0, *ends], [*ends, self.spp]):
@@ -159,7 +159,7 @@ def main():
     random.seed(arguments.seed)
     with tempfile.TemporaryDirectory() as name:
         trial = Trial(arguments, pathlib.Path(name))
-        good = [trial.job(arguments.kills), trial.one_render(), trial.ranges()]
+        good = [trial.try_job(arguments.kills), trial.try_one_render(), trial.try_ranges()]
     sys.exit(not all(good))
 
 

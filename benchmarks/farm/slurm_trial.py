@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Runs a plan for Slurm with Slurm itself, on one machine and in a scratch folder, while things go wrong, and prints what
-became of it: slurm_trial.py BDPT SCENE, as root.
+"""Runs a Slurm plan on a real Slurm, on one machine in a scratch folder, provokes failures, and prints the results:
+slurm_trial.py BDPT SCENE, as root.
 
-Needs munged, slurmctld and slurmd (Debian: slurm-wlm, munge), of which none may be running; no systemd, no control
-groups. Takes about ten minutes, most of them the two that Slurm waits before it starts a job again. The exit code is 1 if
-something was not as docs/farm.md says."""
+Needs munged, slurmctld and slurmd (Debian: slurm-wlm, munge), none of which may be running; needs no systemd and no
+control groups. Takes about ten minutes, most of them the two that Slurm waits before it restarts a job. The exit code
+is 1 if the outcome differs from docs/farm.md."""
 
 import argparse
 import json
@@ -51,7 +51,7 @@ PartitionName=trial Nodes={host} Default=YES MaxTime=INFINITE State=UP
 
 
 class Cluster:
-    """The three daemons, by hand."""
+    """Starts and stops the three daemons."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -84,10 +84,10 @@ class Cluster:
         self.start("slurmd", "-D", "-f", str(self.configuration))
 
     def kill_node(self):
-        """As if its power was cut: slurmd, its helpers of jobs (slurmstepd) and all they have started."""
+        """Simulates a power cut: kills slurmd, its job helpers (slurmstepd) and all their children."""
         mine = [process for process in processes() if "slurmstepd: [" in process.command]
         self.daemons["slurmd"].kill()
-        for process in mine + [child for parent in mine for child in below(parent.number)]:
+        for process in mine + [child for parent in mine for child in find_descendants(parent.number)]:
             send(process.number, signal.SIGKILL)
         self.daemons["slurmd"].wait()
 
@@ -114,9 +114,9 @@ def processes():
     return found
 
 
-def below(number):
+def find_descendants(number):
     children = [process for process in processes() if process.parent == number]
-    return children + [other for child in children for other in below(child.number)]
+    return children + [other for child in children for other in find_descendants(child.number)]
 
 
 def send(number, which):
@@ -146,7 +146,7 @@ class Trial:
         return [self.options.scene, "--size", "96x72", "--spp", self.options.spp, "--integrator", "bdpt"]
 
     def submit(self, name, *options):
-        """Numbers of the jobs of tasks and of the merge, of a plan of its own."""
+        """Plans a render of its own and submits it; returns the ids of the task array and of the merge job."""
         job = self.folder / name
         run(self.options.bdpt, "plan", *self.words(), "--parts", 4, "--for", "slurm", "-d", job, "-o",
             self.folder / f"{name}.exr", "--quiet")
@@ -156,7 +156,7 @@ class Trial:
         return re.findall(r"job (\d+)", said)
 
     def states(self, *jobs):
-        """States of jobs and tasks; prints what has changed."""
+        """Returns the states of jobs and tasks; prints changes."""
         lines = run("squeue", "-h", "-a", "-r", "-t", "all", "-j", ",".join(jobs), "-o", "%F_%K %T %r").splitlines()
         now = {line.split(" ", 1)[0].replace("_N/A", ""): line.split(" ", 1)[1] for line in lines}
         for name, state in sorted(now.items()):
@@ -200,7 +200,7 @@ def try_cancel(trial):
 
 
 def try_mishaps(trial, cluster):
-    """A killed render, the time limit, and a node that dies, in one job."""
+    """Tests a killed render, the time limit, and a node that dies, in one job."""
     # Slurm warns up to a minute early: 30 to 90 s after the start.
     job, merge = trial.submit("mishaps", "--time=3", "--signal=B:USR1@90")
     trial.wait(60, running(job, range(4)), job)
@@ -232,7 +232,7 @@ def main():
     parser.add_argument("scene", type=pathlib.Path)
     parser.add_argument("--spp", type=int, default=12288, help="so many that a task takes about two minutes")
     options = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that the daemons end, too
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # ends the daemons, too
     options.bdpt, options.scene = options.bdpt.resolve(), options.scene.resolve()
     with tempfile.TemporaryDirectory(prefix="bdpt-slurm-", dir="/var/tmp") as name:
         trial = Trial(options, pathlib.Path(name))

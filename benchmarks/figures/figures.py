@@ -1,43 +1,43 @@
-"""The figures: for each its cells, that is scenes and options of `bdpt render`. make_figures.py renders them."""
+"""Defines the figures as lists of cells, each a scene and options of `bdpt render`. make_figures.py renders them."""
 
 import dataclasses
 import re
 
-BALL = re.compile(r"ball-(\d+)\.glb")  # scenes that make_large_scene.py writes, with about that many triangles
+BALL = re.compile(r"ball-(\d+)\.glb")  # scenes that make_large_scene.py writes; the number is that of triangles
 
 
 @dataclasses.dataclass(frozen=True)
 class Cell:
-    """One image of a sheet. It has either samples (`spp`) or a time to render for (`seconds`)."""
+    """Describes one image of a sheet. It has either a number of samples (`spp`) or a render time (`seconds`)."""
 
     label: str
     scene: str  # a file of scenes/, or a BALL
-    options: tuple  # of `bdpt render`
+    options: tuple  # options of `bdpt render`
     spp: int = None
     seconds: float = None
-    reference: tuple = None  # options of a long render of the same light by bdpt, or None: there is none
+    reference: tuple = None  # options of the reference by bdpt, which has the same light; None: no reference
     rival: tuple = None  # options of a second estimate: the image is the mean of maxima of the two (biased!)
-    rounds: int = 1  # how many maxima, each of images of spp / rounds samples
-    profiled: bool = False  # tell where the time goes; the image has a layer time.Y
-    layer: str = None  # shown in false colours, on one scale for the sheet, in place of the image
-    layer_scale: float = 1.5  # the last colour, over the layer's mean
-    without_bvh: bool = False  # tell the rays per second with and without a BVH
-    metric: str = "relmse"  # whose error is told, of `bdpt compare`
+    rounds: int = 1  # number of maxima in the mean, each of images of spp / rounds samples
+    profiled: bool = False  # prints the shares of phases; the image has a layer time.Y
+    layer: str = None  # layer that the cell shows in false colours, with one scale for the sheet
+    layer_scale: float = 1.5  # end of the colour scale, over the layer's mean
+    without_bvh: bool = False  # prints the rays per second with and without a BVH
+    metric: str = "relmse"  # error metric of `bdpt compare`
 
 
 @dataclasses.dataclass(frozen=True)
 class Figure:
-    """One sheet, `columns` cells wide."""
+    """Describes one sheet, `columns` cells wide."""
 
     title: str
     columns: int
     cells: tuple
     reference_spp: int = 2048
-    exposure: float = None  # [EV]; None: the automatic one of the scene's last reference
+    exposure: float = None  # [EV]; None takes the automatic one of the scene's last reference
 
 
 def strategies(max_light, max_camera, keep):
-    """`--disable` with all strategies of at most that many vertices for which `keep(s, t)` does not hold."""
+    """Returns `--disable` with all strategies of at most that many vertices for which `keep(s, t)` does not hold."""
     pairs = ((s, t) for s in range(max_light + 1) for t in range(max_camera + 1) if s + t >= 2)
     names = [f"s{s}t{t}" for s, t in pairs if not keep(s, t)]
     return ("--disable", ",".join(names)) if names else ()
@@ -52,7 +52,7 @@ def by(integrator):
 
 
 def adaptive():
-    """At equal samples in the mean; where the time of samples is uneven, the seconds differ."""
+    """Compares at equal average samples; times differ where samples are not equally expensive."""
     cells = []
     for scene in ("cornell-spheres.gltf", "alpha.gltf"):
         options = by("mis") + depth(5)
@@ -64,8 +64,8 @@ def adaptive():
 
 
 def lengths_grid(splats):
-    """Camera subpaths of up to m edges and light subpaths of up to w. Together they make all paths of up to m + w + 1
-    edges, which is what the reference shows; without splats (t = 1) camera subpaths of 0 edges make none."""
+    """Limits camera subpaths to m edges and light subpaths to w edges. Together they make all paths of up to m + w + 1
+    edges, which the reference shows; without splats (t = 1) camera subpaths of 0 edges make none."""
     cells = []
     for m in range(6):
         for w in range(6):
@@ -77,7 +77,7 @@ def lengths_grid(splats):
 
 
 def light_lengths():
-    """All columns estimate the same image, that of paths of up to 6 edges."""
+    """Compares light subpath limits that all estimate the same image: paths of up to 6 edges."""
     cells = []
     for scene in ("cornell-spheres.gltf", "cornell-spheres-hidden.gltf"):
         cells.append(Cell("path tracing (mis)", scene, by("mis") + depth(6), 16, reference=depth(6)))
@@ -108,7 +108,7 @@ def single_scatter():
 
 
 def lamp_box():
-    """A row for each pair of lengths e-l: subpaths of e edges from the camera and of l from the light."""
+    """Makes a row for each pair of lengths e-l: camera subpaths of e edges and light subpaths of l edges."""
     cells = []
     for camera, light in ((2, 3), (2, 4), (3, 3)):
         edges, scene, spp = camera + light + 1, "lamp-box.gltf", 16
@@ -126,7 +126,8 @@ def lamp_box():
 
 
 def lamp_box_short():
-    """Light subpaths that end within the box, and such that leave it by their second edge: one estimate of all."""
+    """Compares light subpaths that end inside the box with those whose second edge leaves it; all estimate the same
+    image."""
     scene, whole = "lamp-box.gltf", depth(6)
     cells = []
     for light, where in ((0, "no edge"), (1, "1 edge: ends in the box"), (2, "2 edges: leaves it"), (3, "3 edges")):
@@ -136,7 +137,7 @@ def lamp_box_short():
 
 
 def pinhole_or_lens():
-    """At equal samples. What time they take is a matter of lens_cost.py, which takes medians."""
+    """Compares a pinhole and a lens at equal samples. lens_cost.py measures their times, as medians."""
     views = (("pinhole", ("--lens-radius", "0")), ("lens", ()))
     return tuple(Cell(f"{name}, {view}", "nine-spheres-dof.gltf", by(name) + depth(5) + options, 64,
                       reference=depth(5) + options)
@@ -154,7 +155,7 @@ def light_paths():
 
 
 def light_samples():
-    """A row at equal samples and one at equal time for each scene."""
+    """Makes a row at equal samples and one at equal time for each scene."""
     cells = []
     for scene in ("cornell-box.gltf", "night-market.gltf"):
         for limit in ({"spp": 16}, {"seconds": 4.0}):
@@ -171,8 +172,8 @@ def heuristics():
 
 
 def roulette():
-    """Paths of up to so many edges, with Russian roulette after three edges and without, at equal numbers of rays: the samples
-    are what --stats tells of rays, so that no other program on the machine has a say."""
+    """Compares paths with Russian roulette after three edges and without it, for several length limits. The sample
+    counts give equal numbers of rays (by --stats), so that other programs on the machine have no influence."""
     scene = "cornell-box-hidden.gltf"
     rows = (("roulette", (), (128, 128, 128, 128)), ("no roulette", ("--rr-start", "1000"), (117, 85, 65, 57)))
     return tuple(Cell(f"{label}, {edges} edges", scene, by("mis") + more + depth(edges), spp, reference=depth(edges))
@@ -186,8 +187,8 @@ def direct_indirect():
 
 
 def denoised():
-    """A row for each scene: path tracing and the default integrator, as they come and denoised, at equal time. What light
-    paths splat is denoised with the rest."""
+    """Makes a row for each scene: path tracing and the default integrator, raw and denoised, at equal time. Splats are
+    denoised with the rest."""
     cells = []
     for scene in ("lamp-box.gltf", "caustic-metal.gltf", "glass-rough.gltf"):
         for name in ("mis", "auto"):
@@ -199,7 +200,7 @@ def denoised():
 
 
 def media():
-    """A row for each scene, at equal time."""
+    """Makes a row for each scene, at equal time."""
     cells = []
     for scene, options in (("fog-beam.gltf", ("--fog", "0.12") + depth(12)), ("tea-glass.gltf", depth(32)),
                            ("candle.gltf", depth(64))):
@@ -208,7 +209,7 @@ def media():
 
 
 def profile():
-    """Images with the shares of time, and below them the time of a sample in each pixel."""
+    """Shows images with the time shares of phases, and below them the time of a sample in each pixel."""
     scene = "fourteen-specular.gltf"
     names = ("pt", "nee", "mis", "lt", "bdpt")
     images = [Cell(name, scene, by(name) + depth(5), 64, reference=None if name == "lt" else depth(5),
@@ -219,7 +220,7 @@ def profile():
 
 
 def sweep(scene, integrators, counts, edges):
-    """A row for each integrator, a column for each number of samples."""
+    """Makes a row for each integrator and a column for each number of samples."""
     return tuple(Cell(f"{name}, {count} spp", scene, by(name) + depth(edges), count, reference=depth(edges))
                  for name in integrators for count in counts)
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Prints how noisy four ways to sample direct light are: hemisphere_sampling.py [--samples 1000000] [--seed 0].
+"""Prints the noise of four ways to sample direct light: hemisphere_sampling.py [--samples 1000000] [--seed 0].
 
-A white matt floor under a square lamp at a height of 1, at points below its centre and beside it. Directions uniform over the
-hemisphere, in proportion to the cosine, points uniform on the lamp, and one of each of the last two by the power heuristic.
-The table has the variance of one sample over the square of the closed form [Lambert 1760]; of MIS, whose sample is two, twice
-that of a pair, so lines are at equal samples. bdpt has no uniform hemisphere, so nothing of it is used. Needs NumPy.
+A white Lambertian floor lies under a square lamp at a height of 1; points are below its centre and beside it. The ways
+are: uniform hemisphere sampling, cosine-weighted sampling, uniform points on the lamp, and MIS of the last two with the
+power heuristic. The table has the variance of one sample over the square of the closed form [Lambert 1760]; MIS takes
+two samples, so its variance is doubled and all lines are at equal samples. Uses no code of bdpt, which has no uniform
+hemisphere sampling. Needs NumPy.
 """
 
 import argparse
@@ -19,8 +20,8 @@ CASES = [("small lamp, below it", 0.2, 0.0), ("small lamp, beside it", 0.2, 2.0)
 
 
 def irradiance(width, aside):
-    """That of a lamp of radiance 1 at the origin: half the sum over its edges of the angle times the upward part of the
-    normal of the plane through origin and edge."""
+    """Returns the irradiance at the origin by a lamp of radiance 1: half the sum, over its edges, of the angle times
+    the upward component of the normal of the plane through origin and edge."""
     half = width / 2
     corners = np.array([[aside - half, -half, HEIGHT], [aside - half, half, HEIGHT], [aside + half, half, HEIGHT],
                         [aside + half, -half, HEIGHT]])
@@ -39,7 +40,7 @@ def on_lamp(direction, width, aside):
 
 
 def directions(random, count, cosine):
-    """And their densities per solid angle."""
+    """Samples directions; returns them and their pdf per solid angle."""
     u, phi = random.random(count), 2 * np.pi * random.random(count)
     z = np.sqrt(u) if cosine else u
     r = np.sqrt(1 - z * z)
@@ -55,12 +56,12 @@ def lamp_directions(random, count, width, aside):
 
 
 def lamp_density(direction, width):
-    """Of a direction that meets the lamp, per solid angle: distance^2 / (cosine area)."""
+    """Returns the pdf per solid angle of a direction that hits the lamp: distance^2 / (cosine area)."""
     return HEIGHT ** 2 / direction[:, 2] ** 3 / width ** 2
 
 
 def estimates(random, count, width, aside):
-    """Samples by name, of the irradiance."""
+    """Returns samples of the irradiance, by the name of the way."""
     result, samples = {}, {}
     for name, cosine in (("uniform", False), ("cosine", True)):
         d, pdf = directions(random, count, cosine)

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Prints what depth of field costs: lens_cost.py BDPT [SCENE] [--integrators mis,bdpt] [--rounds 5].
+"""Measures the cost of depth of field: lens_cost.py BDPT [SCENE] [--integrators mis,bdpt] [--rounds 5].
 
-SCENE has a camera with a lens (scenes/nine-spheres-dof.gltf if none is given). Renders it through that and through a pinhole, in
-turn, with as many samples; the table has medians of CPU seconds of processes, and the median, least and greatest ratio of rounds.
+SCENE has a camera with a lens (default: scenes/nine-spheres-dof.gltf). Renders it through the lens and through a
+pinhole in turn, with equal samples; the table has medians of CPU seconds of processes, and the median, least and
+greatest ratio of rounds.
 """
 
 import argparse

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Renders figures: for each a sheet of labelled images and their numbers.
+"""Renders figures: for each a sheet of labelled images and their measurements.
 
 make_figures.py --list
 make_figures.py NAME... -o DIR [--scale quick|medium|full] [--bdpt PATH]    (or all for NAME)
@@ -22,12 +22,12 @@ import sheet
 from figures import BALL, FIGURES
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-REFERENCE_SEED = 1000  # other numbers than any cell: errors of the same numbers would cancel
+REFERENCE_SEED = 1000  # differs from the seeds of all cells: errors of equal random numbers would cancel
 
 
 @dataclasses.dataclass(frozen=True)
 class Scale:
-    """How large images are, and the most that cells may take."""
+    """Limits the size of images and the samples of cells."""
 
     width: int
     most_spp: int
@@ -40,19 +40,20 @@ SCALES = {"quick": Scale(52, 64, 256, 0.3), "medium": Scale(128, 1024, 512, 4.0)
 
 
 def aspect_ratio(scene):
-    """That of the first camera of the file."""
+    """Returns the aspect ratio of the first camera of the file."""
     if BALL.fullmatch(scene):
         return 1.0
     cameras = json.loads((ROOT / "scenes" / scene).read_text(encoding="utf-8"))["cameras"]
     return cameras[0]["perspective"]["aspectRatio"]
 
 
-def size_of(scene, scale):
+def compute_size(scene, scale):
     return scale.width, round(scale.width / aspect_ratio(scene))
 
 
 def scaled(figure, scale):
-    """Cells with what the scale allows, and columns. Cells that come out as one before because of it are left out."""
+    """Returns the figure's cells within the limits of the scale, and the number of columns. Drops cells that the limits
+    make equal to the one before."""
     cells = []
     for cell in figure.cells:
         small = dataclasses.replace(cell, spp=cell.spp and min(cell.spp, scale.most_spp),
@@ -68,14 +69,14 @@ def scaled(figure, scale):
 
 
 class Renderer:
-    """Calls bdpt. References are made once for all figures."""
+    """Runs bdpt. Renders each reference once for all figures."""
 
     def __init__(self, bdpt, ray_replay, scale, folder):
         self.bdpt, self.ray_replay, self.scale, self.folder, self.references = bdpt, ray_replay, scale, folder, {}
 
     @functools.lru_cache(maxsize=None)
     def file(self, scene):
-        """Where a scene is. Spheres are made here."""
+        """Returns the file of a scene; generates spheres."""
         ball = BALL.fullmatch(scene)
         if not ball:
             return str(ROOT / "scenes" / scene)
@@ -84,8 +85,8 @@ class Renderer:
                        check=True, stdout=subprocess.DEVNULL)
         return str(file)
 
-    def throughput(self, scene):
-        """Rays per CPU second with and without a BVH."""
+    def measure_throughput(self, scene):
+        """Returns the rays per CPU second with and without a BVH."""
         done = subprocess.run([self.ray_replay, self.file(scene), "--json", "--without-bvh", "--size",
                                str(self.scale.width)], check=True, stdout=subprocess.PIPE, text=True)
         report = json.loads(done.stdout)
@@ -93,8 +94,8 @@ class Renderer:
                 "loop_rays_per_second": report["all_triangles_rays_per_second"]}
 
     def render(self, scene, options, limits, output, extra=()):
-        """What the command said when it was done, its statistics and itself."""
-        width, height = size_of(scene, self.scale)
+        """Renders a scene; returns the command line and its statistics."""
+        width, height = compute_size(scene, self.scale)
         stats = output.with_suffix(".stats.json")
         command = [self.bdpt, "render", self.file(scene), "--integrator", "bdpt", *options, "--size", f"{width}x{height}",
                    *limits, "-o", str(output), "--stats", str(stats), "--json", *extra]
@@ -110,20 +111,20 @@ class Renderer:
         return row
 
     def reference(self, cell, spp, folder):
-        """File and report of the long render for a cell; None if it has none."""
+        """Returns file and report of a cell's reference; None if it has none."""
         if cell.reference is None:
             return None
         spp = min(spp, self.scale.most_reference_spp)
         key = cell.scene, cell.reference, spp
         if key not in self.references:
             name = f"{pathlib.Path(cell.scene).stem}-{len(self.references):02}"
-            file, preview = folder / f"{name}.exr", folder / f"{name}.png"  # whose exposure is the automatic one
+            file, preview = folder / f"{name}.exr", folder / f"{name}.png"  # the preview has automatic exposure
             limits = ("--spp", str(spp), "--seed", str(REFERENCE_SEED))
             self.references[key] = file, self.render(cell.scene, cell.reference, limits, file, ("-o", str(preview)))
         return self.references[key]
 
     def cell(self, cell, output):
-        """Renders a cell. Returns its numbers."""
+        """Renders a cell; returns its measurements."""
         if cell.rival is None:
             limits = ("--spp", str(cell.spp)) if cell.spp else ("--time", f"{cell.seconds}s")
             return self.render(cell.scene, cell.options, limits, output, ("--profile",) if cell.profiled else ())
@@ -143,7 +144,7 @@ class Renderer:
                 "rays": total, "command": "; ".join(report["command"] for report in reports)}
 
     def compare(self, image, reference, metric):
-        """Error and bias of an image. The error has the noise of the reference in it."""
+        """Returns error and bias of an image. The error includes the noise of the reference."""
         done = subprocess.run([self.bdpt, "compare", str(image), str(reference), "--relative", "--json", "--metrics",
                                f"relmse,{metric}" if metric != "relmse" else metric], check=True, stdout=subprocess.PIPE, text=True)
         report = json.loads(done.stdout)
@@ -171,7 +172,7 @@ def write_numbers(name, figure, scale_name, rows, folder):
 
 
 def captions(row):
-    """The lines below the label."""
+    """Returns the lines of text below the label."""
     if "bvh_rays_per_second" in row:
         bvh, loop = row["bvh_rays_per_second"], row["loop_rays_per_second"]
         return [f"BVH {bvh / 1e6:.2g} M rays/s, without {loop / 1e3:.2g} k",
@@ -198,13 +199,13 @@ def make(name, renderer, scale_name, folder):
         row = {"label": cell.label, "scene": cell.scene, **renderer.cell(cell, image)}
         row["mean"] = sheet.mean(image)
         if cell.without_bvh:
-            row.update(renderer.throughput(cell.scene))
+            row.update(renderer.measure_throughput(cell.scene))
         if cell.layer:
             brightest = max(brightest, cell.layer_scale * sheet.mean(image, cell.layer)[0])
         reference = renderer.reference(cell, figure.reference_spp, references)
         if reference:
             file, report = reference
-            exposures[cell.scene] = report["exposure"]  # that of the last is for all images of the scene
+            exposures[cell.scene] = report["exposure"]  # the last one applies to all images of the scene
             row.update(renderer.compare(image, file, cell.metric))
             row["reference"] = report["command"]
         row.pop("exposure", None)
@@ -220,7 +221,7 @@ def make(name, renderer, scale_name, folder):
         else:
             look = sheet.developed(exposures[cell.scene] if figure.exposure is None else figure.exposure)
             lines = [cell.label, *captions(row)]
-        sheet.shown(images / f"{number:02}.exr", size_of(cell.scene, renderer.scale), look, lines, shown[-1])
+        sheet.shown(images / f"{number:02}.exr", compute_size(cell.scene, renderer.scale), look, lines, shown[-1])
     sheet.mosaic(shown, columns, folder / f"{name}.png")
     write_numbers(name, figure, scale_name, rows, folder)
 

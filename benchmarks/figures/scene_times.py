@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Prints how long whole scenes take: scene_times.py BDPT [FILE...] [--triangles N]... [--rounds 3].
+"""Measures how long whole scenes take: scene_times.py BDPT [FILE...] [--triangles N]... [--rounds 3].
 
-The table has, for the files given or all of scenes/, then bumpy spheres of about N triangles by make_large_scene.py, seconds at
-the wall as --stats tells them: to read the file, to make it ready for rays (the BVH, lights, materials), and to render 16 samples
-of 192 x 192 pixels by path tracing with MIS. Medians of rounds.
+The scenes are the files given or all of scenes/, then bumpy spheres of about N triangles by make_large_scene.py. The
+table has wall-clock seconds from --stats: to read the file, to prepare the scene (BVH, lights, materials), and to
+render 16 samples of 192 x 192 pixels by path tracing with MIS. All are medians of rounds.
 """
 
 import argparse
@@ -25,7 +25,7 @@ def measure(bdpt, scene, folder):
     return json.loads(stats.read_text(encoding="utf-8"))
 
 
-def triangles_of(bdpt, scene):
+def count_triangles(bdpt, scene):
     done = subprocess.run([bdpt, "info", str(scene), "--json"], check=True, stdout=subprocess.PIPE, text=True)
     return json.loads(done.stdout)["triangles"]["in_scene"]
 
@@ -48,7 +48,7 @@ def main():
         for file in files:
             rounds = [measure(arguments.bdpt, file, folder) for _ in range(arguments.rounds)]
             times = [statistics.median(told["seconds"][phase] for told in rounds) for phase in PHASES]
-            print(f"| `{file.stem}` | {triangles_of(arguments.bdpt, file):,} | "
+            print(f"| `{file.stem}` | {count_triangles(arguments.bdpt, file):,} | "
                   + " | ".join(f"{seconds:.3f} s" for seconds in times) + " |", flush=True)
 
 

@@ -1,4 +1,4 @@
-"""Images by oiiotool: mean values, maxima, and sheets of cells with captions."""
+"""Processes images with oiiotool: mean values, maxima, and sheets of cells with captions."""
 
 import functools
 import glob
@@ -7,24 +7,24 @@ import re
 import subprocess
 import tempfile
 
-CELL = 208  # least width of a cell on a sheet [px]
-LINE = 16  # height of a line of text below it [px]
+CELL = 208  # minimum width of a cell on a sheet [px]
+LINE = 16  # height of a line of caption [px]
 
 
 def oiiotool(*arguments):
-    """What it prints. Throws CalledProcessError."""
+    """Runs oiiotool; returns its output. Raises CalledProcessError."""
     done = subprocess.run(["oiiotool", "--nosoftwareattrib", *map(str, arguments)], check=True, capture_output=True, text=True)
     return done.stdout
 
 
 def mean(image, channels="R,G,B"):
-    """Means of red, green and blue [nit], or of other channels."""
+    """Returns the means of red, green and blue [nit], or of other channels."""
     line = re.search(r"Stats Avg: (.*) \(float\)", oiiotool(image, "--ch", channels, "--printstats"))
     return [float(word) for word in line[1].split()]
 
 
 def mean_of_maxima(pairs, output):
-    """Writes the mean of the greater values of pairs of images."""
+    """Writes the mean of the pixelwise maxima of pairs of images."""
     arguments = []
     for number, (first, second) in enumerate(pairs):
         arguments += [first, second, "--max"] + (["--add"] if number else [])
@@ -33,7 +33,7 @@ def mean_of_maxima(pairs, output):
 
 @functools.lru_cache(maxsize=None)
 def font():
-    """The first font that oiiotool can write with; None if there is none."""
+    """Returns the first font that oiiotool can use; None if there is none."""
     files = glob.glob("/usr/share/fonts/**/*.ttf", recursive=True) + glob.glob("/Library/Fonts/*.ttf")
     favourites = ("DejaVuSans.ttf", "LiberationSans-Regular.ttf", "NotoSans-Regular.ttf", "Arial.ttf")
     files.sort(key=lambda file: (not file.endswith(favourites), file))
@@ -48,18 +48,18 @@ def font():
 
 
 def developed(exposure):
-    """What makes an image of radiance, times 2^exposure, as sRGB."""
+    """Returns the oiiotool arguments that convert radiance, times 2^exposure, to sRGB."""
     return ["--ch", "R,G,B", "--mulc", 2 ** exposure, "--clamp:min=0:max=1", "--colorconvert", "linear", "sRGB"]
 
 
 def false_colours(channel, greatest):
-    """What shows a channel from 0 to `greatest` in colours from black to yellow."""
+    """Returns the oiiotool arguments that map a channel from 0 to `greatest` to colours from black to yellow."""
     return ["--ch", channel, "--mulc", 1 / greatest, "--clamp:min=0:max=1", "--colormap", "inferno"]
 
 
 def shown(image, size, look, lines, output, least=CELL):
-    """Writes a cell, `least` pixels wide or more: the image as `look` makes it, and lines of text below it if there is
-    a font."""
+    """Writes a cell, at least `least` pixels wide: the image, converted by `look`, and lines of text below it if there
+    is a font."""
     width, height = size
     factor = math.ceil(least / width)
     width, height = width * factor, height * factor
@@ -72,7 +72,7 @@ def shown(image, size, look, lines, output, least=CELL):
 
 
 def mosaic(cells, columns, output):
-    """Writes all cells row by row, the rest of the last row black."""
+    """Arranges all cells row by row; leaves the rest of the last row black."""
     rows = math.ceil(len(cells) / columns)
     oiiotool(*cells, *[argument for _ in range(rows * columns - len(cells)) for argument in ("--create", "1x1", 3)],
              "--mosaic:pad=4", f"{columns}x{rows}", "-d", "uint8", "-o", output)

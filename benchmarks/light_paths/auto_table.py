@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Holds --integrator auto against mis, lt and bdpt with one light path each: auto_table.py BDPT [SCENE...]
+"""Compares --integrator auto with mis, lt and bdpt with one light path each: auto_table.py BDPT [SCENE...]
 
-Prints for each scene what auto chose, the share of its time that the pilot took, and its error at equal CPU time over
-that of the best of the three and over that of bdpt: least CPU time of all seeds (the pilot's included) times relMSE,
-times relMSE over scales, and times relMSE without the ten pixels of largest error, which tells whether a few rare bright
-paths decide. relMSE is that of the spread between seeds, so no reference's noise counts; what lt misses is added to its
-own. The noise is that of the first ratio (one standard error, as a factor), by leaving out one seed in turn. Integrators
-take turns, too, so that a machine that is slow for a while is so for all. Needs numpy."""
+Prints for each scene the choice of auto, the time share of the pilot, and its error at equal CPU time over that of the
+best of the three and over that of bdpt. That error is the least CPU time of all seeds (with the pilot) times relMSE,
+times relMSE over scales, and times relMSE without the ten pixels of largest error, which shows whether a few rare
+bright paths dominate. relMSE comes from the spread between seeds, so no noise of a reference counts; light that lt
+misses is added to its error. The noise column is one standard error of the first ratio, as a factor, by the jackknife
+over seeds. Integrators take turns, so that a slow phase of the machine affects all. Needs numpy."""
 
 import argparse
 import json
@@ -32,7 +32,7 @@ def child_seconds():
 
 
 def render(bdpt, scene, image, side, *options):
-    """CPU seconds."""
+    """Renders the scene; returns CPU seconds."""
     before = child_seconds()
     subprocess.run([bdpt, "render", scene, "--size", f"{side}x{side}", "-o", image, "--quiet", "--threads", "1", *options],
                    check=True)
@@ -40,7 +40,7 @@ def render(bdpt, scene, image, side, *options):
 
 
 def measure(bdpt, scene, arguments):
-    """Integrator -> CPU seconds and image of each seed, and what auto told."""
+    """Returns CPU seconds and images of each seed by integrator, and the statistics of auto."""
     seconds, images = ({name: [] for name in INTEGRATORS} for _ in range(2))
     with tempfile.TemporaryDirectory() as folder:
         image, stats = (pathlib.Path(folder) / name for name in ("image.exr", "stats.json"))
@@ -56,30 +56,31 @@ def measure(bdpt, scene, arguments):
     return seconds, {name: np.stack(each) for name, each in images.items()}, told
 
 
-def products(seconds, images, seeds):
-    """Integrator -> least time of some of the seeds, which do the same work, times each of their errors."""
+def compute_products(seconds, images, seeds):
+    """Returns for each integrator the least time of the chosen seeds, which all do the same work, times each of their
+    errors."""
     chosen = {name: each[seeds] for name, each in images.items()}
     judge = seed_errors.SeedErrors([chosen["auto"], chosen["bdpt"]])
     return {name: np.min(np.array(seconds[name])[seeds]) * judge.errors(chosen[name], biased=name == "lt")
             for name in INTEGRATORS}
 
 
-def noise(seconds, images, best):
-    """Of the quotient of auto and the best single integrator."""
+def estimate_noise(seconds, images, best):
+    """Returns the standard error of the ratio of auto and the best single integrator."""
     def ratio(seeds):
-        some = products(seconds, images, seeds)
+        some = compute_products(seconds, images, seeds)
         return some["auto"][0] / some[best][0]
     return seed_errors.noise(len(seconds["auto"]), ratio)
 
 
-def words(settings):
+def format_settings(settings):
     if settings["integrator"] == "mis":
         return "mis"
     n = settings["light_paths"]
     return f"n {n:g} c {settings.get('connections', n):g}"
 
 
-def columns(ratios):
+def format_ratios(ratios):
     return "".join(f"{ratio:9.2f}" for ratio in ratios)
 
 
@@ -98,7 +99,7 @@ def main():
     ratios = []
     for scene in arguments.scenes or sorted((ROOT / "scenes").glob("*.gltf")):
         seconds, images, told = measure(arguments.bdpt, scene, arguments)
-        found = products(seconds, images, list(range(arguments.seeds)))
+        found = compute_products(seconds, images, list(range(arguments.seeds)))
         best = min(("mis", "lt", "bdpt"), key=lambda name: found[name][0])
         row = []
         for others in (("mis", "lt", "bdpt"), ("bdpt",)):
@@ -106,10 +107,10 @@ def main():
         ratios.append(row)
         times = told["seconds"]
         share = times["choose"] / (times["choose"] + times["render"])
-        print(f"{scene.stem:26} {words(told['settings']):14} {100 * share:5.1f}% {columns(row)} {best:>5} "
-              f"{noise(seconds, images, best):6.2f}", flush=True)
+        print(f"{scene.stem:26} {format_settings(told['settings']):14} {100 * share:5.1f}% {format_ratios(row)} {best:>5} "
+              f"{estimate_noise(seconds, images, best):6.2f}", flush=True)
     means = [math.exp(statistics.fmean(math.log(value) for value in column)) for column in zip(*ratios)]
-    print(f"{'geometric mean':26} {'':14} {'':6} {columns(means)}")
+    print(f"{'geometric mean':26} {'':14} {'':6} {format_ratios(means)}")
     return 0
 
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Holds what --integrator auto chooses against the choices by hand: hand_table.py BDPT [SCENE...]
+"""Compares the choice of --integrator auto with the best choice by hand: hand_table.py BDPT [SCENE...]
 
-Renders each scene by mis and with all numbers of light paths and connections that auto chooses from, and prints what
-auto chose, the product of its least time and relMSE over the least of all, and the same for relMSE without the ten
-pixels of largest error. The noise is that of the first ratio (one standard error, as a factor), by leaving out one seed
-in turn; the least of sixteen noisy products is too low by itself. Times are those of rendering, without the pilot's.
-Errors are those of auto_table.py. Needs numpy."""
+Renders each scene with mis and with all numbers of light paths and connections that auto chooses from. Prints the
+choice of auto, the product of its least time and relMSE over the least product of all, and the same with relMSE without
+the ten pixels of largest error. The noise column is one standard error of the first ratio, as a factor, by the
+jackknife over seeds; the least of sixteen noisy products is biased low. Times are those of rendering, without the
+pilot. Errors are those of auto_table.py. Needs numpy."""
 
 import argparse
 import json
@@ -26,14 +26,14 @@ CONNECTIONS = {0.0625: (0.25, 1, 2, 3, 5), 0.25: (0.25, 1, 2, 3), 0.5: (0.25, 1,
 
 
 def render(bdpt, scene, arguments, image, *options):
-    """What `--stats` tells."""
+    """Renders the scene; returns the content of `--stats`."""
     told = subprocess.run([bdpt, "render", scene, "--size", f"{arguments.side}x{arguments.side}", "-o", image, "--quiet",
                            "--threads", "1", "--stats", "-", *options], check=True, capture_output=True, text=True)
     return json.loads(told.stdout)
 
 
-def by_hand(settings):
-    """Options of a render with these settings."""
+def convert_settings(settings):
+    """Returns the options of a render with these settings."""
     if settings["integrator"] == "mis":
         return ("--integrator", "mis")
     n = settings["light_paths"]
@@ -42,28 +42,28 @@ def by_hand(settings):
             *(("--disable", ",".join(disabled)) if disabled else ()))
 
 
-def candidates(chosen):
-    """All choices, with what was chosen."""
+def list_candidates(chosen):
+    """Returns the options of all choices, with the disabled strategies of the chosen one."""
     disabled = chosen[6:] if len(chosen) > 2 else ("--disable", "s1t1")
     each = [("--integrator", "bdpt", "--light-paths", f"{n:g}", "--connections", f"{c:g}", *disabled)
             for n, numbers in CONNECTIONS.items() for c in numbers]
     return [("--integrator", "mis"), *each]
 
 
-def words(options):
+def format_options(options):
     return "mis" if len(options) == 2 else f"n {options[3]} c {options[5]}"
 
 
-def products(seconds, images, seeds, without):
-    """Of each choice, by some of the seeds."""
+def compute_products(seconds, images, seeds, without):
+    """Returns least time times error for each choice, from the given seeds."""
     judge = seed_errors.SeedErrors([each[seeds] for each in images])
     return np.array([min(time[seed] for seed in seeds) * judge.error(each[seeds], False, 1, without)
                      for time, each in zip(seconds, images)])
 
 
-def noise(seconds, images, chosen, best):
+def estimate_noise(seconds, images, chosen, best):
     def ratio(seeds):
-        some = products(seconds, images, seeds, 0)
+        some = compute_products(seconds, images, seeds, 0)
         return some[chosen] / some[best]
     return seed_errors.noise(len(seconds[0]), ratio)
 
@@ -82,8 +82,8 @@ def main():
         image = pathlib.Path(folder) / "image.exr"
         for scene in arguments.scenes or sorted((ROOT / "scenes").glob("*.gltf")):
             told = render(arguments.bdpt, scene, arguments, image, "--integrator", "auto", "--spp", "1")
-            choice = by_hand(told["settings"])
-            all_choices = candidates(choice)
+            choice = convert_settings(told["settings"])
+            all_choices = list_candidates(choice)
             seconds, images = ([[] for _ in all_choices] for _ in range(2))
             for seed in range(1, arguments.seeds + 1):
                 for i, options in enumerate(all_choices):
@@ -94,12 +94,12 @@ def main():
             images = [np.stack(each) for each in images]
             every = list(range(arguments.seeds))
             chosen = all_choices.index(choice)
-            found = products(seconds, images, every, 0)
-            dotless = products(seconds, images, every, seed_errors.DOTS)
+            found = compute_products(seconds, images, every, 0)
+            dotless = compute_products(seconds, images, every, seed_errors.DOTS)
             best = int(np.argmin(found))
             ratios.append(found[chosen] / found[best])
-            print(f"{scene.stem:26} {words(choice):16} {words(all_choices[best]):16} {ratios[-1]:8.2f} "
-                  f"{dotless[chosen] / dotless.min():8.2f} {noise(seconds, images, chosen, best):6.2f}", flush=True)
+            print(f"{scene.stem:26} {format_options(choice):16} {format_options(all_choices[best]):16} {ratios[-1]:8.2f} "
+                  f"{dotless[chosen] / dotless.min():8.2f} {estimate_noise(seconds, images, chosen, best):6.2f}", flush=True)
     print(f"{'geometric mean':26} {'':16} {'':16} {math.exp(statistics.fmean(math.log(r) for r in ratios)):8.2f}")
     return 0
 

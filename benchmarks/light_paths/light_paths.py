@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Compares numbers of light paths and connections: light_paths.py BDPT [SCENE...]
 
-Prints for each scene and choice the CPU time, the relMSE of the image and of its averages over 8 x 8 pixels (errors that
-pixels share do not average out), and the product of time and relMSE over that of one light path of its own for each
-camera path: what the error would be at equal time. The column `shared` is 64 times the relMSE of averages over that of
-pixels: 1 where the errors of pixels are independent. Needs oiiotool."""
+Prints for each scene and choice the CPU time, the relMSE of the image and of its averages over 8 x 8 pixels (errors
+that are correlated between pixels do not average out), and the product of time and relMSE over that of one light path
+for each camera path: the error at equal time. The column `shared` is 64 times the relMSE of averages over that of
+pixels: it is 1 where the errors of pixels are independent. Needs oiiotool."""
 
 import argparse
 import json
@@ -38,13 +38,13 @@ def child_seconds():
 
 
 def render(bdpt, scene, image, *options):
-    """CPU seconds."""
+    """Renders the scene; returns CPU seconds."""
     before = child_seconds()
     subprocess.run([bdpt, "render", scene, "--size", f"{SIDE}x{SIDE}", "-o", image, "--quiet", *options], check=True)
     return child_seconds() - before
 
 
-def averaged(image):
+def average_image(image):
     result = image.with_name(image.stem + "-averages.exr")
     side = SIDE // BLOCK
     subprocess.run(["oiiotool", image, "--ch", "R,G,B", "--resize:filter=box", f"{side}x{side}", "-o", result], check=True)
@@ -70,7 +70,7 @@ def main():
             image = pathlib.Path(folder) / "image.exr"
             render(arguments.bdpt, scene, reference, "--light-paths", "1", "--spp", str(arguments.reference_spp), "--seed",
                    "999")
-            averages = averaged(reference)
+            averages = average_image(reference)
             first = None
             print(f"{scene.stem}\n  {'choice':14} {'seconds':>8} {'relMSE':>9} {'averages':>9} {'at equal time':>14} {'shared':>7}")
             for name, choice in CHOICES.items():
@@ -80,7 +80,7 @@ def main():
                     seconds += render(arguments.bdpt, scene, image, "--spp", str(arguments.spp), "--seed", str(seed),
                                       *choice) - start
                     error += relmse(arguments.bdpt, image, reference)
-                    coarse += relmse(arguments.bdpt, averaged(image), averages)
+                    coarse += relmse(arguments.bdpt, average_image(image), averages)
                 seconds, error, coarse = (sum_ / arguments.seeds for sum_ in (seconds, error, coarse))
                 first = first or (seconds * error, seconds * coarse)
                 print(f"  {name:14} {seconds:8.2f} {error:9.5f} {coarse:9.6f} {seconds * error / first[0]:6.2f} "

@@ -1,4 +1,4 @@
-"""Errors of renders from the spread between seeds, without a reference whose own noise would count."""
+"""Estimates errors of renders from the spread between seeds, so that no noise of a reference counts."""
 
 import math
 import pathlib
@@ -10,14 +10,14 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "same_bits"))
 import exr_bits
 
-SCALES = (1, 2, 4, 8, 16)  # [pixels], as those of relmse_scales
-SMOOTHING = 8  # [pixels] on every side
-EPSILON = 0.01  # relative to the square of the mean, as `bdpt compare --relative` has it
-DOTS = 10  # pixels that can be left out: those of largest error, where rare bright paths landed
+SCALES = (1, 2, 4, 8, 16)  # [pixels], like those of relmse_scales
+SMOOTHING = 8  # [pixels] in each direction
+EPSILON = 0.01  # relative to the square of the mean, as in `bdpt compare --relative`
+DOTS = 10  # number of pixels of largest error that can be left out: rare bright paths dominate them
 
 
 def pixels(file):
-    """Height x width x 3, R G B."""
+    """Reads an image as height x width x 3, R G B."""
     image = exr_bits.read_exr(pathlib.Path(file).read_bytes())
     kinds = {2: (np.uint16, np.float16), 4: (np.uint32, np.float32)}
     planes = []
@@ -30,55 +30,57 @@ def pixels(file):
 
 
 def averages(images, side):
-    """Of squares of `side` pixels; what is left over at the right and below is cut off."""
+    """Averages images over squares of `side` pixels; cuts off the remainder at the right and below."""
     n, height, width, channels = images.shape
     rows, columns = height // side, width // side
     cut = images[:, :rows * side, :columns * side]
     return cut.reshape(n, rows, side, columns, side, channels).mean(axis=(2, 4))
 
 
-def smoothed(image, reach):
-    """Means over squares of 2 reach + 1 pixels. A divisor must not have the noise that it divides: where light is rare,
-    a bright dot would be compared with itself."""
+def smooth(image, reach):
+    """Averages over squares of 2 reach + 1 pixels. The divisor of a relative error must not share the noise of the
+    error: where light is rare, a bright dot would be divided by itself."""
     padded = np.pad(image, ((reach + 1, reach), (reach + 1, reach), (0, 0)), mode="edge")
     sums = padded.cumsum(axis=0).cumsum(axis=1)
     side = 2 * reach + 1
     return (sums[side:, side:] - sums[:-side, side:] - sums[side:, :-side] + sums[:-side, :-side]) / side ** 2
 
 
-def relative(squares, mean, side, without=0):
-    """Mean over pixels, `without` so many of the largest."""
-    brightness = smoothed(mean, SMOOTHING // side)
+def compute_relative_error(squares, mean, side, without=0):
+    """Returns the mean relative error over pixels, without the `without` largest."""
+    brightness = smooth(mean, SMOOTHING // side)
     of_pixels = np.sort((squares / (brightness ** 2 + EPSILON * mean.mean() ** 2)).mean(axis=-1), axis=None)
     return float(of_pixels[:of_pixels.size - without].mean())
 
 
 class SeedErrors:
-    """relMSE of one image, from those of several seeds, each seeds x height x width x 3. `sound` are of integrators that
-    miss no light: their mean, smoothed, stands for the brightness that errors are relative to."""
+    """Estimates relMSE of one image from several seeds, each array seeds x height x width x 3. `sound` are images by
+    integrators that miss no light; their smoothed mean is the brightness that errors are relative to."""
 
     def __init__(self, sound):
         self.sound = sound
 
     def error(self, images, biased, side, without=0):
-        """Over squares of `side` pixels. What a `biased` integrator misses counts, less the noise of both means."""
+        """Returns the error of averages over squares of `side` pixels. Adds the bias of a `biased` integrator, less the
+        noise of both means."""
         own = averages(images, side)
         others = [averages(sound, side) for sound in self.sound]
         mean = np.mean([each.mean(axis=0) for each in others], axis=0)
         variance = own.var(axis=0, ddof=1)
-        error = relative(variance, mean, side, without)
+        error = compute_relative_error(variance, mean, side, without)
         if biased:
             noise = sum(each.var(axis=0, ddof=1) / len(each) for each in others) / len(others) ** 2 + variance / len(own)
-            error += max(0.0, relative((own.mean(axis=0) - mean) ** 2 - noise, mean, side))
+            error += max(0.0, compute_relative_error((own.mean(axis=0) - mean) ** 2 - noise, mean, side))
         return error
 
     def errors(self, images, biased=False):
-        """relMSE, its mean over scales, and relMSE without dots."""
+        """Returns relMSE, its mean over scales, and relMSE without dots."""
         over_scales = [self.error(images, biased, side) for side in SCALES]
         return np.array([over_scales[0], np.mean(over_scales), self.error(images, biased, 1, DOTS)])
 
 
 def noise(seeds, ratio):
-    """One standard error of a ratio, as a factor >= 1: the jackknife's. `ratio` makes it from some of so many seeds."""
+    """Returns one standard error of a ratio as a factor >= 1, by the jackknife. `ratio` computes the ratio from a list
+    of seeds."""
     logs = [math.log(ratio([seed for seed in range(seeds) if seed != left_out])) for left_out in range(seeds)]
     return math.exp(math.sqrt((seeds - 1) * statistics.pvariance(logs)))

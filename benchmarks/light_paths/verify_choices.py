@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Has `bdpt verify` judge bdpt with every number of light paths and connections that auto can choose:
+"""Runs `bdpt verify` on bdpt with every number of light paths and connections that auto can choose:
 verify_choices.py BDPT [SCENE...]
 
-Prints a line for each scene: how many choices passed, were inconclusive in the time, and failed. Exit status 1 if one
-failed, and its words."""
+Prints a line for each scene: how many choices passed, were inconclusive in the time limit, and failed. If one failed,
+prints its output and exits with status 1."""
 
 import argparse
 import collections

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Renders scenes with bdpt and with other renderers: first whether their means agree, then errors at equal time.
+"""Renders scenes with bdpt and other renderers; compares their means, then their errors at equal time.
 
 compare_peers.py SCENE... -o DIR --bdpt BIN [--python VENV/bin/python] [--blender BLENDER]
 
-Writes DIR/results.txt, results.csv and results.json, and the images. What is not installed is skipped by name."""
+Writes DIR/results.txt, results.csv and results.json, and the images. Skips renderers that are not installed."""
 
 import argparse
 import dataclasses
@@ -83,7 +83,7 @@ def arguments():
 
 
 def find_peers(entries, args):
-    """The peers that work (name -> Peer) and why others do not (name -> reason)."""
+    """Returns the peers that work (name -> Peer) and why others do not (name -> reason)."""
     found, missing = {}, {}
     commands = peers.commands(args.python, args.blender)
     with tempfile.TemporaryDirectory() as folder:
@@ -96,8 +96,8 @@ def find_peers(entries, args):
     return found, missing
 
 
-def hold(options, file, entries, found, folder):
-    """The results of one scene."""
+def compare_on_scene(options, file, entries, found, folder):
+    """Renders and compares one scene; returns the results."""
     stage = contest.Stage(options, file, folder / file.stem)
     stage.make_reference()
     runs, skipped = contest.contest(stage, entries, found, lambda line: print(line, flush=True))
@@ -106,8 +106,8 @@ def hold(options, file, entries, found, folder):
             **contest.judge(stage, runs)}
 
 
-def cpu_cost(options, entries, found, folder):
-    """CPU seconds that each entry takes for a sample per pixel, with one thread."""
+def measure_cpu_cost(options, entries, found, folder):
+    """Returns the CPU seconds per sample and pixel of each entry, with one thread."""
     alone = dataclasses.replace(options, size=CPU_SIZE, max_depth=CPU_DEPTH, threads=1, seeds=1, fog=None,
                                 volume=None)
     stage = contest.Stage(alone, CPU_SCENE, folder / "cpu")
@@ -121,7 +121,7 @@ def main():
     args = arguments()
     chosen = {"bdpt", *args.only.split(",")} if args.only else {entry.name for entry in peers.ENTRIES}
     entries = [entry for entry in peers.ENTRIES if entry.name in chosen]
-    args.output = args.output.resolve()  # Blender takes relative names for those of another folder
+    args.output = args.output.resolve()  # Blender resolves relative names against another folder
     args.output.mkdir(parents=True, exist_ok=True)
     found, missing = find_peers(entries, args)
     entries = [entry for entry in entries if entry.peer == "bdpt" or entry.peer in found]
@@ -135,12 +135,12 @@ def main():
                 "missing": missing, "refused": {}, "scenes": []}
     for file in args.scenes:
         try:
-            document["scenes"].append(hold(options, file, entries, found, args.output))
+            document["scenes"].append(compare_on_scene(options, file, entries, found, args.output))
         except NotShared as error:
             document["refused"][file.stem] = str(error)
-        report.write(document, args.output)  # what is done is kept
+        report.write(document, args.output)  # keeps finished results if a later scene fails
     if args.cpu:
-        document["cpu"] = cpu_cost(options, entries, found, args.output)
+        document["cpu"] = measure_cpu_cost(options, entries, found, args.output)
     report.write(document, args.output)
     print("\n" + report.text(document), end="")
 

@@ -14,15 +14,15 @@ import vdb_reader
 from peers import RENDER_GRACE, Unavailable
 from scene import Medium, to_json
 
-REFERENCE_SEED = 100000  # other numbers than any run
-BLAMELESS = 4.0  # standard errors that a channel's mean may be off
-BLAMELESS_EXCESS = 1.5  # of squared errors over what noise explains: the spread of a few seeds is not sharper
+REFERENCE_SEED = 100000  # differs from the seeds of all runs
+BLAMELESS = 4.0  # standard errors that a channel's mean may deviate
+BLAMELESS_EXCESS = 1.5  # limit of the squared error over its noise; few seeds estimate the spread no better
 
 
 @dataclasses.dataclass(frozen=True)
 class Options:
     bdpt: str
-    seconds: float  # of a run
+    seconds: float  # time of a run
     reference_seconds: float
     seeds: int
     size: tuple  # (width, height)
@@ -33,13 +33,13 @@ class Options:
     volume_extinction: tuple = (1.0, 1.0, 1.0)
 
 
-def cpu_of_children():
+def read_child_cpu():
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 
 
 def fog_options(fog):
-    """Of `bdpt render`."""
+    """Returns the fog options of `bdpt render`."""
     if fog is None:
         return ()
     return ("--fog", ",".join(map(str, fog.extinction)), "--fog-albedo", ",".join(map(str, fog.albedo)), "--fog-anisotropy",
@@ -51,15 +51,15 @@ def volume_options(volume):
 
 
 def run_bdpt(options, gltf, volume, integrator, seed, limit, output):
-    """Renders until `limit`, an option and its value. What it tells is as by a worker, but its CPU time is that of the
+    """Renders until `limit`, an option and its value. Returns the fields of a worker's result, but the CPU time of the
     whole process."""
     stats = output.with_suffix(".stats.json")
-    before = cpu_of_children()
+    before = read_child_cpu()
     subprocess.run([options.bdpt, "render", str(gltf), "-o", str(output), "--integrator", integrator, "--size",
                     "{}x{}".format(*options.size), "--max-depth", str(options.max_depth), "--threads",
                     str(options.threads), "--seed", str(seed), *limit, "--stats", str(stats), "--env", "none",
                     *fog_options(options.fog), *volume_options(volume), "--quiet"], check=True)
-    cpu = cpu_of_children() - before
+    cpu = read_child_cpu() - before
     told = json.loads(stats.read_text(encoding="utf-8"))
     stats.unlink()
     return {"seconds": told["seconds"]["render"], "cpu_seconds": cpu, "samples": told["samples"],
@@ -67,14 +67,14 @@ def run_bdpt(options, gltf, volume, integrator, seed, limit, output):
 
 
 def compare(options, image, reference):
-    """The report of `bdpt compare`, of an image or a folder of them."""
+    """Returns the report of `bdpt compare` for an image or a folder of images."""
     done = subprocess.run([options.bdpt, "compare", str(image), str(reference), "--relative", "--json", "--metrics",
                            "relmse,mse"], check=True, stdout=subprocess.PIPE, text=True)
     return json.loads(done.stdout)
 
 
 class Stage:
-    """One scene, ready for all entries: as a description, as glTF, and as a reference by bdpt."""
+    """Prepares one scene for all entries: its description, its glTF file, and a reference by bdpt."""
 
     def __init__(self, options, file, folder):
         folder.mkdir(parents=True, exist_ok=True)
@@ -92,7 +92,7 @@ class Stage:
                                       self.reference)
 
     def run(self, entry, peer, seed, output):
-        """One image by one entry. Raises Unavailable."""
+        """Renders one image with one entry. Raises Unavailable."""
         options = self.options
         if entry.peer == "bdpt":
             limit = ("--time", f"{options.seconds}s")
@@ -104,7 +104,8 @@ class Stage:
 
 
 def contest(stage, entries, peers, tell):
-    """Runs of each entry (name -> list) in turn, A B C A B C; and why others have none (name -> reason)."""
+    """Runs the entries in turn (A B C A B C). Returns the runs of each (name -> list), and why others have none (name
+    -> reason)."""
     runs, skipped = {}, {}
     for entry in entries:
         unsupported_kinds = stage.scene and entry.unsupported_kinds(stage.scene)
@@ -132,55 +133,57 @@ def contest(stage, entries, peers, tell):
     return runs, skipped
 
 
-def spread_error(values):
-    """Standard error of the mean of some values; 0 for a single one."""
+def compute_standard_error(values):
+    """Returns the standard error of the mean of some values; 0 for a single one."""
     return statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0.0
 
 
 def decide_means(reports, noise):
-    """Bias of each channel over all seeds in standard errors: the larger one of that between seeds and that within
-    images, and the reference's (`noise`)."""
+    """Returns the bias of each channel over all seeds, in standard errors. The standard error combines the larger of
+    those between seeds and within images with that of the reference (`noise`)."""
     result = {}
     for channel in ("red", "green", "blue", "mean"):
         values = [report["bias"][channel]["value"] for report in reports]
         within = math.hypot(*(report["bias"][channel]["standard_error"] for report in reports)) / len(reports)
-        error = math.hypot(max(within, spread_error(values)), noise.get(channel, 0.0))
+        error = math.hypot(max(within, compute_standard_error(values)), noise.get(channel, 0.0))
         bias = statistics.fmean(values)
         result[channel] = {"bias": bias, "standard_error": error, "z": bias / error if error > 0 else 0.0}
     return result
 
 
-def noise_of(folder_report, seeds):
-    """The mean squared error of an image that is noise, from the spread between seeds."""
+def estimate_noise(folder_report, seeds):
+    """Returns the mean squared error that noise explains in one image, from the spread between seeds."""
     return seeds * folder_report["bias"]["pixel_standard_error"] ** 2
 
 
 def excess(folder_report, seeds, noise_of_reference):
-    """Mean squared error over noise: 1 where only noise differs, more where images show something else."""
-    noise = noise_of(folder_report, seeds) + noise_of_reference
+    """Returns mean squared error over noise: 1 if images differ by noise only, more if their content differs."""
+    noise = estimate_noise(folder_report, seeds) + noise_of_reference
     return folder_report["metrics"]["mse"]["mean"] / noise if noise > 0 else 1.0
 
 
 def own_errors(errors, error_of_reference):
-    """Errors without the reference's; none if that is more than half of them, for then what is left is noise."""
+    """Subtracts the reference's error. Returns none if that exceeds half of the errors, because the rest would be
+    noise."""
     if statistics.median(errors) < 2 * error_of_reference:
         return []
     return [max(error - error_of_reference, 0.0) for error in errors]
 
 
 def judge(stage, runs):
-    """For each entry its errors and whether its mean is ours. Those of bdpt tell the reference's noise."""
+    """Returns for each entry its errors and whether its mean agrees with bdpt's. The runs of bdpt give the noise of the
+    reference."""
     options, reports, folders = stage.options, {}, {}
     for name, list_of_runs in runs.items():
         reports[name] = [compare(options, run["picture"], stage.reference) for run in list_of_runs]
         if options.seeds > 1:
             folders[name] = compare(options, pathlib.Path(list_of_runs[0]["picture"]).parent, stage.reference)
-    share = runs["bdpt"][0]["samples"] / stage.reference_run["samples"]  # of variance
+    share = runs["bdpt"][0]["samples"] / stage.reference_run["samples"]  # ratio of variances
     ours = decide_means(reports["bdpt"], {})
     noise = {channel: ours[channel]["standard_error"] * math.sqrt(options.seeds * share) for channel in ours}
     our_errors = [report["metrics"]["relmse"]["mean"] for report in reports["bdpt"]]
     error_of_reference = share / (1 + share) * statistics.median(our_errors)
-    squared_noise = share * noise_of(folders["bdpt"], options.seeds) if folders else 0.0
+    squared_noise = share * estimate_noise(folders["bdpt"], options.seeds) if folders else 0.0
     result = {}
     for name, list_of_runs in runs.items():
         errors = own_errors([r["metrics"]["relmse"]["mean"] for r in reports[name]], error_of_reference)
@@ -199,8 +202,8 @@ def judge(stage, runs):
 
 
 def ratio(theirs, ours, clock):
-    """Error at equal time over that of bdpt: the median over seeds of the ratio of relMSE times time, as both fall
-    with time alike; None if either is not known."""
+    """Returns the error at equal time over that of bdpt: the median over seeds of the ratio of relMSE times time, since
+    relMSE falls with 1 / time; None if either is unknown."""
     ratios = [a * s / (b * t) for a, s, b, t in
               zip(theirs["relmse"], theirs[clock], ours["relmse"], ours[clock]) if b * t > 0]
     return statistics.median(ratios) if ratios else None

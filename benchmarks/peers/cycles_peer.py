@@ -1,8 +1,8 @@
-"""Blender's Cycles, on the CPU. Rendering is one operator that loads, too, so the time for that is measured first."""
+"""Renders with Blender's Cycles on the CPU. One operator both loads and renders, so the load time is measured first."""
 
 import math
 
-PILOT = 4  # samples per pixel that a time limit is turned into samples with, at first
+PILOT = 4  # samples per pixel of the first render, which converts a time limit to samples
 
 
 def socket(node, name, value):
@@ -18,7 +18,7 @@ def material_nodes(bpy, item):
     surface = tree.nodes.new(kind[item.kind])
     socket(surface, "Color", (*item.color, 1.0))
     if item.kind == "diffuse":
-        socket(surface, "Roughness", 0.0)  # above it would be Oren and Nayar's
+        socket(surface, "Roughness", 0.0)  # above 0 it would be Oren-Nayar
     else:
         surface.distribution = "GGX" if item.alpha > 0 else "SHARP"
         socket(surface, "Roughness", math.sqrt(item.alpha))
@@ -33,7 +33,8 @@ def material_nodes(bpy, item):
 
 
 def with_emission(tree, shader, radiance):
-    """Emission is of both sides unless it is multiplied by 1 - Backfacing."""
+    """Adds emission from the front only: Blender emits from both sides unless the strength is multiplied by 1 -
+    Backfacing."""
     strength = max(radiance)
     emission, sides = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeNewGeometry")
     front, both = tree.nodes.new("ShaderNodeMath"), tree.nodes.new("ShaderNodeAddShader")
@@ -76,7 +77,7 @@ def load(bpy, described, job):
         light = bpy.data.lights.new(item.name, "POINT")
         candela = max(item.intensity)
         light.shadow_soft_size, light.color = 0.0, [c / candela for c in item.intensity]
-        light.energy = candela * 4 * math.pi  # a flux
+        light.energy = candela * 4 * math.pi  # Blender takes radiant flux
         place = bpy.data.objects.new(item.name, light)
         place.location = item.position
         scene.collection.objects.link(place)
@@ -115,7 +116,7 @@ def render(described, job):
         bpy.ops.render.render(write_still=write)
         return watch.seconds(), watch.cpu_seconds()
 
-    timed(1)  # what only the first render does
+    timed(1)  # does the work that only the first render has
     first, samples = timed(1), job.get("samples")
     if not samples:
         count, took = PILOT, timed(PILOT)

@@ -1,6 +1,6 @@
-"""Reads the glTF files of scenes/ as a Scene: one file with its data embedded, float positions, 16 or 32 bit indices.
+"""Reads the glTF files of scenes/ as a Scene: one file with embedded data, float positions, 16 or 32 bit indices.
 
-Where renderers define things differently, the scene is changed for all of them, and `Scene.changes` says so."""
+Where renderers define things differently, the scene is changed for all of them, and `Scene.changes` lists what."""
 
 import base64
 import json
@@ -14,8 +14,8 @@ from scene import Camera, Material, Medium, Mesh, NotShared, PointLight, Scene
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scenes"))
 from shapes import sphere
 
-SMOOTH_ALPHA = 0.001  # surfaces below are perfectly smooth, as in docs/gltf.md
-SPHERE_SEGMENTS, SPHERE_RINGS = 32, 16  # of sphere lights
+SMOOTH_ALPHA = 0.001  # smoother surfaces are perfectly specular, as in docs/gltf.md
+SPHERE_SEGMENTS, SPHERE_RINGS = 32, 16  # resolution of sphere lights
 IDENTITY = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))
 
 
@@ -24,7 +24,7 @@ def multiplied(a, b):
 
 
 def local_transform(node):
-    """Rows of the node's matrix."""
+    """Returns the rows of the node's matrix."""
     if "matrix" in node:
         return tuple(tuple(node["matrix"][4 * j + i] for j in range(4)) for i in range(4))
     t, s = node.get("translation", (0, 0, 0)), node.get("scale", (1, 1, 1))
@@ -40,7 +40,7 @@ def point_through(m, p):
 
 
 def axis(m, j):
-    """Unit vector of column j."""
+    """Returns the unit vector of column j."""
     length = math.hypot(*(m[i][j] for i in range(3)))
     return tuple(m[i][j] / length for i in range(3))
 
@@ -51,7 +51,7 @@ def determinant(m):
 
 
 def medium(volume, scatter):
-    """What KHR_materials_volume_scatter says, by the fit of Kulla and Conty (2017)."""
+    """Converts KHR_materials_volume_scatter to a Medium, by the fit of Kulla and Conty (2017)."""
     distance = volume.get("attenuationDistance", math.inf)
     root = [4.09712 + 4.20863 * c - math.sqrt(9.59217 + 41.6808 * c + 17.7126 * c * c)
             for c in scatter.get("multiscatterColor", (0, 0, 0))]
@@ -60,7 +60,7 @@ def medium(volume, scatter):
 
 
 class Reader:
-    """Goes through one file."""
+    """Converts one file."""
 
     def __init__(self, text, name):
         self.json, self.name = json.loads(text), name
@@ -89,7 +89,7 @@ class Reader:
         return [row[0] for row in rows] if width == 1 else rows
 
     def material(self, item):
-        """Its Material; None if there is nothing like it."""
+        """Returns the Material; None if there is no equivalent."""
         name, pbr = item.get("name", "unnamed"), item.get("pbrMetallicRoughness", {})
         extensions = {key[14:]: value for key, value in item.get("extensions", {}).items()}
         color, alpha = tuple(pbr.get("baseColorFactor", (1, 1, 1, 1))[:3]), pbr.get("roughnessFactor", 1) ** 2
@@ -128,7 +128,7 @@ class Reader:
             positions = self.accessor(primitive["attributes"]["POSITION"])
             order = self.accessor(primitive["indices"]) if "indices" in primitive else range(len(positions))
             triangles = tuple(zip(*[iter(order)] * 3))
-            if determinant(transform) < 0:  # a mirrored front stays the front
+            if determinant(transform) < 0:  # keeps the front of mirrored meshes
                 triangles = tuple((a, c, b) for a, b, c in triangles)
             if "NORMAL" in primitive["attributes"]:
                 self.changed("all faces are flat: renderers differ about shading normals")
@@ -194,7 +194,7 @@ class Reader:
 
 
 def read(path):
-    """The Scene of a file; NotShared, with the reason, if renderers have too little in common about it."""
+    """Returns the Scene of a file. Raises NotShared, with the reason, if not all renderers can show it."""
     try:
         return Reader(path.read_text(encoding="utf-8"), path.name).read()
     except (ValueError, LookupError, TypeError, struct.error) as error:

@@ -1,4 +1,4 @@
-"""Writes a Scene as glTF, so that bdpt renders what the others do."""
+"""Writes a Scene as glTF, so that bdpt renders the same scene as the others."""
 
 import math
 import pathlib
@@ -9,12 +9,12 @@ from scene import Mesh
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scenes"))
 from gltf_builder import Gltf
 
-MOST_VERTICES = 65535  # of one shape
+MOST_VERTICES = 65535  # limit of one shape
 
 
 def multiscatter(albedo):
-    """The colour for which the fit of Kulla and Conty (2017) gives that albedo: s = 4.09712 + 4.20863 c - root(c), with
-    1 - s^2 = albedo, solved for c."""
+    """Returns the colour for which the fit of Kulla and Conty (2017) gives that albedo: s = 4.09712 + 4.20863 c -
+    root(c), with 1 - s^2 = albedo, solved for c."""
     known = 4.09712 - math.sqrt(1 - albedo)
     # (known + 4.20863 c)^2 = 9.59217 + 41.6808 c + 17.7126 c^2, whose quadratic term nearly vanishes
     a, b, c = 4.20863 ** 2 - 17.7126, 2 * 4.20863 * known - 41.6808, known * known - 9.59217
@@ -22,7 +22,7 @@ def multiscatter(albedo):
 
 
 def glass(material):
-    """Its extensions."""
+    """Returns the glTF extensions of a glass material."""
     volume, scatter = {"thicknessFactor": 1}, {}
     if material.inside:
         distance = 1 / max(*material.inside.extinction, 1e-9)  # so that no colour is too dark
@@ -34,7 +34,7 @@ def glass(material):
 
 
 def add_material(gltf, material):
-    """Its index."""
+    """Adds a material; returns its index."""
     roughness = math.sqrt(material.alpha)
     if material.kind == "diffuse":
         return gltf.lambertian(material.name, material.color, emission=material.emission)
@@ -44,8 +44,8 @@ def add_material(gltf, material):
                          extensions=glass(material))
 
 
-def pieces(mesh):
-    """The mesh in parts that have few enough vertices."""
+def split_mesh(mesh):
+    """Splits the mesh into parts of at most MOST_VERTICES vertices."""
     if len(mesh.positions) <= MOST_VERTICES:
         return [mesh]
     result, step = [], MOST_VERTICES // 3
@@ -58,7 +58,7 @@ def pieces(mesh):
 def write(scene, path):
     gltf = Gltf(scene.title)
     indices = [add_material(gltf, material) for material in scene.materials]
-    for mesh in (piece for whole in scene.meshes for piece in pieces(whole)):
+    for mesh in (piece for whole in scene.meshes for piece in split_mesh(whole)):
         shape = gltf.shape(mesh.positions, mesh.triangles)
         gltf.node(mesh.name, mesh=gltf.mesh(mesh.name, (shape, indices[mesh.material])))
     for point in scene.points:

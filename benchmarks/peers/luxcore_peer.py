@@ -1,13 +1,13 @@
-"""LuxCore: `PATHCPU` and `BIDIRCPU`.
+"""Renders with LuxCore: `PATHCPU` and `BIDIRCPU`.
 
-BIDIRCPU has a limit for each subpath and none for the whole path: only images without longer paths agree. Rough
-surfaces have the distribution of GGX with another masking term."""
+BIDIRCPU limits each subpath but not the whole path, so only images without longer paths agree. For rough surfaces
+LuxCore uses GGX with another masking term."""
 
 import math
 import time
 
 POLL = 0.02  # [s]
-LEAST_SAMPLES = 4  # per pixel: with less than one, some pixels would have none and be black
+LEAST_SAMPLES = 4  # per pixel: with less than one, some pixels would stay black
 
 
 def material_properties(name, material):
@@ -27,8 +27,8 @@ def material_properties(name, material):
 
 
 def camera_properties(camera, job):
-    # The field of view belongs to the screen window from -1 to 1. What LuxCore shows in a row of pixels is what belongs
-    # to the row above it, so the window is moved by one row.
+    # The field of view covers the screen window from -1 to 1. LuxCore's pixel rows are off by one, so the window is
+    # shifted by one row.
     aspect, row = job["width"] / job["height"], 2.0 / job["height"]
     return {"scene.camera.type": "perspective", "scene.camera.lookat.orig": list(camera.position),
             "scene.camera.lookat.target": [p + d for p, d in zip(camera.position, camera.direction)],
@@ -45,7 +45,7 @@ def settings(job):
         "film.outputs.0.type": "RGB", "film.outputs.0.filename": job["output"],
         "path.clamping.variance.maxvalue": 0.0,
     }
-    if not job["roulette"]:  # with it the mean is wrong: see README.md
+    if not job["roulette"]:  # roulette makes its mean wrong: see README.md
         result["path.russianroulette.depth"] = job["max_depth"] + 1
     if job["integrator"] == "BIDIRCPU":
         return {**result, "path.maxdepth": job["max_depth"], "light.maxdepth": job["max_depth"]}
@@ -75,7 +75,7 @@ def load(pyluxcore, described, job):
         light = f"scene.lights.l{i}"
         scene.Parse(properties(pyluxcore, {
             f"{light}.type": "point", f"{light}.position": list(point.position), f"{light}.color": [1.0] * 3,
-            f"{light}.gain": [4 * math.pi * candela for candela in point.intensity]}))  # the gain is a flux
+            f"{light}.gain": [4 * math.pi * candela for candela in point.intensity]}))  # the gain is a radiant flux
     return scene
 
 

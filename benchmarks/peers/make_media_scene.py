@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the Cornell box with two balls that scatter light within: make_media_scene.py FILE.gltf.
+"""Writes the Cornell box with two scattering balls: make_media_scene.py FILE.gltf.
 
-The left one has the index of air, so its boundary is not seen; the right one is of milky glass."""
+The left one has the index of refraction of air, so its boundary is invisible; the right one is milky glass."""
 
 import pathlib
 import sys

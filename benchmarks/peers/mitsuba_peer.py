@@ -1,10 +1,10 @@
-"""Mitsuba 3: `path`, `ptracer` (light tracing), and `volpath` and `volpathmis`, path tracing in media. Colours are RGB,
-without spectra."""
+"""Renders with Mitsuba 3: `path`, `ptracer` (light tracing), and the volumetric path tracers `volpath` and
+`volpathmis`, all in RGB mode."""
 
 import pathlib
 import tempfile
 
-LANES = 1 << 20  # samples of one pass: what is computed at once, in memory that this bounds
+LANES = 1 << 20  # samples of one pass, which bounds the memory
 
 
 def bsdf(material):
@@ -14,7 +14,7 @@ def bsdf(material):
         kind = {"type": "roughdielectric", "distribution": "ggx", "alpha": material.alpha} if material.alpha > 0 \
             else {"type": "dielectric"}
         return {**kind, "int_ior": material.ior, "ext_ior": 1.0}
-    if material.kind == "metal":  # "none": reflects everything
+    if material.kind == "metal":  # "none" reflects everything
         inner = {"type": "roughconductor", "distribution": "ggx", "alpha": material.alpha, "material": "none"} \
             if material.alpha > 0 else {"type": "conductor", "material": "none"}
     else:
@@ -30,7 +30,7 @@ def medium(described):
 
 
 def add_fog(result, scene):
-    """A sphere that light passes straight, with the fog within; bodies have it around them."""
+    """Adds a sphere with a null boundary that contains the fog; bodies are inside of it."""
     result["fog"] = medium(scene.fog)
     center, radius = scene.sphere()
     result["extent of the fog"] = {"type": "sphere", "center": list(center), "radius": radius, "bsdf": {"type": "null"},
@@ -38,7 +38,7 @@ def add_fog(result, scene):
 
 
 def add_volume(mi, result, volume):
-    """Densities in a box that light passes straight."""
+    """Adds densities in a box with a null boundary."""
     import numpy
     densities = numpy.load(volume.densities).transpose(2, 1, 0)[..., None]
     densities = densities * numpy.array(volume.extinction, dtype=numpy.float32)
@@ -61,7 +61,7 @@ def write_ply(mesh, path):
 
 
 def description(mi, scene, job, folder):
-    """The scene as Mitsuba's dictionary."""
+    """Returns the scene as Mitsuba's dictionary."""
     camera = scene.camera
     target = [p + d for p, d in zip(camera.position, camera.direction)]
     result = {
@@ -114,7 +114,7 @@ def render(scene, job):
         drjit.sync_thread()
         return image
 
-    one_pass(100002)  # compiles
+    one_pass(100002)  # triggers compilation
     total, passes, watch = None, 0, Stopwatch()
     while passes == 0 or (watch.seconds() < job["seconds"] if "seconds" in job else passes * spp < job["samples"]):
         image = one_pass(passes)
@@ -122,7 +122,7 @@ def render(scene, job):
     drjit.eval(total)
     drjit.sync_thread()
     result = {"seconds": watch.seconds(), "cpu_seconds": watch.cpu_seconds(), "samples": passes * spp}
-    drjit.set_thread_count(2)  # a single one would wait for itself when it writes
+    drjit.set_thread_count(2)  # a single thread deadlocks when it writes
     mi.Bitmap(total / passes).write(job["output"])
     return {**result, "version": mi.__version__,
             "settings": {"variant": job["variant"], "sampler": "independent", "samples of a pass": spp}}

@@ -1,4 +1,4 @@
-"""The renderers of the comparison, and how each is run."""
+"""Lists the renderers of the comparison, and finds and runs them."""
 
 import dataclasses
 import glob
@@ -12,33 +12,33 @@ import subprocess
 from scene import Camera, Material, Mesh, PointLight, Scene, to_json
 
 HERE = pathlib.Path(__file__).resolve().parent
-PROBE_SECONDS = 120  # what starts takes a few; compiling is slow on busy machines
-RENDER_GRACE = 600  # [s] for loading and compiling, beyond the time to render
+PROBE_SECONDS = 120  # a start takes seconds; compiling is slow on busy machines
+RENDER_GRACE = 600  # [s] for loading and compiling, in addition to rendering
 SMOOTH = {"metal", "glass"}
 MEDIA = frozenset({"media"})
 
 
 class Unavailable(Exception):
-    """A peer is not installed or does not work; the reason is one line."""
+    """Raised when a peer is not installed or does not work; the reason is one line."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Entry:
-    """One way to render. `job` is what the adapter gets beside what all get."""
+    """Describes one way to render. `job` has the adapter's arguments besides the common ones."""
 
     name: str
-    peer: str  # of PEERS, or "bdpt"
+    peer: str  # key of PEERS, or "bdpt"
     job: dict
-    cannot_show: frozenset = frozenset()  # kinds of surfaces that it does not show, and "media"
-    is_for: frozenset = frozenset()  # kinds of which a scene has one, or another entry does the same
+    cannot_show: frozenset = frozenset()  # surface kinds that it cannot show, and "media"
+    is_for: frozenset = frozenset()  # needs a scene with one of these kinds; otherwise another entry does the same
     note: str = ""
 
     def unsupported_kinds(self, scene):
-        """Why it cannot show a scene; empty if it can."""
+        """Returns why it cannot show a scene; empty if it can."""
         return ", ".join(sorted(self.cannot_show & scene.kinds()))
 
     def lacks(self, scene):
-        """What a scene would need for it to be worth the time; empty if it is."""
+        """Returns what a scene lacks to be worth rendering with this entry; empty if nothing."""
         return "" if not self.is_for or self.is_for & scene.kinds() else ", ".join(sorted(self.is_for))
 
 
@@ -63,7 +63,7 @@ PEERS = {"mitsuba": "mitsuba_peer", "luxcore": "luxcore_peer", "cycles": "cycles
 
 
 def llvm_libraries():
-    """Files that Mitsuba may compile with, the newest first."""
+    """Returns the LLVM libraries that Mitsuba may compile with, newest first."""
     given = os.environ.get("DRJIT_LIBLLVM_PATH")
     found = [given] if given else glob.glob("/usr/lib/*/libLLVM*.so*") + glob.glob("/usr/lib/llvm-*/lib/libLLVM*.so*")
     versions = {}
@@ -75,7 +75,7 @@ def llvm_libraries():
 
 
 def candidates(peer):
-    """(what the job gets, environment) of each way to run a peer, the fastest first."""
+    """Returns (job arguments, environment) of each way to run a peer, fastest first."""
     if peer != "mitsuba":
         return [({}, {})]
     return [({"variant": "llvm_ad_rgb"}, {"DRJIT_LIBLLVM_PATH": file}) for file in llvm_libraries()] + \
@@ -83,7 +83,7 @@ def candidates(peer):
 
 
 def probe_scene():
-    """A few triangles with a surface of each kind: what compiles for it, compiles for all scenes."""
+    """Returns a few triangles with a surface of each kind: a peer that renders it can compile every scene."""
     materials = (Material("lamp", "diffuse", emission=(1.0, 1.0, 1.0)), Material("mirror", "metal"),
                  Material("rough metal", "metal", alpha=0.1), Material("glass", "glass"),
                  Material("rough glass", "glass", alpha=0.1))
@@ -94,8 +94,8 @@ def probe_scene():
                  Camera((0.0, 0.0, 4.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.0), ())
 
 
-def reason_of(done):
-    """One line about why a process failed."""
+def find_failure_reason(done):
+    """Returns one line about why a process failed."""
     if done.returncode < 0:
         return f"it ended by signal {-done.returncode}"
     lines = [line.strip() for line in (done.stderr + done.stdout).splitlines()]
@@ -105,16 +105,16 @@ def reason_of(done):
 
 @dataclasses.dataclass(frozen=True)
 class Peer:
-    """A program that works."""
+    """A renderer that works."""
 
     name: str
-    command: tuple  # the adapter's name and the file of the job are appended
+    command: tuple  # the adapter's name and the job file are appended
     job: dict
     environment: dict
     version: str = ""
 
     def render(self, job, folder, seconds):
-        """What the adapter tells about one image. Raises Unavailable."""
+        """Renders one image; returns the adapter's result. Raises Unavailable."""
         job_file, result = folder / "job.json", folder / "result.json"
         result.unlink(missing_ok=True)
         job_file.write_text(json.dumps({**job, **self.job, "result": str(result)}), encoding="utf-8")
@@ -127,19 +127,19 @@ class Peer:
         except subprocess.TimeoutExpired as error:
             raise Unavailable(f"it did not end within {seconds:.0f} s") from error
         if done.returncode or not result.exists():
-            raise Unavailable(reason_of(done))
+            raise Unavailable(find_failure_reason(done))
         return json.loads(result.read_text(encoding="utf-8"))
 
 
 def commands(python, blender):
-    """How the adapters of each peer are run."""
+    """Returns the command lines that run the adapters of each peer."""
     worker = str(HERE / "worker.py")
     in_blender = (blender, "--background", "--factory-startup", "--python-exit-code", "3", "--python", worker, "--")
     return {"mitsuba": (python, worker), "luxcore": (python, worker), "cycles": in_blender}
 
 
 def find(name, command, folder):
-    """The peer, after it has rendered something. Raises Unavailable with the reason if it cannot."""
+    """Returns the peer after a test render. Raises Unavailable with the reason if it fails."""
     if shutil.which(command[0]) is None:
         raise Unavailable(f"{command[0]} is not there")
     scene = folder / "probe.json"

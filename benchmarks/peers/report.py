@@ -1,4 +1,4 @@
-"""The results as text, CSV and JSON."""
+"""Writes the results as text, CSV and JSON."""
 
 import csv
 import json
@@ -20,14 +20,14 @@ def shown(number, form):
 
 
 def table(rows):
-    """Rows of strings in columns; the first column is flush left."""
+    """Formats rows of strings in columns; the first column is left-aligned."""
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     return "\n".join("  ".join(cell.ljust(w) if i == 0 else cell.rjust(w)
                                for i, (cell, w) in enumerate(zip(row, widths))).rstrip() for row in rows)
 
 
 def scene_rows(result):
-    """The rows of a scene: (names of columns, then) one for each entry."""
+    """Returns the rows of a scene: the column names, then one row for each entry."""
     for name, entry in result["entries"].items():
         mean = entry["means"]["mean"]
         yield {"scene": result["scene"], "renderer": name, "spp": statistics.median(entry["samples"]),
@@ -73,7 +73,7 @@ def text(document):
 
 
 def write(document, folder):
-    """results.txt, results.csv and results.json."""
+    """Writes results.txt, results.csv and results.json."""
     (folder / "results.txt").write_text(text(document), encoding="utf-8")
     (folder / "results.json").write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
     rows = [row for result in document["scenes"] for row in scene_rows(result)]

@@ -1,6 +1,6 @@
-"""What all renderers have in common: triangles, four kinds of surface, point lights, a pinhole camera; and media, which
-some have. Linear Rec. 709; metres, nit and candela; right-handed, y up; a triangle's front is where its corners run
-anticlockwise."""
+"""Describes a scene that all renderers share: triangles, diffuse, metal and glass surfaces, point lights, a pinhole
+camera; and media, which some support. Uses linear Rec. 709; metres, nit and candela; right-handed, y up; a triangle's
+front is where its corners run anticlockwise."""
 
 import dataclasses
 import json
@@ -8,62 +8,62 @@ import math
 
 
 class NotShared(Exception):
-    """The scene has something that not all renderers have, and that cannot be left out."""
+    """Raised when a scene needs a feature that not all renderers have."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Medium:
-    """The same everywhere; Henyey and Greenstein's phase function."""
+    """A homogeneous medium with the Henyey-Greenstein phase function."""
 
     extinction: tuple  # absorption and scattering together [1/m]
-    albedo: tuple  # of a single scattering
-    anisotropy: float = 0.0  # above 0 is forwards
+    albedo: tuple  # single-scattering albedo
+    anisotropy: float = 0.0  # g of the phase function; above 0 is forwards
 
 
 @dataclasses.dataclass(frozen=True)
 class Volume:
-    """White smoke, of any density, on top of whatever else is there."""
+    """White smoke of varying density, in addition to other media."""
 
-    file: str  # OpenVDB's
-    densities: str  # the same as a NumPy file, by x, y, z
-    size: tuple  # voxels
+    file: str  # OpenVDB file
+    densities: str  # the same densities as a NumPy file, by x, y, z
+    size: tuple  # number of voxels
     world_from_grid: tuple  # rows of a matrix; voxel (0, 0, 0) fills the unit cube
-    extinction: tuple  # [1/m] where the density is 1
+    extinction: tuple  # [1/m] at density 1
 
 
 @dataclasses.dataclass(frozen=True)
 class Material:
     name: str
-    kind: str  # "diffuse"; "metal", which reflects all light, of any angle and colour; "glass", which is clear
+    kind: str  # "diffuse"; "metal" with reflectance 1 at all angles and colours; "glass", which is clear
     color: tuple = (1.0, 1.0, 1.0)  # reflectance of diffuse surfaces
-    alpha: float = 0.0  # of the GGX distribution; 0 is perfectly smooth
-    ior: float = 1.5  # of glass
+    alpha: float = 0.0  # roughness of the GGX distribution; 0 is perfectly smooth
+    ior: float = 1.5  # index of refraction of glass
     emission: tuple = None  # [nit], from the front only
-    inside: Medium = None  # of glass: what fills it; without one it is clear
+    inside: Medium = None  # medium inside of glass; None is clear
 
 
 @dataclasses.dataclass(frozen=True)
 class Mesh:
-    """Flat triangles; the outside of glass is its front."""
+    """Flat triangles; the outside of glass is their front."""
 
     name: str
     material: int
-    positions: tuple  # of (x, y, z)
-    triangles: tuple  # of three indices
+    positions: tuple  # (x, y, z) each
+    triangles: tuple  # three indices each
 
 
 @dataclasses.dataclass(frozen=True)
 class PointLight:
     name: str
     position: tuple
-    intensity: tuple  # [cd] for each colour
+    intensity: tuple  # [cd] for each colour channel
 
 
 @dataclasses.dataclass(frozen=True)
 class Camera:
     position: tuple
-    direction: tuple  # unit
-    up: tuple  # unit, perpendicular to `direction`
+    direction: tuple  # unit vector
+    up: tuple  # unit vector perpendicular to `direction`
     vertical_fov: float  # [rad]
     aspect_ratio: float
 
@@ -75,18 +75,18 @@ class Scene:
     meshes: tuple
     points: tuple
     camera: Camera
-    changes: tuple  # what it shows differently from the file that it was read from, one sentence each
-    fog: Medium = None  # in the sphere around all meshes, but not within bodies
+    changes: tuple  # differences from the original file, one sentence each
+    fog: Medium = None  # fills the sphere around all meshes, except inside bodies
     volume: Volume = None
 
     def kinds(self):
-        """The kinds of its surfaces, like "diffuse" and "rough glass", and "media" if there are some."""
+        """Returns the kinds of its surfaces, like "diffuse" and "rough glass", and "media" if it has some."""
         materials = [self.materials[mesh.material] for mesh in self.meshes]
         surfaces = {("rough " if material.alpha > 0 else "") + material.kind for material in materials}
         return surfaces | ({"media"} if self.fog or self.volume or any(material.inside for material in materials) else set())
 
     def sphere(self):
-        """Centre and radius of the sphere around the bounding box of all meshes."""
+        """Returns centre and radius of the sphere around the bounding box of all meshes."""
         low, high = ([pick(p[i] for mesh in self.meshes for p in mesh.positions) for i in range(3)] for pick in (min, max))
         return tuple((a + b) / 2 for a, b in zip(low, high)), math.dist(low, high) / 2
 
@@ -104,7 +104,7 @@ def _medium(item):
 
 
 def from_json(text):
-    """The scene that `to_json` wrote."""
+    """Returns the scene that `to_json` wrote."""
     data = {key: _tuples(value) for key, value in json.loads(text).items()}
     data["materials"] = tuple(Material(**{**{k: _tuples(v) for k, v in item.items()}, "inside": _medium(item["inside"])})
                               for item in data["materials"])

@@ -1,4 +1,4 @@
-"""Reads the densities of OpenVDB files by OpenVDB's own module for Python (Debian: python3-openvdb)."""
+"""Reads the densities of OpenVDB files with OpenVDB's own Python module (Debian: python3-openvdb)."""
 
 import pathlib
 
@@ -6,7 +6,7 @@ from scene import NotShared, Volume
 
 
 def read(path, extinction, folder):
-    """The grid "density" as a Volume, whose densities are written to a file in the folder."""
+    """Reads the grid "density" as a Volume; writes its densities to a file in the folder."""
     try:
         import numpy
         import pyopenvdb
@@ -14,12 +14,12 @@ def read(path, extinction, folder):
         raise SystemExit(f"--volume: {error}") from error
     grid = pyopenvdb.read(str(path), "density")
     low, high = grid.evalActiveVoxelBoundingBox()
-    low, high = [i - 1 for i in low], [i + 1 for i in high]  # densities go to nothing beyond the last voxels
+    low, high = [i - 1 for i in low], [i + 1 for i in high]  # densities fall to zero beyond the last voxels
     densities = numpy.zeros([b - a + 1 for a, b in zip(low, high)], dtype=numpy.float32)
     grid.copyToArray(densities, ijk=low)
     if grid.background != 0:
         raise NotShared(f"{path}: the background is {grid.background}")
-    # An index is the centre of a voxel.
+    # Grid indices refer to voxel centres.
     origin = grid.transform.indexToWorld(tuple(i - 0.5 for i in low))
     columns = [[b - a for a, b in zip(origin, grid.transform.indexToWorld(
         tuple(i - 0.5 + (axis == j) for j, i in enumerate(low))))] for axis in range(3)]

@@ -1,9 +1,9 @@
 """Renders one image with one peer: worker.py ADAPTER JOB.json, run by the interpreter that has the peer.
 
 The job has `scene` (a file of scene.to_json), `integrator`, `width`, `height`, `max_depth` (edges), `threads`, `seed`,
-`seconds` or `samples` (per pixel) as the limit, `output` (an EXR file), `result` (a JSON file) and what else the
-adapter asks for (`variant`, `roulette`). The result has `version`, `settings` and, of the rendering alone, without
-loading, `seconds`, `cpu_seconds` and `samples`."""
+`seconds` or `samples` (per pixel) as the limit, `output` (an EXR file), `result` (a JSON file) and arguments of the
+adapter (`variant`, `roulette`). The result has `version`, `settings` and, for rendering without loading, `seconds`,
+`cpu_seconds` and `samples`."""
 
 import importlib
 import json
@@ -18,7 +18,7 @@ import scene
 
 
 class Stopwatch:
-    """Seconds since it was made."""
+    """Measures wall-clock and CPU seconds since its creation."""
 
     def __init__(self):
         self.wall, self.cpu = time.perf_counter(), self.cpu_now()
@@ -42,7 +42,7 @@ def main():
     result = importlib.import_module(adapter).render(described, job)
     pathlib.Path(job["result"]).write_text(json.dumps(result), encoding="utf-8")
     sys.stdout.flush()
-    os._exit(0)  # the work is done, and LuxCore crashes while it is torn down
+    os._exit(0)  # the result is written, and LuxCore crashes at exit
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-"""Scenes in which sky, sun and lamps light different places: what the choice of a light has to know. None of them is a
-classical one; `real_scenes.py` writes them where it measures."""
+"""Builds scenes in which sky, sun and lamps light different places, which challenges light selection. `real_scenes.py`
+writes them for its measurements."""
 
 import math
 import pathlib
@@ -19,7 +19,7 @@ def add_box(gltf, name, material, low, high, position=(0, 0, 0), degrees=0):
 
 
 def add_lamp(gltf, name, corner, size, radiance):
-    """Shines downwards, from the rectangle that begins at `corner`."""
+    """Adds a lamp that emits downwards from the rectangle that begins at `corner`."""
     lamp = gltf.lambertian(name, (0.7, 0.7, 0.7), emission=(radiance,) * 3)
     x, y, z = corner
     corners = ((x, y, z), (x + size[0], y, z), (x + size[0], y, z + size[1]), (x, y, z + size[1]))
@@ -27,7 +27,7 @@ def add_lamp(gltf, name, corner, size, radiance):
 
 
 def floor(side):
-    """A floor with three blocks, under a sun and a lamp of 0.3 x 0.3 m that the camera stands beside."""
+    """Builds a floor with three blocks, under a sun and a lamp of 0.3 x 0.3 m next to the camera."""
     gltf = Gltf(f"a floor of {side} m")
     half = side / 2
     grey = gltf.lambertian("grey", (0.5, 0.5, 0.5))
@@ -43,8 +43,8 @@ def floor(side):
 
 
 def six_rooms(title="six rooms"):
-    """Rooms of 4 x 3 x 4 m in two rows, with doors between neighbours that stand ajar. One has a lamp, one behind a
-    corner a window that sun and sky shine through; the camera looks through two doors."""
+    """Builds rooms of 4 x 3 x 4 m in two rows, with half-open doors between neighbours. One has a lamp, another has,
+    behind a corner, a window that admits sun and sky; the camera looks through two doors."""
     gltf = Gltf(title)
     white, wood = gltf.lambertian("white", (0.8, 0.78, 0.75)), gltf.lambertian("wood", (0.4, 0.28, 0.16))
     size, height, t = 4.0, 3.0, 0.05
@@ -61,7 +61,7 @@ def six_rooms(title="six rooms"):
     door = 0.9
 
     def wall(name, corner, along_x, hinge_degrees):
-        """Of one side of a room, with a door in its middle that stands open by `hinge_degrees`."""
+        """Adds one side of a room, with a door in its middle that is open by `hinge_degrees`."""
         x, z = corner
         a, b = (size - door) / 2, (size + door) / 2
         for part, u0, u1, y0 in (("left", 0, a, 0), ("right", b, size, 0), ("top", a, b, 2.1)):
@@ -87,8 +87,8 @@ def six_rooms(title="six rooms"):
 
 
 def shop(title="a shop"):
-    """6 x 3 x 8 m, with shelves of glass, silver and brass under eight small lamps, and a front that is open to sun
-    and sky."""
+    """Builds a shop of 6 x 3 x 8 m, with shelves of glass, silver and brass under eight small lamps, and a front that
+    is open to sun and sky."""
     gltf = Gltf(title)
     white, dark = gltf.lambertian("white", (0.75, 0.75, 0.75)), gltf.lambertian("dark wood", (0.25, 0.16, 0.1))
     walls = inner_quads((-3, 0, -8), (3, 3, 0), "-x+x-y+y-z")
@@ -111,7 +111,7 @@ def shop(title="a shop"):
 
 
 def lamp_room(title="a room with a lamp and a window"):
-    """4 x 3 x 5 m: a lamp, and a window that sun and sky shine through beside the camera."""
+    """Builds a room of 4 x 3 x 5 m with a lamp, and a window beside the camera that admits sun and sky."""
     gltf = Gltf(title)
     white, blue = gltf.lambertian("white", (0.8, 0.8, 0.8)), gltf.lambertian("blue", (0.2, 0.3, 0.6))
     walls = inner_quads((-2, 0, 0), (2, 3, 5), "-y+y-z+z") + inner_quads((-2, 0, 0), (2, 3, 5), "-x")

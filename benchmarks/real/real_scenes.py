@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Holds ways to render real models against each other: real_scenes.py MODELS --way OPTIONS --way OPTIONS...
+"""Compares ways to render real models: real_scenes.py MODELS --way OPTIONS --way OPTIONS...
 
-MODELS is a folder with models of other people (HotelRoom_meshopt, Lamborghini, GodotLivingRoom, Garage, Jungle,
-ShaderBall_materialx, hdr/...), of which those that are there are rendered, each under the environments of the table
-below, and after them scenes of mixed_light_scenes.py and of scenes/. A way is what `bdpt render` is told beside that, for example `--way "--integrator mis"`; the first one counts as 1.
-`PROGRAM: OPTIONS` takes another program than --bdpt. Prints for each scene and way: squared relative error without the
-worst 0.1 % of pixels, CPU time of one thread without loading, and their product, each over that of the first way. Errors
-come from the spread between seeds, relative to a reference that neither has part in: its noise would flatter the
-noisier one. Ways take turns. Needs numpy."""
+MODELS is a folder of third-party models (HotelRoom_meshopt, Lamborghini, GodotLivingRoom, Garage, Jungle,
+ShaderBall_materialx, hdr/...). Renders those that are present, each under the environments of the table below, then
+scenes of mixed_light_scenes.py and of scenes/. A way is a list of additional options of `bdpt render`, for example
+`--way "--integrator mis"`; `PROGRAM: OPTIONS` runs another program than --bdpt. Prints for each scene and way: squared
+relative error without the worst 0.1 % of pixels, CPU time of one thread without loading, and their product, each over
+that of the first way. Errors come from the spread between seeds. They are relative to an independent reference, because
+a way's own noise in the divisor would favour the noisier way. Ways take turns. Needs numpy."""
 
 import argparse
 import math
@@ -56,7 +56,7 @@ def child_seconds():
 
 
 def render(way, scene, image, arguments, *options):
-    """CPU seconds."""
+    """Renders the scene; returns CPU seconds."""
     program, sep, own = way.partition(":")
     program, own = (program, own) if sep else (arguments.bdpt, way)
     before = child_seconds()
@@ -67,7 +67,7 @@ def render(way, scene, image, arguments, *options):
 
 
 def measure(scene, arguments):
-    """For each way: CPU seconds of each seed, without loading, and images."""
+    """Returns for each way the CPU seconds of each seed, without loading, and the images; and the reference."""
     seconds, images = ([[] for _ in arguments.way] for _ in range(2))
     with tempfile.TemporaryDirectory() as folder:
         image = pathlib.Path(folder) / "image.exr"
@@ -84,8 +84,9 @@ def measure(scene, arguments):
     return seconds, [np.stack(each) for each in images], reference
 
 
-def trimmed_error(images, reference):
-    """Mean of the variance between seeds over the square of the reference, without the worst 0.1 % of pixels."""
+def compute_trimmed_error(images, reference):
+    """Returns the mean of the variance between seeds over the square of the reference, without the worst 0.1 % of
+    pixels."""
     dark = 0.01 * reference.mean()
     errors = np.sort((images.var(axis=0, ddof=1) / (reference + dark) ** 2).mean(axis=-1).ravel())
     return errors[: math.ceil(0.999 * errors.size)].mean()
@@ -120,7 +121,7 @@ def measure_all(arguments, made, products):
             continue
         scene = (path, options.format(hdr=arguments.models / "hdr"))
         seconds, images, reference = measure(scene, arguments)
-        errors = [trimmed_error(each, reference) for each in images]
+        errors = [compute_trimmed_error(each, reference) for each in images]
         times = [min(each) for each in seconds]
         row = ""
         for k in range(1, len(arguments.way)):

@@ -1,5 +1,5 @@
-"""What is rendered with both programs: each scene with each integrator, and options that reach every part of light
-transport, on scenes where they matter."""
+"""Lists the renders that both programs make: each scene with each integrator, and options that cover every part of
+light transport, on scenes where they matter."""
 
 import dataclasses
 import pathlib
@@ -7,17 +7,17 @@ import re
 
 INTEGRATORS = ("bdpt", "mis", "pt", "nee", "lt")
 LENS = ("--lens-radius", "0.05", "--focus-distance", "1")
-# So wide, and so far into the box, that light paths hit it.
+# The lens is so wide, and so far inside the box, that light paths hit it.
 WIDE_LENS = ("--lens-radius", "0.1", "--focus-distance", "0.5", "--from", "0.278,0.273,-0.1", "--look-at",
              "0.278,0.273,0.28", "--fov", "100")
-# In the roughest sphere of glass-rough.gltf, below the lamp.
+# The point lies in the roughest sphere of glass-rough.gltf, below the lamp.
 INSIDE_GLASS = ("--from", "1.05,0.29,0.3", "--look-at", "1.05,1.5,0.31", "--fov", "90")
 LAYERS = "albedo,normal,depth,position,samples,variance,alpha"
-ENVIRONMENT = "ENVIRONMENT"  # stands for the file that `write_environment` makes
-FOLDER = "FOLDER"  # stands for the folder that a program writes to
+ENVIRONMENT = "ENVIRONMENT"  # placeholder for the file that `write_environment` makes
+FOLDER = "FOLDER"  # placeholder for the output folder of a program
 
 ALL = ""
-NO_LENS = "orthographic"  # refuses the options of lenses
+NO_LENS = "orthographic"  # cameras without a lens refuse lens options
 MANY_LIGHTS = "night-market|veach-plates|fourteen|room-profiles|alpha"
 VARIED = ("material-layers|veach-plates|cornell-spheres-hidden|glass-rough|door-ajar|shading-normals|nine-spheres|"
           "textured-emitter|room-sun|alpha")
@@ -109,25 +109,25 @@ class Case:
 
 
 def all_cases(scenes):
-    """For files of scenes: as they are first."""
+    """Returns the cases of the given scenes: first the plain renders, then those with options."""
     return [Case(scene, integrator, options) for options in OPTIONS for scene in scenes if options.fit(scene.stem)
             for integrator in options.integrators]
 
 
 def quick_cases(cases):
-    """Each scene as it is by `bdpt` and `mis`; of all others, each option and integrator on one scene."""
+    """Returns each plain scene by `bdpt` and `mis`; of all others, each option and integrator on one scene."""
     groups = {}
     for case in cases:
         groups.setdefault((case.options.name, case.integrator), []).append(case)
     kept = []
     for i, ((name, integrator), group) in enumerate(groups.items()):
         whole = name == OPTIONS[0].name and integrator in ("bdpt", "mis")
-        kept += group if whole else [group[i % len(group)]]  # not the first scene for all
+        kept += group if whole else [group[i % len(group)]]  # varies the scene
     return kept
 
 
 def write_environment(file):
-    """A sky with a gradient and a small sun, as a Radiance file."""
+    """Writes a sky with a gradient and a small sun, as a Radiance file."""
     width, height = 16, 8
     pixels = bytearray()
     for y in range(height):

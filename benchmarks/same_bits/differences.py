@@ -1,23 +1,23 @@
-"""What differs between the files of two renders, apart from clocks: one line a difference, none if all bits agree."""
+"""Lists the differences between the files of two renders, apart from clocks: one line each, none if all bits agree."""
 
 import json
 import struct
 
 import exr_bits
 
-# What says when or how fast, or what the machine has free, not what.
+# These fields depend on time, speed or free memory.
 CLOCKED_ATTRIBUTES = {"capDate", "renderTimeSeconds", "bdpt.renderTimeSeconds"}
 CLOCKED_CHANNELS = {"time.Y"}
 CLOCKED_STATS = {"seconds", "per_second", "profile", "limit_bytes"}
 
 
-def of_keys(before, after, what):
+def compare_keys(before, after, what):
     return [f"{what} {name}: only {side}" for side, names in
             (("before", before.keys() - after.keys()), ("after", after.keys() - before.keys()))
             for name in sorted(names)]
 
 
-def of_channel(name, before, after, width):
+def compare_channels(name, before, after, width):
     places = [i for i, (old, new) in enumerate(zip(before.bits, after.bits)) if old != new]
     if before.length != after.length:
         return [f"channel {name}: {before.length} bytes a value became {after.length}"]
@@ -30,22 +30,22 @@ def of_channel(name, before, after, width):
 
 
 def of_exr(before, after):
-    """Of two files, as bytes."""
+    """Compares two EXR files, given as bytes."""
     old, new = exr_bits.read_exr(before), exr_bits.read_exr(after)
-    found = of_keys(old.attributes, new.attributes, "attribute")
+    found = compare_keys(old.attributes, new.attributes, "attribute")
     found += [f"attribute {name}: {value!r} became {new.attributes[name]!r}" for name, value in old.attributes.items()
               if name not in CLOCKED_ATTRIBUTES and value != new.attributes.get(name, value)]
     if (old.width, old.height) != (new.width, new.height):
         return [*found, f"size: {old.width}x{old.height} became {new.width}x{new.height}"]
-    found += of_keys(old.channels, new.channels, "channel")
+    found += compare_keys(old.channels, new.channels, "channel")
     for name, channel in old.channels.items():
         if name in new.channels and name not in CLOCKED_CHANNELS:
-            found += of_channel(name, channel, new.channels[name], old.width)
+            found += compare_channels(name, channel, new.channels[name], old.width)
     return found
 
 
 def png_pixels(data):
-    """What decides on the pixels of a PNG file: header and image data, but no text."""
+    """Returns the chunks of a PNG file that determine its pixels: header and image data, but no text."""
     if data[:8] != b"\x89PNG\r\n\x1a\n":
         raise exr_bits.Unreadable("not a PNG file")
     kept, at = [], 8
@@ -67,24 +67,24 @@ def without_clocks(value):
     return value
 
 
-def of_values(before, after, name):
+def compare_values(before, after, name):
     if isinstance(before, dict) and isinstance(after, dict):
-        found = of_keys(before, after, name)
+        found = compare_keys(before, after, name)
         return found + [line for key in before if key in after
-                        for line in of_values(before[key], after[key], f"{name}.{key}" if name else key)]
+                        for line in compare_values(before[key], after[key], f"{name}.{key}" if name else key)]
     return [] if before == after else [f"{name}: {before} became {after}"]
 
 
 def of_stats(before, after):
-    """Of two files of --stats: counts of rays and paths, defects, settings."""
-    return of_values(without_clocks(json.loads(before)), without_clocks(json.loads(after)), "")
+    """Compares two files of --stats: counts of rays and paths, defects, settings."""
+    return compare_values(without_clocks(json.loads(before)), without_clocks(json.loads(after)), "")
 
 
 KINDS = {".exr": of_exr, ".png": of_png, ".json": of_stats}
 
 
-def of_files(before, after):
-    """Of two files of one kind."""
+def compare_files(before, after):
+    """Compares two files of one kind."""
     try:
         return [f"{before.name}: {line}" for line in KINDS[before.suffix](before.read_bytes(), after.read_bytes())]
     except (exr_bits.Unreadable, OSError, ValueError) as error:
@@ -92,7 +92,7 @@ def of_files(before, after):
 
 
 def of_folders(before, after):
-    """Of all files that two renders wrote."""
+    """Compares all files that two renders wrote."""
     old, new = ({file.name: file for file in folder.iterdir()} for folder in (before, after))
-    found = of_keys(old, new, "file")
-    return found + [line for name in sorted(old.keys() & new.keys()) for line in of_files(old[name], new[name])]
+    found = compare_keys(old, new, "file")
+    return found + [line for name in sorted(old.keys() & new.keys()) for line in compare_files(old[name], new[name])]

@@ -1,6 +1,6 @@
-"""Reads the OpenEXR files that bdpt writes, to the bit: one part, scanlines, no compression or ZIP.
+"""Reads the OpenEXR files that bdpt writes, bit by bit: one part, scanlines, no compression or ZIP.
 
-Python has no OpenEXR module in its standard library, and a module that converts pixels could hide a difference.
+Python's standard library has no OpenEXR module, and a module that converts pixels could hide differences.
 """
 
 import dataclasses
@@ -14,16 +14,16 @@ BYTES = {0: 4, 1: 2, 2: 4}  # pixel type (uint, half, float) -> bytes of a value
 
 
 class Unreadable(Exception):
-    """Not a file of this kind, or a broken one."""
+    """Raised for a file that is broken or of another kind."""
 
 
 @dataclasses.dataclass
 class Channel:
-    length: int  # of a value [bytes]
-    bits: list  # of its values as integers, row by row
+    length: int  # bytes of a value
+    bits: list  # its values as integers, row by row
 
     def number(self, i):
-        """A value as a number (integers of 32 bits are not told from floats)."""
+        """Returns a value as a number (32-bit integers are read as floats)."""
         bits, kind = ("<I", "<f") if self.length == 4 else ("<H", "<e")
         return struct.unpack(kind, struct.pack(bits, self.bits[i]))[0]
 
@@ -36,28 +36,28 @@ class Exr:
     channels: dict  # name -> Channel
 
 
-def text_until_zero(data, at):
+def read_text(data, at):
     end = data.index(b"\0", at)
     return data[at:end].decode("utf-8", "replace"), end + 1
 
 
 def read_header(data):
-    """Attributes, and where they end."""
+    """Returns the attributes and the offset where they end."""
     attributes, at = {}, 8
     while data[at]:
-        name, at = text_until_zero(data, at)
-        _, at = text_until_zero(data, at)  # type
+        name, at = read_text(data, at)
+        _, at = read_text(data, at)  # skips the type
         (size,) = struct.unpack_from("<i", data, at)
         attributes[name] = data[at + 4:at + 4 + size]
         at += 4 + size
     return attributes, at + 1
 
 
-def channel_list(data):
-    """(name, bytes of a value), in the order of the file."""
+def read_channels(data):
+    """Returns (name, bytes of a value) in the order of the file."""
     result, at = [], 0
     while data[at]:
-        name, at = text_until_zero(data, at)
+        name, at = read_text(data, at)
         (kind,) = struct.unpack_from("<i", data, at)
         result.append((name, BYTES[kind]))
         at += 16
@@ -65,9 +65,9 @@ def channel_list(data):
 
 
 def unzip(data, size):
-    """Deflate, then differences of neighbours, then odd and even bytes apart."""
+    """Undoes deflate, differences of neighbours, and the split into odd and even bytes."""
     if len(data) == size:
-        return data  # stored as it is, because ZIP would have made it longer
+        return data  # stored uncompressed, because ZIP would have made it longer
     mixed = bytearray(zlib.decompress(data))
     for i in range(1, len(mixed)):
         mixed[i] = (mixed[i - 1] + mixed[i] - 128) & 255
@@ -77,7 +77,7 @@ def unzip(data, size):
 
 
 def read_exr(data):
-    """Throws `Unreadable`."""
+    """Reads a file's bytes. Raises `Unreadable`."""
     try:
         return read(data)
     except (IndexError, KeyError, ValueError, struct.error, zlib.error) as error:
@@ -92,10 +92,10 @@ def read(data):
     compression = attributes["compression"][0]
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     width, height = right - left + 1, bottom - top + 1
-    named = channel_list(attributes["channels"])
+    named = read_channels(attributes["channels"])
     channels = {name: Channel(length, []) for name, length in named}
     lines_of_chunk = LINES[compression]
-    at += 8 * -(-height // lines_of_chunk)  # offsets of chunks, which come in order
+    at += 8 * -(-height // lines_of_chunk)  # skips the offsets of chunks, which come in order
     for first in range(0, height, lines_of_chunk):
         lines = min(lines_of_chunk, height - first)
         y, size = struct.unpack_from("<ii", data, at)

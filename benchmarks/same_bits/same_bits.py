@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Renders many small images with two programs, and says which are not equal to the bit:
+"""Renders many small images with two programs, and lists those that are not equal to the bit:
 
     same_bits.py BDPT_BEFORE BDPT_AFTER [--scenes FOLDER] [--quick] [--only REGEX] [--keep FOLDER]
                  [--rename OLD=NEW]... [--list]
 
-For changes of the code that must change no image. Compared are the pixels of all files (.exr, .png), the counts of
-rays and paths (--stats), the metadata, and the warnings; clocks are left out. The exit code is 1 if anything differs,
-2 if nothing was compared.
+Checks changes of the code that must not change images. Compares the pixels of all files (.exr, .png), the counts of
+rays and paths (--stats), the metadata, and the warnings, but no clocks. The exit code is 1 if anything differs, 2 if
+nothing was compared.
 """
 
 import argparse
@@ -39,38 +39,38 @@ def parse(words):
     return parser.parse_args(words)
 
 
-def chosen_cases(options):
+def choose_cases(options):
     found = cases.all_cases(sorted(options.scenes.glob("*.gltf")))
     found = cases.quick_cases(found) if options.quick else found
     return [case for case in found if re.search(options.only, case.name)]
 
 
-def words_of(case, folder, environment, renamed):
+def build_command(case, folder, environment, renamed):
     names = {cases.ENVIRONMENT: str(environment)}
     words = [renamed.get(word, names.get(word, word.replace(cases.FOLDER, str(folder))))
              for word in ("--integrator", case.integrator, *HOW, *case.options.words, "--stats", f"{folder}/stats.json")]
     return ["render", str(case.scene), "-o", f"{folder}/out.exr", *words]
 
 
-def told(stdout):
-    """Events but those that only say how far it is, or where the files are."""
+def filter_events(stdout):
+    """Returns the printed events, without progress and file names."""
     events = [json.loads(line) for line in stdout.splitlines()]
     return [event for event in events if event["event"] in ("warning", "error")]
 
 
 def render(program, words, folder):
-    """Exit code, warnings and errors."""
+    """Runs a render; returns its exit code, warnings and errors."""
     folder.mkdir(parents=True, exist_ok=True)
     done = subprocess.run([str(program), *words], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=600,
                           check=False)
-    return done.returncode, told(done.stdout), done.stderr.strip()
+    return done.returncode, filter_events(done.stdout), done.stderr.strip()
 
 
 def compare(case, options, folder, environment):
-    """One line a difference. A render that fails is one, even if both do: there is nothing to compare."""
+    """Returns one line for each difference. A failed render is one, even if both fail: there is nothing to compare."""
     renamed = dict(pair.split("=", 1) for pair in options.rename)
     sides = [(options.before, folder / "before", {}), (options.after, folder / "after", renamed)]
-    results = [render(program, words_of(case, place, environment, names), place) for program, place, names in sides]
+    results = [render(program, build_command(case, place, environment, names), place) for program, place, names in sides]
     failures = [f"{place.name}: exit code {code}: {error or events}"
                 for (_, place, _), (code, events, error) in zip(sides, results) if code]
     if failures:
@@ -81,7 +81,7 @@ def compare(case, options, folder, environment):
 
 
 def run(options, folder):
-    """How many cases differ."""
+    """Returns the number of cases that differ."""
     environment = folder / "environment.hdr"
     cases.write_environment(environment)
     different = 0
@@ -95,7 +95,7 @@ def run(options, folder):
 
 def main():
     options = parse(sys.argv[1:])
-    options.cases = chosen_cases(options)
+    options.cases = choose_cases(options)
     if options.list:
         print("\n".join(case.name for case in options.cases))
         return

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Renders models in the views in which other renderers have shown them, and puts the pictures side by side.
+"""Renders models in the views of a published renderer comparison, and puts the pictures side by side.
 
     fidelity.py BDPT OUTPUT [FOLDER] [--env FILE] [--spp N] [--width N] [--only NAME,...]
 
 FOLDER (default: that of BDPT_TEST_ASSETS) has a folder for each model and `fidelity/MODEL/RENDERER.webp`, pictures of
 the glTF Render Fidelity project of Khronos (https://github.com/KhronosGroup/glTF-Render-Fidelity). OUTPUT gets a sheet
 MODEL.png for each model, with ours first, and ours.png with ours alone. The views are those of that project where it
-states them; other models are shown from the front. Its light, an indoor studio, comes with no model: --env (default:
+states them; other models are shown from the front. Its light, an indoor studio, is not published: --env (default:
 studio) gives a similar one, so compare relations within a picture, not numbers. Needs Pillow and NumPy.
 """
 
@@ -24,7 +24,7 @@ import tiles
 
 @dataclasses.dataclass
 class View:
-    """A camera on an orbit: around `target` [m], at `theta` and `phi` [degrees] and `radius` [m]. Theta 0 looks along
+    """A camera on an orbit around `target` [m], at `theta` and `phi` [degrees] and `radius` [m]. Theta 0 looks along
     -z, phi 90 is level. The vertical field of view is 45 degrees."""
     target: tuple = (0, 0, 0)
     theta: float = 0
@@ -42,7 +42,7 @@ class View:
 
 VIEWS = {
     "SheenCloth": View((0, 0.015, 0), radius=0.059, size=(1200, 768)),
-    "CesiumMan": View((0, 0.75, 0), theta=90, radius=2),  # copies differ in the way that he faces
+    "CesiumMan": View((0, 0.75, 0), theta=90, radius=2),  # versions of the model differ in the direction that he faces
     "Duck": View((0, 0.86, 0), radius=2.7),
     "EnvironmentTest": View((0, 3.8, 0), radius=20, size=(1024, 768)),
     "AlphaBlendModeTest": View((0, 1.1, 0), radius=6, size=(1024, 512)),
@@ -57,7 +57,7 @@ VIEWS = {
     "InterpolationTest": View((0, 2.9, 0), radius=18.4),
     "TextureTransformTest": View(radius=4),
 }
-FRAMED = {"Fox": "left", "TwoSidedPlane": "0,25"}  # others without a known view: from the front
+FRAMED = {"Fox": "left", "TwoSidedPlane": "0,25"}  # models without a known view are shown from the front
 
 
 def parse(words):
@@ -77,7 +77,7 @@ def parse(words):
 
 
 def render(options, name, picture):
-    """Writes our picture; whether it worked, and what was said."""
+    """Renders our picture; returns whether that worked, and the messages."""
     folder = options.folder / name
     model = next(iter(sorted(folder.glob("*.glb")) + sorted(folder.glob("*.gltf"))), None)
     if model is None:

@@ -51,7 +51,7 @@ def parse(words):
 
 
 def find_models(options):
-    """Name and file of each."""
+    """Returns name and file of each model."""
     models = []
     for folder in sorted(path for path in options.folder.iterdir() if path.is_dir()):
         files = sorted(folder.glob("*.glb")) + sorted(folder.glob("*.gltf"))
@@ -65,8 +65,8 @@ def run(*words):
                           timeout=3600, check=False)
 
 
-def problems(code, look, bounds):
-    """The words of the help that are true of a picture."""
+def find_problems(code, look, bounds):
+    """Returns the words of the help that apply to a picture."""
     if code != 0:
         return []
     words = []
@@ -86,8 +86,8 @@ def problems(code, look, bounds):
     return words
 
 
-def row(name, code, seconds, look, bounds, words):
-    """A line of the table."""
+def format_row(name, code, seconds, look, bounds, words):
+    """Formats a line of the table."""
     cells = [f"{name:40}", f"{code:3}", f"{seconds:6.1f}"]
     cells.append(f"{look['luminance']:6.3f} {100 * look['black']:5.1f} {100 * look['burnt']:5.1f}" if look else " " * 18)
     cells.append(f"{100 * bounds['width']:4.0f} {100 * bounds['height']:4.0f} {100 * bounds['aside']:4.0f} "
@@ -96,7 +96,7 @@ def row(name, code, seconds, look, bounds, words):
 
 
 def render(options, name, model, folder):
-    """Prints the lines of a model; its tile."""
+    """Renders a model and prints its lines; returns its tile."""
     picture, outline = folder / f"{name}.png", folder / f"{name}.outline.png"
     picture.unlink(missing_ok=True)
     start = time.monotonic()
@@ -107,8 +107,8 @@ def render(options, name, model, folder):
         "--integrator", "mis", "--max-depth", "1", "--background", "transparent", "--exposure", "0", "--quiet")
     bounds = tiles.extent(outline) if outline.exists() else None
     outline.unlink(missing_ok=True)
-    words = problems(done.returncode, look, bounds)
-    print(row(name, done.returncode, seconds, look, bounds, words), flush=True)
+    words = find_problems(done.returncode, look, bounds)
+    print(format_row(name, done.returncode, seconds, look, bounds, words), flush=True)
     lines = [line.replace(f"{model}: ", "").replace(f"{picture}: ", "") for line in done.stderr.splitlines()]
     print(*["    " + line for line in lines], sep="\n", flush=True)
     label = [name, f"{seconds:.0f} s" if look else f"exit code {done.returncode}"]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts images on a sheet, row by row, for example the frames of a turntable.
+"""Arranges images on a sheet, row by row, for example the frames of a turntable.
 
     frames.py SHEET IMAGE... [--columns N] [--tile WxH] [--labels]
 

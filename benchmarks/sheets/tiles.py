@@ -1,10 +1,10 @@
-"""Sheets of labelled images by Pillow, and numbers of images."""
+"""Makes sheets of labelled images with Pillow, and measures images."""
 
 import numpy
 from PIL import Image, ImageDraw, ImageFont
 
 LINE = 15  # height of a line of text [px]
-GAP = 4  # between tiles [px]
+GAP = 4  # space between tiles [px]
 
 
 def font():
@@ -15,7 +15,8 @@ def font():
 
 
 def opened(file, size, page=(40, 40, 40)):
-    """The image, over `page` where it is transparent, within `size` and in its middle; a dark red one if there is none."""
+    """Returns the image, over `page` where it is transparent, fitted into `size` and centred; a dark red one if there
+    is none."""
     tile = Image.new("RGB", size, page)
     if file is None or not file.exists():
         return Image.new("RGB", size, (60, 10, 10))
@@ -27,7 +28,7 @@ def opened(file, size, page=(40, 40, 40)):
 
 
 def labelled(image, lines):
-    """The image with lines of text below it, cut where they are too long."""
+    """Returns the image with lines of text below it, which are cut if they are too long."""
     tile = Image.new("RGB", (image.width, image.height + LINE * len(lines)), (0, 0, 0))
     tile.paste(image, (0, 0))
     draw = ImageDraw.Draw(tile)
@@ -39,7 +40,7 @@ def labelled(image, lines):
 
 
 def grid(tiles, columns):
-    """All tiles, row by row."""
+    """Arranges all tiles row by row."""
     columns = min(columns, len(tiles))
     width = max(tile.width for tile in tiles) + GAP
     rows = [tiles[first:first + columns] for first in range(0, len(tiles), columns)]
@@ -54,8 +55,8 @@ def grid(tiles, columns):
 
 
 def brightness(file):
-    """Mean luminance (linear), and the shares of pixels that are black (no channel above 8 of 255) and burnt out (no
-    channel below 250)."""
+    """Returns the mean luminance (linear), and the shares of pixels that are black (no channel above 8 of 255) and
+    burnt out (no channel below 250)."""
     codes = numpy.asarray(Image.open(file).convert("RGB"), dtype=float)
     unit = codes / 255
     linear = numpy.where(unit <= 0.04045, unit / 12.92, ((unit + 0.055) / 1.055) ** 2.4)
@@ -65,8 +66,8 @@ def brightness(file):
 
 
 def extent(file):
-    """Width and height of what is not transparent, and its distance from the image's middle, as shares of the image;
-    None if nothing is there."""
+    """Returns width and height of the opaque part, and the distance of its centre from the image's, as shares of the
+    image; None if all is transparent."""
     alpha = numpy.asarray(Image.open(file).convert("RGBA"))[:, :, 3] > 12
     if not alpha.any():
         return None

@@ -1,5 +1,6 @@
-# Writes FOLDER/NAME.tar.xz: COMPONENTS of the build in BUILD, installed into NAME/, and the shared libraries that they
-# need. Files find each other by their own places ($ORIGIN), so NAME/ runs wherever it is unpacked. LEVEL is that of xz.
+# Writes FOLDER/NAME.tar.xz: the COMPONENTS of the build in BUILD, installed into NAME/, and the shared libraries that
+# they need. Files find each other relative to themselves ($ORIGIN), so NAME/ runs wherever it is unpacked. LEVEL is the
+# compression level of xz.
 cmake_policy(VERSION 3.24)
 if(NOT DEFINED LEVEL)
   set(LEVEL 6)
@@ -15,7 +16,7 @@ if(IS_ABSOLUTE "${LIBDIR}")
   message(FATAL_ERROR "the archive needs a relative folder of libraries, but CMAKE_INSTALL_LIBDIR is ${LIBDIR}")
 endif()
 
-# run(PROGRAM ARGUMENTS...): fails with its message.
+# run(PROGRAM ARGUMENTS...): runs a program and stops with its error message if it fails.
 function(run)
   execute_process(COMMAND ${ARGV} OUTPUT_VARIABLE said ERROR_VARIABLE said RESULT_VARIABLE code)
   if(NOT code EQUAL 0)
@@ -34,7 +35,7 @@ set(programs "${root}/bin/bdpt")
 file(GLOB readers "${libraries}/bdpt/*")
 file(GLOB own_libraries "${libraries}/*.so*")
 
-# glibc stays that of the system: its parts must fit each other and the kernel. libstdc++ comes along.
+# Excludes glibc, whose parts must match each other and the kernel. Includes libstdc++.
 set(glibc "^(ld-linux.*|lib(c|m|mvec|pthread|dl|rt|util|resolv|nsl|anl|BrokenLocale|thread_db|nss_.*))\\.so")
 file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} ${readers} LIBRARIES ${own_libraries}
   PRE_EXCLUDE_REGEXES "${glibc}" POST_EXCLUDE_REGEXES "^${root}/"
@@ -42,13 +43,13 @@ file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} ${readers} LIBRARIES ${own
 if(missing)
   message(FATAL_ERROR "these libraries are not found: ${missing}")
 endif()
-foreach(name IN LISTS several_FILENAMES)  # the first that was found is the one that the loader takes
+foreach(name IN LISTS several_FILENAMES)  # the loader takes the first one found
   list(GET several_${name} 0 first)
   list(APPEND needed "${first}")
 endforeach()
 list(SORT needed)
 
-# package_of(FILE RESULT): "NAME VERSION" of the Debian package that has FILE, if there is one.
+# package_of(FILE RESULT): returns "NAME VERSION" of the Debian package that owns FILE, if any.
 function(package_of file result)
   set(${result} "" PARENT_SCOPE)
   string(REGEX REPLACE "^/usr/" "/" short "${file}")
@@ -86,7 +87,7 @@ if(unknown)
   list(JOIN unknown " " unknown)
   message(WARNING "no Debian package has the licences of these libraries; add them to share/doc/bdpt/libraries: ${unknown}")
 endif()
-# The oldest glibc that has all that is used of it.
+# Finds the oldest glibc that provides all symbol versions in use.
 file(GLOB all_libraries "${libraries}/*.so*")
 find_program(objdump_program objdump REQUIRED)
 set(newest 0)

@@ -1,5 +1,5 @@
-# cmake -DOUTPUT=FILE.cpp -DFOLDER=... -DSCRIPTS="a.js;b.js" -P embed.cmake: the files of the report as
-# arrays of a C++ file, so that a program needs nothing beside it.
+# Embeds the files of the report in a C++ file, as arrays, so that a program needs no other files:
+# cmake -DOUTPUT=FILE.cpp -DFOLDER=... -DSCRIPTS="a.js;b.js" -P embed.cmake
 include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/EmbedText.cmake")
 
 string(REPLACE "\\;" ";" SCRIPTS "${SCRIPTS}")

@@ -1,6 +1,6 @@
-# Reading: glTF scenes, textures, environment maps.
+# Sources that read glTF scenes, textures and environment maps.
 target_sources(bdpt_io PRIVATE
-  # files, JSON, what loading may spend
+  # files, JSON, and the memory limit of loading
   src/file/companion.cpp
   src/file/data_budget.cpp
   src/file/file_kind.cpp
@@ -24,7 +24,7 @@ target_sources(bdpt_io PRIVATE
   src/image/png_image.cpp
   src/image/texels.cpp
   src/image/webp_image.cpp
-  # images as linear radiance: OpenEXR, Radiance HDR, TIFF, and those for screens
+  # images as linear radiance: OpenEXR, Radiance HDR, TIFF, and display-referred formats
   src/image/linear/display_reader.cpp
   src/image/linear/environment.cpp
   src/image/linear/exr_channels.cpp
@@ -36,19 +36,19 @@ target_sources(bdpt_io PRIVATE
   src/image/linear/oiio_library.cpp
   src/image/linear/read_image.cpp
   src/image/linear/tiff_reader.cpp
-  # denoising by a library that is opened at run time
+  # denoising with a library that is opened at run time
   src/denoise/denoiser.cpp
   src/denoise/oidn_functions.cpp
   # light profiles
   src/ies/ies_file.cpp
   src/ies/ies_numbers.cpp
   src/ies/ies_profile.cpp
-  # programs that read files in a process of their own
+  # programs that read files in separate processes
   src/process/child_process.cpp
-  # volumes: OpenVDB, by such a program
+  # volumes: OpenVDB, in such a program
   src/volume/vdb_file.cpp
   src/volume/volume.cpp
-  # glTF, each folder including those above it only. What a document must be before any library sees it
+  # glTF: checks a document before any library parses it. Each glTF folder includes only those above it in this list
   src/gltf/checks/animations.cpp
   src/gltf/checks/glb.cpp
   src/gltf/checks/layout.cpp
@@ -58,7 +58,7 @@ target_sources(bdpt_io PRIVATE
   src/gltf/compression/decoded_size.cpp
   src/gltf/compression/draco_primitives.cpp
   src/gltf/compression/meshopt_views.cpp
-  # glTF: from bytes to the structs of tinygltf
+  # glTF: bytes to the structs of tinygltf
   src/gltf/document/accessor.cpp
   src/gltf/document/extensions.cpp
   src/gltf/document/facts.cpp
@@ -67,7 +67,7 @@ target_sources(bdpt_io PRIVATE
   src/gltf/document/prepass.cpp
   src/gltf/document/selection.cpp
   src/gltf/document/tinygltf.cpp
-  # glTF: where nodes are, and when
+  # glTF: node transforms over time
   src/gltf/animation/animation.cpp
   src/gltf/animation/instancing.cpp
   src/gltf/animation/keyframes.cpp
@@ -98,12 +98,12 @@ target_sources(bdpt_io PRIVATE
   src/gltf/light_camera/light.cpp
   src/gltf/light_camera/light_profiles.cpp
   src/gltf/light_camera/motion.cpp
-  # glTF: structs to SceneDesc
+  # glTF: structs of tinygltf to SceneDesc
   src/gltf/scene/gltf.cpp
   src/gltf/scene/scene_builder.cpp
   src/gltf/scene/select_scene.cpp
 )
-# Decoders of compressed meshes, as far as they are installed (cmake/Dependencies.cmake).
+# Decodes compressed meshes with the installed libraries (cmake/Dependencies.cmake).
 if(BDPT_HAS_DRACO)
   target_sources(bdpt_io PRIVATE src/gltf/compression/draco_decoder.cpp)
   target_link_libraries(bdpt_io PRIVATE draco::draco)
@@ -121,22 +121,21 @@ target_link_libraries(bdpt_io PRIVATE
   OpenEXR::OpenEXR Imath::Imath JPEG::JPEG WebP::webp WebP::webpdemux TBB::tbb $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt
   ${CMAKE_DL_LIBS})
 
-# tinygltf gets checked JSON and buffers from memory; it opens no files and decodes no images.
+# tinygltf receives checked JSON and buffers from memory; it opens no files and decodes no images.
 target_compile_definitions(bdpt_io PRIVATE
   TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE TINYGLTF_NO_EXTERNAL_IMAGE TINYGLTF_NO_FS
   TINYGLTF_NO_INCLUDE_JSON)
-# The implementation's warnings are not ours to mend.
+# Silences warnings of the third-party implementation.
 set_source_files_properties(src/gltf/document/tinygltf.cpp PROPERTIES COMPILE_OPTIONS "-w")
 
-# OpenImageIO lives in a module that is loaded with the first TIFF image
-# (src/image/linear/oiio_library.h).
+# OpenImageIO is in a module that is loaded for the first TIFF image (src/image/linear/oiio_library.h).
 add_library(bdpt_oiio MODULE src/oiio_module/oiio_module.cpp)
 bdpt_compile_options(bdpt_oiio)
 target_include_directories(bdpt_oiio PRIVATE src)
 target_link_libraries(bdpt_oiio PRIVATE OpenImageIO::OpenImageIO)
 bdpt_add_companion(bdpt_oiio)
 
-# OpenVDB lives in a program, which is started for each file of volumes (src/volume/vdb_reply.h).
+# OpenVDB is in a program that runs once for each volume file (src/volume/vdb_reply.h).
 if(BDPT_HAS_OPENVDB)
   add_executable(bdpt_vdb_reader
     src/vdb_reader/dense_densities.cpp
@@ -156,7 +155,7 @@ if(BDPT_HAS_OPENVDB)
   bdpt_add_companion(bdpt_vdb_reader)
 endif()
 
-# libktx is opened by a program, which is started for each KTX2 image (src/image/ktx_reply.h).
+# A program that runs once for each KTX2 image opens libktx (src/image/ktx_reply.h).
 add_executable(bdpt_ktx_reader
   src/ktx_reader/ktx_functions.cpp
   src/ktx_reader/main.cpp
@@ -171,9 +170,9 @@ if(BDPT_SANITIZE)
 endif()
 bdpt_add_companion(bdpt_ktx_reader)
 
-# The library looks for its companions beside the file that holds its code, and where they are installed
-# relative to that: a shared library, or the program that a static one is linked into. It never looks
-# where they were built: whoever can write there could run code of their own in it.
+# The library looks for its companions beside the file that contains its code (the shared library, or the program that
+# links the static one), and in the installed folder relative to it. It never looks in the build folder: anyone who can
+# write there could inject code.
 set(folders [["."]] [["bdpt"]])
 if(BUILD_SHARED_LIBS)
   bdpt_put_companions_beside(bdpt_io)

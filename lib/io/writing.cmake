@@ -1,4 +1,4 @@
-# Writing: EXR, PNG and parts of renders.
+# Sources that write EXR, PNG and parts of renders.
 find_package(PNG REQUIRED GLOBAL)
 target_sources(bdpt_io PRIVATE
   src/output/camera_matrices.cpp

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Completions and man pages, as shells and man readers take them: completion_test.py [--installed] FOLDER SHELL.
+"""Tests completions and man pages with the shells and readers: completion_test.py [--installed] FOLDER SHELL.
 
-FOLDER is what bdpt_manual wrote, SHELL is bash, zsh, fish or man. With --installed FOLDER is PREFIX/share of an installation,
-whose files shells find by the name of the command; bash does so by the package bash-completion. Exits with 77 where the shell
-is not installed. Runs in a folder that has scene.glb, and in which bdpt need not be there: completions do not start it.
+FOLDER is the output of bdpt_manual; SHELL is bash, zsh, fish or man. With --installed FOLDER is PREFIX/share of an
+installation, whose files shells find by the name of the command; bash does so with the package bash-completion. Exits
+with 77 if the shell is not installed. Runs in a folder that has scene.glb. bdpt itself may be missing, because
+completions do not start it.
 """
 
 import os
@@ -17,7 +18,7 @@ import sys
 import tempfile
 import time
 
-# What is typed before the tab key, and what must (or must not) be there then.
+# Text before the tab key, and the texts that the completion must or must not offer.
 CASES = [
     ("bdpt ver", ["verify", "version"], ["render"]),
     ("bdpt render --integ", ["--integrator"], ["--samples"]),
@@ -35,14 +36,14 @@ BASH_COMPLETION = "/usr/share/bash-completion/bash_completion"
 
 
 class InteractiveShell:
-    """A shell in a terminal of its own."""
+    """Runs a shell in a pseudo-terminal."""
 
     def __init__(self, command, setup):
         self.pid, self.terminal = pty.fork()
         if self.pid == 0:
             os.environ.update({"TERM": "dumb", "PS1": "> ", "HOME": os.getcwd()})
             os.execvp(command[0], command)
-        # The marks are not in what the terminal echoes, only in what the shell answers.
+        # The quotes keep the terminal's echo from matching; only the shell's answer does.
         os.write(self.terminal, (setup + "; echo rea''dy\n").encode())
         assert "ready" in (shown := self.read_until("ready", SECONDS)), shown
 
@@ -55,9 +56,9 @@ class InteractiveShell:
         return shown
 
     def complete(self, line):
-        """What it shows when `line` and three tabs are typed."""
+        """Types `line` and three tabs; returns what the shell shows."""
         os.write(self.terminal, (line + "\t\t\t").encode())
-        shown = self.read_until("\0", 0.4)  # it leaves out lists when more has been typed
+        shown = self.read_until("\0", 0.4)  # the shell drops its list when more is typed
         os.write(self.terminal, b"\x15echo do''ne\n")  # control-U
         shown += self.read_until("done", SECONDS)
         return re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown.split("echo do")[0])
@@ -69,7 +70,7 @@ class InteractiveShell:
 
 
 class Fish:
-    """fish tells what it would offer without a terminal."""
+    """Asks fish, which prints completions without a terminal."""
 
     def __init__(self, setup):
         self.setup = setup
@@ -91,7 +92,7 @@ def start(shell, folder, installed):
         functions = "zsh/site-functions" if installed else "zsh"
         return InteractiveShell(["zsh", "-f", "-i"], f"setopt no_beep; LISTMAX=1000; fpath=({folder}/{functions} $fpath); "
                                 "autoload -U compinit; compinit -u -D")
-    if installed:  # fish looks for completions of commands that are there
+    if installed:  # fish completes only commands that exist
         return Fish(f"set PATH {folder}/../bin $PATH; set fish_complete_path {folder}/fish/vendor_completions.d")
     return Fish(f"source {folder}/fish/bdpt.fish")
 
@@ -117,7 +118,7 @@ def check_pages(folder):
     faults = [] if len(pages) >= 8 else [f"only {len(pages)} pages"]
     for page in pages:
         lint = subprocess.run(["mandoc", "-T", "lint", "-W", "warning", page], capture_output=True, text=True)
-        # Pages have no date: they are made anew by every build.
+        # Pages have no date, because every build regenerates them.
         said = [line for line in lint.stdout.splitlines() if "missing date" not in line]
         faults += said
     text = subprocess.run(["mandoc", "-T", "utf8", pathlib.Path(folder, "man1/bdpt-render.1")], capture_output=True,

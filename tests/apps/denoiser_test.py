@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""bdpt render --denoise with Open Image Denoise itself: denoiser_test.py BDPT SCENES.
+"""Tests bdpt render --denoise with the real Open Image Denoise: denoiser_test.py BDPT SCENES.
 
-Takes the library from the environment variable BDPT_TEST_DENOISER, a file or its folder; exits with 77 where that is not
-set. Renders few samples of scenes whose light comes by splats, by camera samples and by both, and compares errors; then
-a scene on a shadow catcher, where noise of the shadow must go, and edges must not get worse over another background.
+Takes the library from the environment variable BDPT_TEST_DENOISER, a file or its folder; exits with 77 if it is not
+set. Renders few samples of scenes whose light comes from splats, from camera samples and from both, and compares
+errors. Then tests a scene on a shadow catcher: the noise of the shadow must go, and edges must not get worse over
+another background.
 """
 
 import json
@@ -17,7 +18,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "ids"))
 from exr_file import ExrFile
 
-# A scene, how it is rendered, and how much of the error may be left. What light paths splat is as clean as the rest.
+# Each row has a scene, render options, and the limit of the remaining error. Splats become as clean as the rest.
 CASES = [
     ("lamp-box", ["--integrator", "bdpt"], 0.2),
     ("lamp-box", ["--integrator", "lt"], 0.2),
@@ -35,8 +36,8 @@ def mean_square(first, second, chosen):
     return sum((first[i] - second[i]) ** 2 for i in chosen) / len(chosen)
 
 
-def over_white(exr, color, shadow):
-    """Of a transparent image; its shadow is another layer's."""
+def composite_over_white(exr, color, shadow):
+    """Composites a transparent image over white; its shadow is in another layer."""
     alpha = [a - s for a, s in zip(channel(exr, "A"), channel(exr, "shadow.A"))]
     return [r + 1 - a - s for r, a, s in zip(channel(exr, color), alpha, channel(exr, shadow))]
 
@@ -51,11 +52,11 @@ def check_shadow_catcher(bdpt, scenes, library, folder):
     shadow, noisy, true = channel(exr, "shadow.A"), channel(exr, "noisyShadow.A"), channel(reference, "shadow.A")
     coverage = [a - s for a, s in zip(channel(reference, "A"), true)]
     everywhere, edges = range(len(true)), [i for i, share in enumerate(coverage) if 0.01 < share < 0.99]
-    white = over_white(reference, "R", "shadow.A")
+    white = composite_over_white(reference, "R", "shadow.A")
     figures = {
         "shadow": [mean_square(x, true, everywhere) for x in (noisy, shadow)],
         "edges": [mean_square(x, white, edges)
-                  for x in (over_white(exr, "noisy.R", "noisyShadow.A"), over_white(exr, "R", "shadow.A"))],
+                  for x in (composite_over_white(exr, "noisy.R", "noisyShadow.A"), composite_over_white(exr, "R", "shadow.A"))],
     }
     for name, (before, after) in figures.items():
         print(f"shadow catcher, {name}: mean square error {before:.4g}, denoised {after:.4g}")

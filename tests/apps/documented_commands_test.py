@@ -1,9 +1,8 @@
-"""Runs the commands that README and docs show: documented_commands_test.py BDPT ROOT FAKE_DENOISER OPENVDB.
+"""Runs the commands in README and docs: documented_commands_test.py BDPT ROOT FAKE_DENOISER OPENVDB.
 
-Each line of a code block that begins with `bdpt` is run, page by page, in a folder that has small files of the names
-that the pages use. Options that decide how long a render takes get small values; files that only a user has
-(libktx, Open Image Denoise, a grid) are replaced. A command that fails is an error of the page. OPENVDB is 0 where
-volumes cannot be read.
+Runs each line of a code block that begins with `bdpt`, page by page, in a folder with small files of the names that the
+pages use. Reduces options that determine the render time, and replaces files that only users have (libktx, Open Image
+Denoise, a grid). A command that fails is an error of the page. OPENVDB is 0 if volumes cannot be read.
 """
 
 import json
@@ -22,13 +21,13 @@ SKY = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81"
 PLACEHOLDERS = {"SCENE...": "scene.gltf", "SCENE": "scene.gltf", "IMAGE": "out.exr", "REFERENCE": "reference.exr",
                 "FOLDER": "seeds/", "DIR": "out/bench", "[any option of bdpt render]": ""}
 SMALL_IMAGE = ["--size", "16x12"]
-# Exit codes of commands that may well answer no: an image that differs, parts that are missing.
+# These exit codes are legitimate negative answers: images that differ, parts that are missing.
 ALLOWED = {"compare": {0, 1}, "merge": {0, 12}, "verify": {0, 11}}
-NEEDS_OTHERS = {"--display"}  # a viewer
+NEEDS_OTHERS = {"--display"}  # needs a viewer
 
 
-def commands_in(page):
-    """The lines of `bdpt` and `mkdir` of a page as (line number, section, text), without comments."""
+def find_commands(page):
+    """Returns the lines of `bdpt` and `mkdir` of a page as (line number, section, text), without comments."""
     section, lines = 0, page.read_text(encoding="utf-8").splitlines()
     for number, line in enumerate(lines, 1):
         section += line.startswith("#")
@@ -42,14 +41,14 @@ def commands_in(page):
 
 
 def write_glb(path, document):
-    """A scene as one binary file [glTF 2.0, 4.4]."""
+    """Writes a scene as one binary file [glTF 2.0, 4.4]."""
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     path.write_bytes(b"glTF" + struct.pack("<IIII", 2, 20 + len(text), len(text), 0x4E4F534A) + text)
 
 
 def write_files(folder, root, bdpt):
-    """All files that the pages name and no command of theirs writes."""
+    """Writes all files that the pages name but that no command of theirs writes."""
     (folder / "scenes").symlink_to(root / "scenes")
     box = json.loads((root / "scenes/cornell-box.gltf").read_text())
     moving = json.loads((root / "scenes/motion.gltf").read_text())
@@ -67,7 +66,7 @@ def write_files(folder, root, bdpt):
         (folder / name).write_bytes(SKY)
     shutil.copy(root / "scenes/smoke.vdb", folder / "fire.vdb")
     (folder / "seeds").mkdir()
-    (folder / "out").mkdir()  # as ./bootstrap demo makes it
+    (folder / "out").mkdir()  # ./bootstrap demo makes it
     for words in (["scene.gltf", "-o", "reference.exr", "-o", "vestibule.jpg", "-o", "out.exr"],
                   ["scene.gltf", "-o", "seeds/0.exr"], ["scene.gltf", "-o", "seeds/1.exr", "--seed", "1"],
                   ["scenes/furnace.gltf", "-o", "sky.exr", "-o", "studio.exr", "-o", "courtyard.exr"],
@@ -75,8 +74,8 @@ def write_files(folder, root, bdpt):
         subprocess.run([bdpt, "render", *words, *SMALL_IMAGE, "--spp", "2", "--quiet"], cwd=folder, check=True)
 
 
-def replaced(words, option, value):
-    """`words` with another value of `option`, if they have it."""
+def replace_option(words, option, value):
+    """Returns `words` with another value of `option`, if they have it."""
     result = list(words)
     for i in range(len(words) - 1):
         if words[i] == option:
@@ -84,23 +83,23 @@ def replaced(words, option, value):
     return result
 
 
-def shortened(words, denoiser):
-    """The command line with a small image and few samples."""
+def shorten_command(words, denoiser):
+    """Returns the command line with a small image and few samples."""
     command = words[1]
     for option, value in (("--time", "1s"), ("--orbit", "3"), ("--noise", "50%"), ("--volume-grid", "density"),
                           ("--ktx-library", str(denoiser.parent))):
-        words = replaced(words, option, value)
+        words = replace_option(words, option, value)
     if command in ("render", "view"):
-        words = replaced(replaced(words, "--spp", "2"), "--frames", "1:2")
+        words = replace_option(replace_option(words, "--spp", "2"), "--frames", "1:2")
     if command in ("render", "plan", "view") and "--plan" not in words and "--pixel" not in words:
-        words = replaced(words, "--size", "16x12")
+        words = replace_option(words, "--size", "16x12")
         words += [] if "--size" in words else SMALL_IMAGE
     if command == "render" and not {"--spp", "--samples", "--plan"} & set(words) and "room.json" not in words:
         words += ["--spp", "2"]
     if command == "bench":
         words += ["--time", "0.05s", "--seeds", "2", *SMALL_IMAGE]
     if command == "verify":
-        words = replaced(words, "--time", "2s")
+        words = replace_option(words, "--time", "2s")
         words += [] if "--time" in words else ["--time", "2s"]
     if any(word.startswith("--denoise") for word in words) and command != "view":
         words += ["--denoiser-library", str(denoiser)]
@@ -108,7 +107,7 @@ def shortened(words, denoiser):
 
 
 def run(words, folder):
-    """The exit code and what was printed; `bdpt view` is interrupted when it has printed its address."""
+    """Returns the exit code and the output. Interrupts `bdpt view` after it has printed its address."""
     if words[1] != "view":
         done = subprocess.run(words, cwd=folder, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=300,
                               check=False)
@@ -120,8 +119,8 @@ def run(words, folder):
     return (0 if "http://" in text else 1), text
 
 
-def expanded(words, folder):
-    """As a shell expands `*`, but not in names that bdpt expands."""
+def expand_wildcards(words, folder):
+    """Expands `*` as a shell does, but not in names that bdpt expands."""
     result = []
     for word in words:
         found = sorted(str(file.relative_to(folder)) for file in folder.glob(word)) if "*" in word else []
@@ -142,7 +141,7 @@ def main():
         for page in pages:
             folder = pathlib.Path(name) / page.stem
             last_section = None
-            for number, section, text in commands_in(page):
+            for number, section, text in find_commands(page):
                 if section != last_section and (folder / "job").exists():
                     shutil.rmtree(folder / "job")
                 last_section = section
@@ -161,7 +160,7 @@ def main():
                 if words[1] == "merge" and "--plan" in words:
                     run([bdpt, "render", "--plan", "job/plan.json", "--task", "0", "--quiet"], folder)
                 count += 1
-                code, said = run(expanded(shortened(words, denoiser), folder), folder)
+                code, said = run(expand_wildcards(shorten_command(words, denoiser), folder), folder)
                 if code not in ALLOWED.get(words[1], {0}):
                     failed.append(f"{page.relative_to(root)}:{number}: {text}\n"
                                   f"  exit code {code}: {said.strip()[-400:]}")

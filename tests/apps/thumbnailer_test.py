@@ -1,4 +1,4 @@
-"""The thumbnailer of file managers makes a picture: thumbnailer_test.py BDPT THUMBNAILER SCENE."""
+"""Tests that the thumbnailer of file managers makes a picture: thumbnailer_test.py BDPT THUMBNAILER SCENE."""
 
 import configparser
 import os
@@ -18,7 +18,7 @@ def main():
     assert thumbnailer["TryExec"] == "bdpt"
     assert "model/gltf-binary" in thumbnailer["MimeType"].split(";")
     with tempfile.TemporaryDirectory() as name:
-        # File managers ask for names without an extension, and write ones that shells would read.
+        # File managers pass output names without an extension, and input names with shell characters.
         model = pathlib.Path(name) / "a model's $HOME.gltf"
         model.write_bytes(scene.read_bytes())
         picture = pathlib.Path(name) / "picture"

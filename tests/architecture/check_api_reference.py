@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Fails when Doxygen warns about the public headers, or a type, function or constant of a namespace has no comment:
-check_api_reference.py DOXYFILE. The exit code is 77 without Doxygen.
+"""Tests that Doxygen accepts the public headers, and that each type, function or constant of a namespace has a comment:
+check_api_reference.py DOXYFILE. Exits with 77 without Doxygen.
 
-Members of classes may speak for themselves: `int width`.
+Members of classes, like `int width`, need no comment.
 """
 
 import pathlib
@@ -16,8 +16,9 @@ SKIPPED = 77
 MEMBER = re.compile(r"Member .* of (struct|class|union) \S+ is not documented|No output formats selected")
 
 
-def warnings_of(doxyfile, extract_all):
-    """`extract_all`: YES, as the target `docs` has it, or NO, for warnings about missing comments."""
+def run_doxygen(doxyfile, extract_all):
+    """Returns Doxygen's warnings. `extract_all` is YES, as in the target `docs`, or NO to warn about missing
+    comments."""
     with tempfile.TemporaryDirectory() as folder:
         settings = (f'@INCLUDE = "{doxyfile}"\nOUTPUT_DIRECTORY = "{folder}"\nEXTRACT_ALL = {extract_all}\n'
                     "GENERATE_HTML = NO\nGENERATE_XML = YES\nWARN_AS_ERROR = NO\n")
@@ -37,7 +38,7 @@ def main():
     if not doxyfile.is_file():
         print("doxygen was not installed when the project was configured")
         sys.exit(SKIPPED)
-    results = [warnings_of(doxyfile.resolve(), extract_all) for extract_all in ("YES", "NO")]
+    results = [run_doxygen(doxyfile.resolve(), extract_all) for extract_all in ("YES", "NO")]
     found = sorted({line for lines, _ in results for line in lines})
     print("\n".join(found) or f"{results[0][1]} pages without a warning")
     sys.exit(bool(found))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails when a breakage of benchmarks/breakages cannot be planted any more, or its scene is not there:
+"""Tests that each breakage of benchmarks/breakages can still be applied, and that its scene exists:
 check_breakages.py ROOT. Builds nothing."""
 
 import pathlib
@@ -8,7 +8,7 @@ import sys
 sys.dont_write_bytecode = True
 
 
-def errors_of(breakage, root):
+def find_errors(breakage, root):
     file = root / breakage.file
     found = file.read_text(encoding="utf-8").count(breakage.old) if file.exists() else 0
     errors = [] if found == 1 else [f"{breakage.name}: {breakage.file} holds what it replaces {found} times, not once"]
@@ -23,7 +23,7 @@ def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     sys.path.insert(0, str(root / "benchmarks" / "breakages"))
     from breakages import BREAKAGES
-    errors = [error for breakage in BREAKAGES for error in errors_of(breakage, root)]
+    errors = [error for breakage in BREAKAGES for error in find_errors(breakage, root)]
     print("\n".join(errors) or f"{len(BREAKAGES)} breakages can be planted")
     sys.exit(1 if errors else 0)
 

@@ -1,28 +1,28 @@
 #!/usr/bin/env python3
-"""Fails when a document points to a file that is not there, docs/gltf.md states other extensions than the reader
-knows, the index of decisions lacks one or has another title, or what docs/architecture.md says must be read to know the
-estimator is no longer short: check_docs.py ROOT."""
+"""Tests that links in documents lead to files, docs/gltf.md lists the extensions that the reader knows, the index of
+decisions is complete with correct titles, and the code that docs/architecture.md names as the estimator is short:
+check_docs.py ROOT."""
 
 import pathlib
 import re
 import sys
 
 
-def anchors_of(document):
-    """The names of the places in a page that links may lead to: its headings, as GitHub names them, and `id`s."""
+def find_anchors(document):
+    """Returns the anchors of a page that links may point to: its headings, as GitHub names them, and `id`s."""
     text = document.read_text(encoding="utf-8")
     headings = re.findall(r"^#+ (.*)$", text, flags=re.M)
     return {re.sub(r"[^\w -]", "", heading).replace(" ", "-").lower() for heading in headings} | \
         set(re.findall(r'<a id="([^"]+)">', text))
 
 
-def broken_links(root):
-    """Relative links in all documents that lead nowhere; `count` of links that were followed."""
+def find_broken_links(root):
+    """Returns the broken relative links in all documents, and the number of links checked."""
     errors, count = [], 0
     documents = [*root.glob("*.md"), *(root / "docs").rglob("*.md"), *(root / "scenes").glob("*.md"),
                  *(root / "benchmarks").rglob("*.md")]
     for document in sorted(documents):
-        text = re.sub(r"^ {4}.*$", "", document.read_text(encoding="utf-8"), flags=re.M)  # not in code
+        text = re.sub(r"^ {4}.*$", "", document.read_text(encoding="utf-8"), flags=re.M)  # skips code
         for target, anchor in re.findall(r"\]\(([^)#\s]*)#?([^)\s]*)\)", text):
             if re.match(r"[a-z]+:", target):
                 continue
@@ -30,13 +30,13 @@ def broken_links(root):
             page = document.parent / target if target else document
             if not page.exists():
                 errors.append(f"{document.relative_to(root)}: no such file: {target}")
-            elif anchor and page.suffix == ".md" and anchor not in anchors_of(page):
+            elif anchor and page.suffix == ".md" and anchor not in find_anchors(page):
                 errors.append(f"{document.relative_to(root)}: no such place: {target}#{anchor}")
     return errors, count
 
 
-def extension_differences(root):
-    """The two lists in docs/gltf.md against the table in the code."""
+def compare_extensions(root):
+    """Compares the two lists in docs/gltf.md with the table in the code."""
     code = (root / "lib/io/src/gltf/document/extensions.cpp").read_text(encoding="utf-8")
     known = set(re.findall(r'ExtensionSupport\{"(\w+)",\s*(\w+),\s*"([^"]*)"\}', code))
     text = (root / "docs/gltf.md").read_text(encoding="utf-8")
@@ -49,8 +49,8 @@ def extension_differences(root):
     return errors, len(known)
 
 
-def index_differences(root):
-    """Rows of docs/decisions/README.md against the headings of the decisions."""
+def compare_index(root):
+    """Compares the rows of docs/decisions/README.md with the headings of the decisions."""
     folder = root / "docs/decisions"
     decided = set()
     for page in folder.glob("[0-9]*.md"):
@@ -64,12 +64,12 @@ def index_differences(root):
     return errors, len(decided)
 
 
-MOST_CODE = 1000  # lines of the estimator
+MOST_CODE = 1000  # limit of the estimator's lines
 
 
-def estimator_errors(root):
-    """The table of files in docs/architecture.md that make up the estimator, and their lines of code: all but blank
-    lines and comments."""
+def check_estimator(root):
+    """Checks the table in docs/architecture.md of the estimator's files and their lines of code, without blank lines
+    and comments."""
     page = "docs/architecture.md"
     section = (root / page).read_text(encoding="utf-8").partition("## The estimator\n")[2].partition("\n## ")[0]
     files = [root / "lib/src" / name for name in re.findall(r"`([\w/]+\.(?:h|cpp))`", section.partition("\n\nBeside")[0])]
@@ -85,10 +85,10 @@ def estimator_errors(root):
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    link_errors, links = broken_links(root)
-    extension_errors, extensions = extension_differences(root)
-    index_errors, decisions = index_differences(root)
-    code_errors, code = estimator_errors(root)
+    link_errors, links = find_broken_links(root)
+    extension_errors, extensions = compare_extensions(root)
+    index_errors, decisions = compare_index(root)
+    code_errors, code = check_estimator(root)
     errors = link_errors + extension_errors + index_errors + code_errors
     print("\n".join(errors) or f"{links} links, {extensions} extensions, {decisions} decisions and {code} lines are right")
     sys.exit(bool(errors))

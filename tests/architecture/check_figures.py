@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Fails when a figure names a scene, an option or a value that is not there, or the README describes other figures:
-check_figures.py ROOT [BDPT]. Without the command, options are not checked. Renders nothing."""
+"""Tests that figures name existing scenes, options and values, and that the README describes these figures:
+check_figures.py ROOT [BDPT]. Checks no options without the command. Renders nothing."""
 
 import dataclasses
 import pathlib
@@ -12,14 +12,14 @@ sys.dont_write_bytecode = True
 
 
 def options_of(help_text):
-    """Option -> its values where the help lists them (a|b|c; X|R,G,B is no list), "" for flags, else None."""
+    """Returns option -> values, where the help lists them (a|b|c; X|R,G,B is no list), "" for flags, else None."""
     found = re.findall(r"^  (?:-\w,)?(--[\w-]+)(?: ([^\s]+))?", help_text, flags=re.M)
     return {name: set(values.split("|")) if re.fullmatch(r"[a-z0-9|-]+", values) and "|" in values
             else None if values else "" for name, values in found}
 
 
-def pairs_of(words, known):
-    """The options in a list of words, each with its value, which is "" for flags and None where it lacks."""
+def pair_options(words, known):
+    """Returns the options in a list of words, each with its value, which is "" for flags and None if it is missing."""
     pairs, rest = [], list(words)
     while rest:
         name = rest.pop(0)
@@ -28,9 +28,9 @@ def pairs_of(words, known):
     return pairs
 
 
-def option_errors(words, known):
-    """What is wrong with a list of options and values."""
-    pairs = pairs_of(words, known)
+def check_options(words, known):
+    """Returns the errors in a list of options and values."""
+    pairs = pair_options(words, known)
     if any(value is None for _, value in pairs):
         return [f"an option lacks its value: {' '.join(words)}"]
     errors = []
@@ -47,19 +47,19 @@ def option_errors(words, known):
     return errors + [f"{name} is given twice" for name in sorted(set(names)) if names.count(name) > 1]
 
 
-def cell_errors(cell, scenes, known):
+def check_cell(cell, scenes, known):
     errors = [] if cell.scene in scenes else [f"no such scene: {cell.scene}"]
     if (cell.spp is None) == (cell.seconds is None):
         errors.append("it needs either samples or a time")
     if cell.rival is not None and (not cell.spp or cell.spp % cell.rounds):
         errors.append("rounds do not divide its samples")
     for words in (cell.options, cell.reference or (), cell.rival or ()):
-        errors += option_errors(words, known) if known else []
+        errors += check_options(words, known) if known else []
     return errors
 
 
 def figure_errors(figures, readme, scenes, known):
-    """All findings, one line each. `known` may be empty: then options are not checked."""
+    """Returns all findings, one line each. If `known` is empty, options are not checked."""
     _, _, table = readme.partition("\n## The figures\n")
     described = set(re.findall(r"^\| `([\w-]+)` \|", table, flags=re.M))
     errors = [f"{name}: only one of figures.py and README.md knows it" for name in sorted(described ^ set(figures))]
@@ -74,7 +74,7 @@ def figure_errors(figures, readme, scenes, known):
             if all(cell.reference is None for cell in figure.cells if cell.scene == scene):
                 errors.append(f"{name}: no cell of {scene} has a reference, so nothing tells the exposure")
         for cell in figure.cells:
-            errors += [f"{name}: {cell.label}: {error}" for error in cell_errors(cell, scenes, known)]
+            errors += [f"{name}: {cell.label}: {error}" for error in check_cell(cell, scenes, known)]
     return errors
 
 

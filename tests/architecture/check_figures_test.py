@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants mistakes in a figure and expects check_figures to find each, and nothing in a sound one."""
+"""Tests that check_figures finds each planted mistake in a figure, and none in a correct one."""
 
 import dataclasses
 import pathlib
@@ -26,7 +26,7 @@ HELP = """Options:
 CELL = Cell("a", "box.gltf", ("--integrator", "pt", "--max-depth", "6"), 16, reference=("--max-depth", "6"))
 OTHER = dataclasses.replace(CELL, options=("--disable", "s0t2,s11t1"))
 
-# Name -> (changes of the first cell, a part of the finding)
+# Maps a name to (changes of the first cell, a part of the finding).
 MISTAKES = {
     "scene": ({"scene": "bax.gltf"}, "no such scene: bax.gltf"),
     "option": ({"options": ("--integrater", "pt")}, "no option --integrater"),
@@ -90,7 +90,7 @@ class Table(unittest.TestCase):
         self.assertEqual((small.seconds, small.label), (0.5, "pt, 0.5 s"))
 
     def test_sums_of_lengths(self):
-        """Each cell of the grid has the reference of all paths that its subpaths can make, and no splats."""
+        """Tests that the reference of each cell has all paths that its subpaths can make; cells have no splats."""
         for cell in make_figures.FIGURES["lengths-grid"].cells:
             words = dict(zip(cell.options[::2], cell.options[1::2]))
             m, w = int(words["--max-camera-depth"]), int(words["--max-light-depth"])
@@ -100,7 +100,7 @@ class Table(unittest.TestCase):
             self.assertFalse([name for name in disabled if not name.endswith(("t0", "t1"))], cell.label)
 
     def test_ends(self):
-        """End to end only: a single strategy is left, and the reference has all others of that length."""
+        """Tests that "end to end only" leaves a single strategy, and its reference all others of that length."""
         cell = next(c for c in make_figures.FIGURES["lamp-box"].cells if c.label == "2-3 end to end only")
         everything = {f"s{s}t{t}" for s in range(8) for t in range(8) if 2 <= s + t <= 7}
         within = {f"s{s}t{t}" for s in range(5) for t in range(4) if s + t >= 2}
@@ -110,7 +110,7 @@ class Table(unittest.TestCase):
 
 
     def test_captions(self):
-        """What is measured stands below the label: rays with and without a BVH, phases, or else the error."""
+        """Tests the measurements below the label: rays with and without a BVH, phases, or else the error."""
         row = {"samples": 16, "seconds": 2.0, "relmse": 0.125}
         self.assertEqual(make_figures.captions(row), ["relMSE 0.125, 16 spp, 2 s"])
         rays = {**row, "bvh_rays_per_second": 4.2e6, "loop_rays_per_second": 1.5e3}
@@ -144,12 +144,12 @@ class Images(unittest.TestCase):
             self.assertIn(f"{2 * 208 + 4} x {2 * height + 4}, 3 channel", " ".join(
                 sheet.oiiotool("--info", folder / "sheet.png").split()).replace(" x  ", " x "))
             sheet.oiiotool(folder / "a.png", "--cut", "208x104", "-d", "float", "-o", folder / "cut.exr")
-            red, green, blue = sheet.mean(folder / "cut.exr")  # of 0.5, 1 and 8 as sRGB
+            red, green, blue = sheet.mean(folder / "cut.exr")  # means of 0.5, 1 and 8 as sRGB
             self.assertAlmostEqual(red, 188 / 255, delta=0.01)
             self.assertEqual((green, blue), (1.0, 1.0))
 
     def test_false_colours(self):
-        """A channel besides the image's, from dark to bright, up to the greatest value."""
+        """Tests a channel besides the image's, from dark to bright, up to the greatest value."""
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             sums = []

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Fails when docs/glossary.md is incomplete or names what is not there: check_glossary.py ROOT.
+"""Tests that docs/glossary.md is complete and names only what exists: check_glossary.py ROOT.
 
-Complete: each word of a type in the public headers ("StrategyFilm": strategy, film) is a term of the glossary or is in
-PLAIN below, the words that need no explanation to one who knows rendering, C++ and image files. True: each `Name` in the
-glossary is a name in the code.
+Complete means that each word of a type in the public headers ("StrategyFilm": strategy, film) is a term of the glossary
+or is in PLAIN below, the words that need no explanation for readers who know rendering, C++ and image files. Each
+`Name` in the glossary must be a name in the code.
 """
 
 import pathlib
@@ -24,14 +24,14 @@ PLAIN = set("""
     weight wrap write checkpoint role sheet""".split())
 
 
-def terms_of(glossary):
-    """The words of all terms, in lower case."""
+def read_terms(glossary):
+    """Returns the words of all terms, in lower case."""
     heads = re.findall(r"^- \*\*(.+?)\*\*", glossary, flags=re.M)
     return {word for head in heads for word in re.findall(r"[a-z]+", head.lower())}
 
 
-def public_types(root):
-    """The types of the public headers, by the file that has them."""
+def find_public_types(root):
+    """Returns the types of the public headers, by file."""
     declaration = re.compile(r"^(?:class|struct|enum class)\s+(?:BDPT_\w*EXPORT\s+)?(\w+)\s*(?:final\s*)?[:{]", flags=re.M)
     types = {}
     for folder in ("lib/include", "lib/io/include", "lib/eval/include"):
@@ -41,8 +41,8 @@ def public_types(root):
     return types
 
 
-def code_names(root):
-    """All names in the headers and sources of the libraries and the command."""
+def find_code_names(root):
+    """Returns all names in the headers and sources of the libraries and the command."""
     names = set()
     for folder in ("lib", "apps"):
         for file in (root / folder).rglob("*"):
@@ -53,13 +53,13 @@ def code_names(root):
 
 def errors_in(root):
     glossary = (root / "docs/glossary.md").read_text(encoding="utf-8")
-    terms = terms_of(glossary)
+    terms = read_terms(glossary)
     errors = []
-    for name, header in public_types(root).items():
+    for name, header in find_public_types(root).items():
         for word in re.findall(r"[A-Z][a-z0-9]*|[a-z0-9]+", name):
             if not {word.lower(), word.lower().removesuffix("s")} & (terms | PLAIN):
                 errors.append(f"{header}: {name}: docs/glossary.md does not explain \"{word.lower()}\"")
-    names = code_names(root)
+    names = find_code_names(root)
     for quoted in re.findall(r"`([A-Za-z_:]+(?:\(\))?)`", glossary):
         if not set(re.findall(r"\w+", quoted)) <= names:
             errors.append(f"docs/glossary.md: {quoted} is not in the code")
@@ -69,7 +69,7 @@ def errors_in(root):
 def main():
     root = pathlib.Path(sys.argv[1])
     errors = errors_in(root)
-    types = len(public_types(root))
+    types = len(find_public_types(root))
     if types < 100:
         errors.append(f"only {types} types were found")
     print("\n".join(errors) or f"the words of {types} types are explained or plain")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants gaps in a glossary and expects check_glossary to find each, and nothing in a complete one."""
+"""Tests that check_glossary finds each planted gap in a glossary, and none in a complete one."""
 
 import pathlib
 import sys

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Fails when the source tree breaks the rules of docs/architecture.md: check_layers.py ROOT.
+"""Tests that the source tree follows the rules of docs/architecture.md: check_layers.py ROOT.
 
-A folder of lib/src, lib/io/src or apps/bdpt includes only folders of a lower layer, public headers need nothing but GLM and the standard
-library, each third-party library stays where it belongs, no file is longer than 600 lines, no folder has
+A folder of lib/src, lib/io/src or apps/bdpt includes only folders of lower layers, public headers need only GLM and the
+standard library, each third-party library is used only in its area, no file is longer than 600 lines, no folder has
 more than 30 sources side by side, and every source file is listed in a CMakeLists.txt or in a .cmake file beside one.
 """
 
@@ -14,7 +14,7 @@ import sys
 LAYERS = {"math": 1, "memory": 1, "threads": 1, "film": 2, "identity": 2, "profile": 2, "rates": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
           "scene": 5, "path": 6, "integrator": 7, "pilot": 8, "render": 9, "inspect": 10}
 COMMAND_LAYERS = {"terminal": 1, "options": 2, "plan": 3, "stage": 3, "report": 4, "view": 5, "commands": 6}
-# The same of lib/io/src. Headers are named by their folder there too.
+# Layers of lib/io/src. Headers are included by their folder there too.
 IO_LAYERS = {"file": 1, "process": 1, "image": 2, "ies": 2, "output": 2, "volume": 2, "denoise": 2, "image/linear": 3, "part": 4, "oiio_module": 4, "vdb_reader": 4, "ktx_reader": 4, "gltf/checks": 3, "gltf/compression": 4,
              "gltf/document": 5, "gltf/animation": 6, "gltf/geometry": 7, "gltf/material": 7, "gltf/light_camera": 7,
              "gltf/scene": 8}
@@ -22,7 +22,7 @@ MAX_LINES = 600
 MAX_FILES = 30
 AREAS = ("lib", "apps", "tests", "benchmarks")
 
-# Area of the tree (the longest prefix counts) -> third-party and system headers that it may include.
+# Maps an area of the tree (the longest prefix counts) to the third-party and system headers that it may include.
 POSIX = r"(sys/|dlfcn\.h|fcntl\.h|link\.h|netdb\.h|netinet/in\.h|poll\.h|signal\.h|spawn\.h|unistd\.h|termios\.h)"
 INTRINSICS = r"[a-z]mmintrin\.h"
 FILE_LIBRARIES = r"(OpenEXR/|Imath/|Imf|Imath|Iex|tiny_gltf\.h|nlohmann/|fmt/|png\.h|jpeglib\.h|webp/|zlib\.h)"
@@ -56,7 +56,7 @@ ALLOWED = {
     "tests/unit/io/volume": [r"catch2/", r"openvdb/", POSIX],
     "benchmarks": [r"glm/", r"CLI/", r"OpenImageIO/", r"benchmark/", r"nlohmann/", r"embree[34]/", r"(oneapi/)?tbb/", POSIX, INTRINSICS],
 }
-# Area -> what it may include of our own by <bdpt/...>.
+# Maps an area to the headers of ours that it may include as <bdpt/...>.
 OWN = {
     "lib/include": r"bdpt/(film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
     "lib/src": r"bdpt/(film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
@@ -66,30 +66,30 @@ OWN = {
     "tests": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
     "benchmarks": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
 }
-STANDARD = re.compile(r"[a-z_]+")  # <vector>; the C headers with .h are not ours to use
+STANDARD = re.compile(r"[a-z_]+")  # like <vector>; our code does not use the C headers with .h
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 
 
-def of_area(table, path):
-    """The entry of the longest prefix of `path`, or None."""
+def find_area(table, path):
+    """Returns the entry of the longest prefix of `path`, or None."""
     prefixes = [key for key in table if path == key or path.startswith(key + "/")]
     return table[max(prefixes, key=len)] if prefixes else None
 
 
-def angle_error(path, header):
-    """What is wrong with `#include <header>` in the file `path`, or None."""
+def check_angle_include(path, header):
+    """Returns the error of `#include <header>` in the file `path`, or None."""
     if header.startswith("bdpt/"):
-        pattern = of_area(OWN, path)
+        pattern = find_area(OWN, path)
         return None if pattern and re.fullmatch(pattern, header) else f"may not include <{header}>"
     if STANDARD.fullmatch(header):
         return None
-    if any(re.match(pattern, header) for pattern in of_area(ALLOWED, path) or []):
+    if any(re.match(pattern, header) for pattern in find_area(ALLOWED, path) or []):
         return None
     return f"may not include <{header}>"
 
 
-def layer_error(layers, layer, header):
-    """What is wrong with `#include "header"` in a file of `layer`, or None."""
+def check_layer_include(layers, layer, header):
+    """Returns the error of `#include "header"` in a file of `layer`, or None."""
     folder = header.rpartition("/")[0] if layers is IO_LAYERS else header.split("/")[0]
     if layer not in layers:
         return f"is in the unknown layer {layer}"
@@ -100,26 +100,26 @@ def layer_error(layers, layer, header):
     return None
 
 
-def quoted_error(path, header):
-    """What is wrong with `#include "header"` in the file `path`, or None."""
+def check_quoted_include(path, header):
+    """Returns the error of `#include "header"` in the file `path`, or None."""
     if path.startswith(("lib/include/", "lib/io/include/", "lib/eval/include/")):
         return f'is public: "{header}" must be a <bdpt/...> header'
     folder = header.split("/")[0]
     if path.startswith("apps/bdpt/") and folder not in LAYERS:
-        return layer_error(COMMAND_LAYERS, path.split("/")[2], header) if path.count("/") > 2 else None
+        return check_layer_include(COMMAND_LAYERS, path.split("/")[2], header) if path.count("/") > 2 else None
     if not path.startswith("lib/src/"):
         may_look_inside = path.startswith(("tests/", "benchmarks/"))
         internal = folder in LAYERS and "/" in header and not may_look_inside
         if internal:
             return f'reaches into lib/src: "{header}"'
         if path.startswith("lib/io/src/"):
-            return layer_error(IO_LAYERS, path.removeprefix("lib/io/src/").rpartition("/")[0], header)
+            return check_layer_include(IO_LAYERS, path.removeprefix("lib/io/src/").rpartition("/")[0], header)
         return None
-    return layer_error(LAYERS, path.split("/")[2], header)
+    return check_layer_include(LAYERS, path.split("/")[2], header)
 
 
-def listed_sources(root):
-    """All .cpp files that the CMake scripts of the tree name, outside of comments."""
+def find_listed_sources(root):
+    """Returns all .cpp files that the CMake scripts of the tree name outside of comments."""
     listed = set()
     for area in AREAS:
         for script in [*(root / area).rglob("CMakeLists.txt"), *(root / area).rglob("*.cmake")]:
@@ -129,9 +129,9 @@ def listed_sources(root):
 
 
 def check(root):
-    """All findings, one line each; the last error is that of a tree without sources."""
+    """Returns all findings, one line each; the last one reports a tree without sources."""
     errors, count = [], 0
-    listed = listed_sources(root)
+    listed = find_listed_sources(root)
     files = [f for area in AREAS for f in sorted((root / area).rglob("*")) if f.suffix in (".h", ".hpp", ".cpp")]
     for file in files:
         path = file.relative_to(root).as_posix()
@@ -141,7 +141,7 @@ def check(root):
         if lines > MAX_LINES:
             errors.append(f"{path}: {lines} lines, {MAX_LINES} at most")
         for quoted, angle in INCLUDE.findall(text):
-            error = quoted_error(path, quoted) if quoted else angle_error(path, angle)
+            error = check_quoted_include(path, quoted) if quoted else check_angle_include(path, angle)
             if error:
                 errors.append(f"{path}: {error}")
         if file.suffix == ".cpp" and file not in listed:

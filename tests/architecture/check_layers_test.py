@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants violations in a small tree and expects check_layers to find each, and nothing in the sound tree."""
+"""Tests that check_layers finds each planted violation in a small tree, and none in the correct tree."""
 
 import pathlib
 import sys
@@ -50,7 +50,7 @@ SOUND = {
     "tests/support/catch.hpp": "#include <catch2/catch.hpp>\n",
 }
 
-# Name -> (file, its text or a line that is added to it, a part of the finding)
+# Maps a name to (file, its text or a line that is added to it, a part of the finding).
 VIOLATIONS = {
     "lower layer includes higher": ("lib/src/math/warp.h", '#include "path/walk.h"', "math (layer 1) may not include"),
     "layers of one height": ("lib/src/material/bsdf.h", '#include "geometry/ray.h"', "material (layer 3) may not"),

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Fails when our objects call functions of the C library whose last bits depend on the CPU or on the library's version:
-check_math.py NM OBJECT...
+"""Tests that our objects call no functions of the C library whose last bits depend on the CPU or on the library's
+version: check_math.py NM OBJECT...
 
-Images are equal to the bit on all machines, so what reaches the film uses lib/src/math/elementary.h instead.
+Images are equal to the bit on all machines, so code that affects the film uses lib/src/math/elementary.h instead.
 """
 
 import pathlib
@@ -10,10 +10,11 @@ import re
 import subprocess
 import sys
 
-# Functions of <math.h>, with the suffixes of float and long double; and vectors of them, as compilers call them.
+# Lists functions of <math.h>, with the suffixes of float and long double, and their vector versions as compilers call
+# them.
 INEXACT = re.compile(r"(?:a?(?:sin|cos|tan)h?|atan2|sincos|exp(?:2|10|m1)?|log(?:2|10|1p)?|pow|cbrt|hypot|erfc?|[lt]gamma"
                      r"|j[01n]|y[01n])(?:f|l|f32x?|f64x?|f128)?(?:_finite)?|_ZGV\w+")
-# Source files that need them for what is not in the film.
+# Lists source files that need them for results outside of the film.
 ALLOWED = {
     "direction_sheet.cpp": "a picture for people",
     "camera_matrices.cpp": "matrices among the metadata of files",
@@ -26,18 +27,18 @@ ALLOWED = {
 }
 
 
-def inexact_calls(symbols):
-    """The functions among the lines of `nm --undefined-only` that may differ."""
+def find_inexact_calls(symbols):
+    """Returns the functions among the lines of `nm --undefined-only` whose results may differ."""
     names = [line.split()[-1].partition("@")[0] for line in symbols.splitlines() if line.strip()]
     return sorted({name for name in names if INEXACT.fullmatch(re.sub(r"^__", "", name))})
 
 
 def check(symbols_of):
-    """All findings, by a table of objects and what nm says of each."""
+    """Returns all findings. `symbols_of` maps each object to the output of nm."""
     errors, used = [], set()
     for path, symbols in symbols_of.items():
         source = re.sub(r"\.o(bj)?$", "", pathlib.Path(path).name)
-        calls = inexact_calls(symbols)
+        calls = find_inexact_calls(symbols)
         if calls and source in ALLOWED:
             used.add(source)
         elif calls:

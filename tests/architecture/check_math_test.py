@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants calls in what nm says of objects, and expects check_math to find each."""
+"""Tests that check_math finds each planted call in the output of nm."""
 
 import sys
 import unittest

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Fails when scenes/*.gltf are not what scenes/make_scenes.py writes, to the byte, or the README names other files:
-check_scenes.py ROOT."""
+"""Tests that scenes/*.gltf equal the output of scenes/make_scenes.py to the byte, and that the README lists these
+files: check_scenes.py ROOT."""
 
 import pathlib
 import re
@@ -10,7 +10,7 @@ import tempfile
 
 
 def check(scenes):
-    """All findings, one line each."""
+    """Returns all findings, one line each."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([sys.executable, str(scenes / "make_scenes.py"), folder], check=True)
         made = {file.name: file.read_bytes() for file in pathlib.Path(folder).iterdir()}

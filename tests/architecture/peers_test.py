@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests benchmarks/peers without any peer: peers_test.py [BDPT]. Without the command, what needs it is skipped."""
+"""Tests benchmarks/peers without any peer: peers_test.py [BDPT]. Skips tests that need the command without it."""
 
 import dataclasses
 import json
@@ -45,7 +45,7 @@ def mesh_of(described, name):
 
 
 def area_vector(mesh):
-    """The sum of area times normal over its triangles."""
+    """Returns the sum of area times normal over its triangles."""
     total = [0.0, 0.0, 0.0]
     for a, b, c in ([mesh.positions[i] for i in triangle] for triangle in mesh.triangles):
         e, f = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, c)]
@@ -87,7 +87,7 @@ class Reader(unittest.TestCase):
         self.assertAlmostEqual(described.camera.vertical_fov, 2 * math.atan(0.0125 / 0.035), places=6)
 
     def test_transforms(self):
-        """Plates that glow downwards do so when they are mirrored, too."""
+        """Tests that plates that emit downwards still do when they are mirrored."""
         described = scene("instances")
         for name in ("plain plate", "mirrored plate"):
             vector = area_vector(mesh_of(described, name))
@@ -177,7 +177,7 @@ class Writer(unittest.TestCase):
 
     @unittest.skipUnless(BDPT, "no command is given")
     def test_bdpt_sees_the_same(self):
-        """Images of a scene and of its copy, where nothing is changed."""
+        """Compares images of a scene and of its copy, where the copy has no changes."""
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             gltf_writer.write(scene("cornell-box-hidden"), folder / "copy.gltf")
@@ -234,7 +234,7 @@ class Adapters(unittest.TestCase):
                          ("--fog", "1,2,3", "--fog-albedo", "1,0.5,1", "--fog-anisotropy", "0.1"))
 
     def test_camera_of_luxcore(self):
-        """Its images are a row too low, so its window is moved; the field of view is vertical."""
+        """Tests that the window compensates LuxCore's row offset, and that the field of view is vertical."""
         camera = scene("cornell-box").camera
         values = luxcore_peer.camera_properties(camera, JOB)
         self.assertEqual(values["scene.camera.screenwindow"], [-2.0, 2.0, -1.1, 0.9])
@@ -260,7 +260,7 @@ class Adapters(unittest.TestCase):
 
 
 class Recorder:
-    """Has any attribute that is asked for."""
+    """Provides any attribute that is requested."""
 
     def __getattr__(self, name):
         self.__dict__[name] = Recorder()
@@ -274,7 +274,7 @@ def bias_report(value, error):
 
 class Judgement(unittest.TestCase):
     def test_means(self):
-        """Errors of three images, and the reference's, add up as variances."""
+        """Tests that errors of three images and of the reference add up as variances."""
         far = contest.decide_means([bias_report(0.12, 0.03)] * 3, {"mean": 0.01})["mean"]
         self.assertAlmostEqual(far["standard_error"], math.hypot(0.03 / math.sqrt(3), 0.01))
         self.assertAlmostEqual(far["z"], 0.12 / far["standard_error"])

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Changes a bit here and there in what two renders wrote, and expects same_bits to find each change, and nothing in
-what only clocks tell apart."""
+"""Tests that same_bits finds each changed bit in the output of two renders, and ignores differences of clocks."""
 
 import contextlib
 import io
@@ -19,19 +18,19 @@ import differences
 import exr_bits
 import same_bits
 
-WIDTH, HEIGHT = 3, 18  # more than one chunk
+WIDTH, HEIGHT = 3, 18  # needs more than one chunk
 STATS = {"file": "a.gltf", "seconds": {"render": 1.0}, "paths": {"camera": 7}, "rays": {"camera": 9, "per_second": 3.0}}
 
 
 def zipped(data):
-    """As OpenEXR does: odd and even bytes apart, then differences of neighbours, then deflate."""
+    """Compresses like OpenEXR: splits odd and even bytes, takes differences of neighbours, then deflates."""
     mixed = data[0::2] + data[1::2]
     packed = zlib.compress(bytes([mixed[0]]) + bytes((b - a + 128) & 255 for a, b in zip(mixed, mixed[1:])))
     return packed if len(packed) < len(data) else data
 
 
 def exr(channels, compression, created="2026:01:01 00:00:00", **more):
-    """A file with those channels of floats; each has a value for each pixel."""
+    """Returns a file with those channels of floats; each has a value for each pixel."""
     attributes = {"channels": b"".join(name.encode() + struct.pack("<xi4x2i", 2, 1, 1) for name in channels) + b"\0",
                   "compression": bytes([compression]), "dataWindow": struct.pack("<4i", 0, 0, WIDTH - 1, HEIGHT - 1),
                   "capDate": created.encode(), **{name: value.encode() for name, value in more.items()}}
@@ -48,7 +47,7 @@ def exr(channels, compression, created="2026:01:01 00:00:00", **more):
 
 
 def pixels(changed=()):
-    """A channel; the values at `changed` are one bit up."""
+    """Returns the values of a channel; those at `changed` are one bit greater."""
     values = [0.5 + 0.01 * i for i in range(WIDTH * HEIGHT)]
     bits = [struct.unpack("<I", struct.pack("<f", value))[0] + (i in changed) for i, value in enumerate(values)]
     return [struct.unpack("<f", struct.pack("<I", bit))[0] for bit in bits]
@@ -110,10 +109,10 @@ sys.exit({code})
 
 
 class Command(unittest.TestCase):
-    """With programs that render nothing."""
+    """Tests the command with programs that render nothing."""
 
     def run_with(self, more=(), **changes):
-        """Exit code and last line, for a sound program and one with those changes."""
+        """Returns exit code and last line, for a correct program and one with those changes."""
         sound = {"python": sys.executable, "exr": exr({"R": pixels()}, 3).hex(), "stats": STATS, "warning": "dark", "code": 0}
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)

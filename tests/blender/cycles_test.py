@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The engine agrees with Cycles: cycles_test.py BDPT. Needs Blender (exit code 77 without).
+"""Tests that the engine agrees with Cycles: cycles_test.py BDPT. Needs Blender (exits with 77 without it).
 
-Renders small scenes with lamps of every kind, skies, depth of field and motion blur by both, and compares means.
+Renders small scenes with lamps of every kind, skies, depth of field and motion blur with both, and compares means.
 """
 
 import math
@@ -16,12 +16,12 @@ if bpy:
     from bdpt_render import meshes
     make_glass_solid = meshes.make_glass_solid
 
-# Noise of the mean of so many pixels, and BSDFs that are not quite the same.
+# Allows for the noise of the mean of so many pixels, and for slightly different BSDFs.
 CLOSE = 0.03
 
 
 def sky_image(scene, turned=0.0):
-    """Bright in one direction, to see that it is turned as in Cycles."""
+    """Returns a sky that is bright in one direction, so that a wrong rotation shows."""
     import numpy as np
     nodes, links = scene.world.node_tree.nodes, scene.world.node_tree.links
     image = bpy.data.images.new("sky", 64, 32, float_buffer=True)
@@ -50,7 +50,7 @@ def lamp_with_nodes():
 
 
 def glass(scene, on):
-    """A ball that refracts, as a body; else a sheet that does not."""
+    """Adds a ball that refracts as a solid body; without `on`, a sheet that does not refract."""
     sky(scene)
     meshes.make_glass_solid = make_glass_solid if on else lambda glb: None
     shader = paint(bpy.data.objects["ball"], "glass", (1, 1, 1, 1))
@@ -87,7 +87,7 @@ def depth_of_field(scene, on):
 
 
 def motion_blur(scene, on):
-    """The ball moves to the right, while the camera turns."""
+    """Moves the ball to the right while the camera turns."""
     shining_ball(scene)
     ball = bpy.data.objects["ball"]
     for frame, x, turn in ((0, -2, 0.1), (2, 2, -0.1)):
@@ -102,44 +102,44 @@ def motion_blur(scene, on):
 PLACES = {"glass": glass, "depth of field": depth_of_field, "motion blur": motion_blur}
 
 
-def by_cycles(scene, folder):
+def render_by_cycles(scene, folder):
     scene.render.engine = "CYCLES"
     scene.cycles.device, scene.cycles.samples, scene.cycles.use_adaptive_sampling = "CPU", 128, False
     scene.cycles.use_denoising = False
     return rendered(scene, folder / "cycles.exr")[..., :3]
 
 
-def by_bdpt(scene, folder):
+def render_by_bdpt(scene, folder):
     scene.render.engine = "BDPT"
     scene.bdpt.samples = 128
     return rendered(scene, folder / "bdpt.exr")[..., :3]
 
 
-def blocks(image, columns, rows):
-    """Means of so many blocks."""
+def average_blocks(image, columns, rows):
+    """Returns the means of columns x rows blocks."""
     height, width = image.shape[0] // rows, image.shape[1] // columns
     return image.mean(axis=-1).reshape(rows, height, columns, width).mean(axis=(1, 3))
 
 
 def compare(name, light, folder):
-    """Of the whole image, and of its quarters, so that a turned or mirrored image is found out."""
+    """Compares means of the whole image, and of its quarters, so that a rotated or mirrored image is detected."""
     scene = new_scene()
     light(scene)
-    theirs, ours = by_cycles(scene, folder), by_bdpt(scene, folder)
+    theirs, ours = render_by_cycles(scene, folder), render_by_bdpt(scene, folder)
     whole = float(ours.mean() / theirs.mean())
-    ratios = (blocks(ours, 2, 2) / blocks(theirs, 2, 2).clip(1e-6)).ravel()
+    ratios = (average_blocks(ours, 2, 2) / average_blocks(theirs, 2, 2).clip(1e-6)).ravel()
     print(f"{name}: bdpt / Cycles {whole:.4f}, quarters {', '.join(f'{ratio:.3f}' for ratio in ratios)}", flush=True)
     if abs(whole - 1) > CLOSE or abs(ratios - 1).max() > 3 * CLOSE:
         yield f"{name}: {whole}, {ratios}"
 
 
 def compare_places(name, place, folder):
-    """Where light is, by blocks of 4 x 4 pixels; it would be elsewhere without what is tested."""
+    """Compares where the light is, by blocks of 4 x 4 pixels; the tested feature moves it."""
     images = []
-    for render, on in ((by_cycles, True), (by_bdpt, True), (by_bdpt, False)):
+    for render, on in ((render_by_cycles, True), (render_by_bdpt, True), (render_by_bdpt, False)):
         scene = new_scene()
         place(scene, on)
-        images.append(blocks(render(scene, folder), 12, 8))
+        images.append(average_blocks(render(scene, folder), 12, 8))
     theirs, ours, sharp = images
     error, without = (abs(image - theirs).sum() / theirs.sum() for image in (ours, sharp))
     print(f"{name}: differs from Cycles by {error:.3f}, without it by {without:.3f}", flush=True)

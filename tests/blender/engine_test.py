@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The engine in Blender: engine_test.py BDPT ADDON.zip. Needs Blender (exit code 77 without).
+"""Tests the engine in Blender: engine_test.py BDPT ADDON.zip. Needs Blender (exits with 77 without it).
 
-Images are those of the command to the bit; passes, cameras, regions, animations, cancelling and errors are checked against
-what Blender itself says of the scene.
+Tests that images equal those of the command to the bit, and compares passes, cameras, regions, animations, cancelling
+and errors with Blender's own data about the scene.
 """
 
 import contextlib
@@ -37,8 +37,8 @@ def lit_scene(samples=4):
 
 
 @contextlib.contextmanager
-def recorded_passes():
-    """Pixels of all passes by name, row 0 on top, as Blender's result has them after each render."""
+def record_passes():
+    """Records the pixels of all passes by name, row 0 on top, as Blender's result holds them after each render."""
     found, fill = {}, passes.fill
 
     def record(result, scene, layer, exr):
@@ -54,14 +54,14 @@ def recorded_passes():
         passes.fill = fill
 
 
-def passes_of(scene, folder):
-    with recorded_passes() as found:
+def list_passes(scene, folder):
+    with record_passes() as found:
         rendered(scene, folder / "passes.exr")
     return found
 
 
-def error_of(scene, **options):
-    """The message of a render that fails."""
+def catch_render_error(scene, **options):
+    """Returns the message of a render that fails."""
     output = io.StringIO()
     try:
         with contextlib.redirect_stderr(output):
@@ -78,13 +78,13 @@ def test_image_is_that_of_the_command(folder):
     scene = lit_scene()
     scene.bdpt.options = f"-o {folder}/command.exr"
     ours = rendered(scene, folder / "blender.exr")
-    import_of_blender = rendered_by_command(folder / "command.exr")
+    import_of_blender = render_by_command(folder / "command.exr")
     assert ours.shape == (SIZE[1], SIZE[0], 4) and ours[..., :3].mean() > 0.1
     assert np.array_equal(ours[..., :3], import_of_blender[..., :3]) and (ours[..., 3] == 1).all()
 
 
-def rendered_by_command(file):
-    """As Blender's own reader of OpenEXR has it."""
+def render_by_command(file):
+    """Renders with the command; reads the image as Blender's own OpenEXR reader does."""
     from in_blender import read
     return read(file)
 
@@ -97,7 +97,7 @@ def test_options_reach_the_command(folder):
     said = Exr(folder / "command.exr").texts["bdpt.settings"]
     for words in ('"integrator":"mis"', '"max_depth":3', '"spp":5', '"seed":7'):
         assert words in said, f"{words} is not in {said}"
-    # Without these limits it would never end.
+    # These limits end a render that otherwise would not end.
     scene.bdpt.samples, scene.bdpt.time, scene.bdpt.options = 10**9, 0.3, ""
     rendered(scene, folder / "blender.exr")
     scene.bdpt.time, scene.bdpt.noise = 0.0, 50.0
@@ -110,8 +110,8 @@ def test_passes(folder):
         setattr(layer, f"use_pass_{name}", True)
     layer.bdpt.use_pass_denoising_data = True
     scene.bdpt.options = f"-o {folder}/command.exr"
-    found = passes_of(scene, folder)
-    y, x = 28, 24  # a pixel of the floor before the ball
+    found = list_passes(scene, folder)
+    y, x = 28, 24  # a pixel of the floor in front of the ball
     place = mathutils.Vector([float(value) for value in found["Position"][y, x]])
     assert abs(place.z) < 1e-5 and np.allclose(found["Normal"][y, x], (0, 0, 1), atol=1e-5)
     depth = -(scene.camera.matrix_world.inverted() @ place).z
@@ -143,7 +143,7 @@ def test_multilayer_file(folder):
 
 
 def test_cryptomatte_node(folder):
-    """Blender's own node finds an object by its name."""
+    """Tests that Blender's own node finds an object by its name."""
     scene = lit_scene()
     if not (4, 0, 0) <= bpy.app.version < (5, 0, 0):
         print("  not tested: compositors of other versions of Blender are set up in other ways")
@@ -166,16 +166,16 @@ def test_denoising(folder):
     scene = lit_scene(1)
     sky(scene)
     bpy.context.view_layer.bdpt.use_pass_denoising_data = scene.bdpt.denoise = True
-    found = passes_of(scene, folder)
+    found = list_passes(scene, folder)
     rough = lambda image: np.abs(np.diff(image[24:, :, 1], axis=1)).mean()
     assert rough(found["Combined"]) < 0.5 * rough(found["Noisy Image"])
 
 
 def assert_camera_agrees(scene, folder, name):
-    """Points that pixels show are where Blender projects them to."""
+    """Tests that points that pixels show are where Blender projects them."""
     bpy.context.view_layer.use_pass_position = True
     scene.bdpt.samples = 1
-    found = passes_of(scene, folder)["Position"]
+    found = list_passes(scene, folder)["Position"]
     width, height = scene.render.resolution_x, scene.render.resolution_y
     left, top = 0, 0
     if scene.render.use_border:
@@ -189,7 +189,7 @@ def assert_camera_agrees(scene, folder, name):
                 errors.append((place.x * width - (x + left + 0.5), (1.0 - place.y) * height - (y + top + 0.5)))
     assert len(errors) > 100, f"{name}: {len(errors)} points"
     mean, worst = np.mean(errors, axis=0), np.abs(errors).max()
-    # One sample lies anywhere in its pixel; shifts are rounded to pixels.
+    # A sample lies anywhere in its pixel; shifts are rounded to pixels.
     assert np.abs(mean).max() < 0.1 and worst < 0.6, f"{name}: off by {mean}, at most {worst}"
 
 
@@ -245,18 +245,18 @@ def test_transparent_film(folder):
     assert alpha[0].max() == 0 and alpha[18, 24] == 1
 
 
-def shown_names(scene, folder):
-    """Objects that are seen, by their mattes."""
+def find_shown_names(scene, folder):
+    """Returns the names of visible objects, from their mattes."""
     bpy.context.view_layer.use_pass_cryptomatte_object = True
     scene.bdpt.options = f"-o {folder}/command.exr"
-    ids = passes_of(scene, folder)["CryptoObject00"].view(np.uint32)[..., 0]
+    ids = list_passes(scene, folder)["CryptoObject00"].view(np.uint32)[..., 0]
     texts = Exr(folder / "command.exr").texts
     manifest = eval(next(text for key, text in texts.items() if key.endswith("/manifest")))
     return {name for name, value in manifest.items() if (ids == int(value, 16)).any()}
 
 
 def test_what_is_shown(folder):
-    """What renders show, which viewports may not; instances; everything is as it was afterwards."""
+    """Tests objects that only renders show, and instances; and that the scene is unchanged afterwards."""
     scene = lit_scene()
     for number, name in enumerate(("hidden", "hidden in views", "excluded", "instanced")):
         bpy.ops.mesh.primitive_cube_add(size=0.5, location=(number - 1.5, -1.5, 0.25))
@@ -275,7 +275,7 @@ def test_what_is_shown(folder):
     scene.collection.objects.link(empty)
     kinds = ("objects", "meshes", "materials", "scenes", "images", "cameras", "lights", "collections")
     before = {kind: sorted(getattr(bpy.data, kind).keys()) for kind in kinds}
-    shown = shown_names(scene, folder)
+    shown = find_shown_names(scene, folder)
     assert shown == {"floor", "ball", "hidden in views", "instanced"}, shown
     after = {kind: sorted(getattr(bpy.data, kind).keys()) for kind in kinds}
     after["images"] = [name for name in after["images"] if name != "Render Result"]
@@ -283,7 +283,7 @@ def test_what_is_shown(folder):
 
 
 def test_view_layers(folder):
-    """Each has its own image: the second one lacks the ball."""
+    """Tests that each view layer has its own image: the second one lacks the ball."""
     scene = lit_scene()
     collection = bpy.data.collections.new("of the ball")
     scene.collection.children.link(collection)
@@ -310,12 +310,12 @@ def test_modifiers_of_renders(folder):
     array = bpy.data.objects["ball"].modifiers.new("array", "ARRAY")
     array.show_viewport, array.show_render, array.count = False, True, 2
     bpy.context.view_layer.use_pass_position = True
-    # Twice as wide, though the viewport shows one ball.
-    assert passes_of(scene, folder)["Position"][18, :, 0].max() > 1.5
+    # The image is twice as wide, though the viewport shows one ball.
+    assert list_passes(scene, folder)["Position"][18, :, 0].max() > 1.5
 
 
 def test_animation(folder):
-    """The ball moves, and its colour changes; the scene stays at its frame."""
+    """Tests a moving ball that changes its colour; the scene stays at its frame."""
     scene = lit_scene()
     ball = bpy.data.objects["ball"]
     color = ball.active_material.node_tree.nodes["Principled BSDF"].inputs["Base Color"]
@@ -330,8 +330,8 @@ def test_animation(folder):
     scene.render.image_settings.file_format = "OPEN_EXR"
     scene.render.filepath = str(folder / "frame.")
     found, all_found = {}, []
-    with recorded_passes() as found:
-        end = bdpt_end_of(scene, lambda: all_found.append(dict(found)))
+    with record_passes() as found:
+        end = call_after_frames(scene, lambda: all_found.append(dict(found)))
         bpy.ops.render.render(animation=True)
         end()
     assert sorted(file.name for file in folder.glob("frame.*")) == [f"frame.{n:04d}.exr" for n in (1, 2, 3)]
@@ -345,25 +345,25 @@ def test_animation(folder):
     assert np.allclose(greens, (0, 0.5, 1), atol=0.02), greens
     assert scene.frame_current == 1
     scene.render.use_motion_blur, scene.camera.data.type = True, "PANO"
-    error_of(scene)
+    catch_render_error(scene)
     assert scene.frame_current == 1 and scene.frame_subframe == 0, "an error leaves the scene at another frame"
 
 
-def bdpt_end_of(scene, function):
-    """Calls function() after each frame, until what is given back is called."""
+def call_after_frames(scene, function):
+    """Calls function() after each frame, until the returned function is called."""
     handler = lambda *_: function()
     bpy.app.handlers.render_post.append(handler)
     return lambda: bpy.app.handlers.render_post.remove(handler)
 
 
 def test_cancelling(folder):
-    """Blender says that the user wants to end it, which else would never end: what has been rendered is kept."""
+    """Tests that an endless render ends when Blender reports that the user cancels, and keeps its image."""
     scene = lit_scene(10**9)
     asked = []
     cancelled = engine.BDPT_RenderEngine._cancelled
     engine.BDPT_RenderEngine._cancelled = lambda self: asked.append(True) or len(asked) > 5
     try:
-        found = passes_of(scene, folder)
+        found = list_passes(scene, folder)
     finally:
         engine.BDPT_RenderEngine._cancelled = cancelled
     assert found["Combined"][..., :3].mean() > 0.1
@@ -372,32 +372,32 @@ def test_cancelling(folder):
 def test_errors(folder):
     scene = lit_scene()
     scene.bdpt.options = "--spp nonsense"
-    assert "nonsense" in error_of(scene)
+    assert "nonsense" in catch_render_error(scene)
     scene.bdpt.options = "--seed '1"
-    assert "Options" in error_of(scene)
+    assert "Options" in catch_render_error(scene)
     scene.bdpt.options = ""
     scene.camera.data.type = "PANO"
-    assert "panoramic" in error_of(scene)
+    assert "panoramic" in catch_render_error(scene)
     scene.camera.data.type = "PERSP"
     path, os.environ["PATH"] = os.environ["PATH"], ""
     try:
-        assert "not found" in error_of(scene) and "Preferences" in error_of(scene)
+        assert "not found" in catch_render_error(scene) and "Preferences" in catch_render_error(scene)
         scene.render.filepath, scene.frame_end = str(folder / "failed."), 3
-        error_of(scene, animation=True)
+        catch_render_error(scene, animation=True)
     finally:
         os.environ["PATH"] = path
     assert not list(folder.glob("failed.*")), "an image of a failed render"
     chosen, engine.settings.chosen_command = engine.settings.chosen_command, lambda: str(folder / "gone")
     try:
-        assert f"{folder}/gone" in error_of(scene)
+        assert f"{folder}/gone" in catch_render_error(scene)
     finally:
         engine.settings.chosen_command = chosen
     scene.camera = None
-    assert "camera" in error_of(scene)
+    assert "camera" in catch_render_error(scene)
 
 
 def test_warnings(folder):
-    """What gets lost is said, once."""
+    """Tests that features that bdpt ignores are reported, once."""
     scene = lit_scene(1)
     said = []
     report = engine.BDPT_RenderEngine.report_to_user
@@ -430,7 +430,7 @@ def test_warnings(folder):
 
 
 def test_live_image(folder):
-    """The last image that is shown is the one that is written."""
+    """Tests that the last image shown is the one that is written."""
     live = LiveImage()
     try:
         subprocess.run(["bdpt", "render", "scenes/cornell-box.gltf", "--size", "40x30", "--crop", "5,2,33,21", "--spp", "16",
@@ -451,13 +451,13 @@ def test_live_image(folder):
 
 
 def test_half_files(folder):
-    """The reader of OpenEXR files knows half floats and chunks that do not shrink, as Blender's own does."""
+    """Tests that the OpenEXR reader supports half floats and uncompressed chunks, as Blender's own does."""
     scene = lit_scene(1)
     scene.bdpt.options = f"--half -o {folder}/command.exr"
     rendered(scene, folder / "blender.exr")
     ours = Exr(folder / "command.exr")
     assert ours.channels["R"].dtype == np.float16
-    assert np.array_equal(ours.pixels("RGB"), rendered_by_command(folder / "command.exr")[..., :3])
+    assert np.array_equal(ours.pixels("RGB"), render_by_command(folder / "command.exr")[..., :3])
 
 
 def test_registration(folder):
@@ -469,8 +469,8 @@ def test_registration(folder):
     bdpt_render.register()
 
 
-def installed(archive):
-    """Installs and enables the add-on as users do; the name of its package."""
+def install_addon(archive):
+    """Installs and enables the add-on as users do; returns the name of its package."""
     if bpy.app.version < (4, 2, 0):
         bpy.ops.preferences.addon_install(filepath=archive)
         bpy.ops.preferences.addon_enable(module="bdpt_render")
@@ -480,18 +480,19 @@ def installed(archive):
 
 
 def test_installation(folder):
-    """The archive, installed, renders by the command that its preferences name. The last test: it takes the add-on's place."""
-    scene = new_scene()  # first, as it resets preferences
+    """Tests that the installed archive renders with the command in its preferences. Runs last, because it replaces the
+    add-on."""
+    scene = new_scene()  # first, because it resets preferences
     bdpt_render.unregister()
     for name in [name for name in sys.modules if name.startswith("bdpt_render")]:
         del sys.modules[name]
     sys.path.remove(str(ROOT / "apps" / "blender"))
-    package = installed(archive)
+    package = install_addon(archive)
     scene.render.engine = "BDPT"
     sky(scene)
     path, os.environ["PATH"] = os.environ["PATH"], ""
     try:
-        assert "not found" in error_of(scene)
+        assert "not found" in catch_render_error(scene)
         bpy.context.preferences.addons[package].preferences.command = program
         scene.bdpt.samples = 1
         assert rendered(scene, folder / "image.exr")[..., 2].mean() > 0.1

@@ -1,4 +1,4 @@
-"""Runs tests of the add-on in Blender: by its module bpy, or else in the program; and scenes for them."""
+"""Runs tests of the add-on in Blender, in its module bpy or else in the program; builds scenes for them."""
 
 import math
 import os
@@ -15,7 +15,7 @@ SIZE = (48, 32)
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "apps" / "blender"))
 
-# What tests install goes here, and the user's own add-ons stay out.
+# Add-ons of tests are installed here, and those of the user are not loaded.
 if "BDPT_TEST_USER" not in os.environ:
     os.environ["BDPT_TEST_USER"] = tempfile.mkdtemp(prefix="bdpt-blender-")
     for kind in ("CONFIG", "SCRIPTS", "EXTENSIONS", "DATAFILES"):
@@ -29,7 +29,7 @@ except ImportError:
 
 
 def run(main):
-    """Ends the process by what main(BDPT, ADDON) returns, the arguments of the script: the command and the archive."""
+    """Ends the process with the result of main(BDPT, ADDON). The script's arguments are the command and the archive."""
     if bpy is None:
         blender = shutil.which("blender")
         if blender is None:
@@ -52,11 +52,11 @@ def run(main):
         code = 1
     shutil.rmtree(os.environ["BDPT_TEST_USER"], ignore_errors=True)
     sys.stdout.flush()
-    os._exit(code)  # the module may crash when it is taken down after an operator that failed
+    os._exit(code)  # the module may crash at exit after an operator that failed
 
 
 def new_scene():
-    """A grey floor, a red ball, a camera; no light."""
+    """Makes a scene with a grey floor, a red ball and a camera, without light."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     bpy.ops.mesh.primitive_plane_add(size=8)
@@ -81,13 +81,13 @@ def background(scene):
 
 
 def paint(thing, name, color, light=0.0):
-    """A diffuse material, which shines with that radiance."""
+    """Gives an object a diffuse material that emits that radiance."""
     material = bpy.data.materials.new(name)
     material.use_nodes = True
     shader = material.node_tree.nodes["Principled BSDF"]
     shader.inputs["Base Color"].default_value = color
     shader.inputs["Roughness"].default_value = 1.0
-    # Blender 4.0 renamed some.
+    # Blender 4.0 renamed some inputs.
     socket(shader, "Specular IOR Level", "Specular").default_value = 0.0
     socket(shader, "Emission Color", "Emission").default_value = color
     shader.inputs["Emission Strength"].default_value = light
@@ -114,7 +114,7 @@ def sky(scene, color=(0.2, 0.4, 0.8, 1), strength=0.7):
 
 
 def rendered(scene, file):
-    """The image [height, width, RGBA], row 0 on top, as Blender writes and reads it."""
+    """Renders; returns the image [height, width, RGBA], row 0 on top, as Blender writes and reads it."""
     scene.render.image_settings.file_format = "OPEN_EXR"
     scene.render.image_settings.color_depth = "32"
     scene.render.image_settings.color_mode = "RGBA"

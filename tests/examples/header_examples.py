@@ -2,7 +2,7 @@
 """Writes a source file that compiles the examples of all public headers: header_examples.py ROOT OUTPUT.cpp. Fails,
 with a line for each, when headers have no example.
 
-A public header begins with `#pragma once`, an empty line and a comment that says what one uses it for:
+A public header begins with `#pragma once`, an empty line and a comment that explains the use of the header:
 
     /// @file
     /// Reads glTF files.
@@ -12,8 +12,8 @@ A public header begins with `#pragma once`, an empty line and a comment that say
     /// const bdpt::Scene scene(std::move(file.scene));
     /// @endcode
 
-The example is the body of a function, or, to take parameters, a whole function: then `{` has a line of its own.
-All public headers and the usual ones of the standard library are included.
+The example is the body of a function or, to take parameters, a whole function: then `{` has a line of its own.
+The source file includes all public headers and the usual ones of the standard library.
 """
 
 import pathlib
@@ -29,8 +29,8 @@ COMMENT = re.compile(r"#pragma once\n\n(/// @file\n(?:///.*\n)+)")
 EXAMPLE = re.compile(r"^/// @code\{\.cpp\}\n((?:///.*\n)+?)/// @endcode\n", re.MULTILINE)
 
 
-def public_headers(root):
-    """Files and the names by which they are included, in the order of the names."""
+def find_public_headers(root):
+    """Returns files and the names by which they are included, in the order of the names."""
     headers = []
     for folder in FOLDERS:
         for file in (root / folder).rglob("*"):
@@ -40,19 +40,19 @@ def public_headers(root):
     return sorted(headers)
 
 
-def example_of(text):
-    """The line where a header's example begins, counted from 1, and its lines, indented; or None."""
+def find_example(text):
+    """Returns the line where a header's example begins, counted from 1, and its lines, indented; or None."""
     comment = COMMENT.match(text)
     example = comment and EXAMPLE.search(comment[1])
     if not example:
         return None
     line = text.count("\n", 0, comment.start(1) + example.start(1)) + 1
-    # Columns stay those of the header, for messages of the compiler.
+    # Keeps the columns of the header, for compiler messages.
     return line, ["    " + line[4:] for line in example[1].splitlines()]
 
 
-def function_of(name, file, example):
-    """The text of a namespace with the example of the header `name`."""
+def write_function(name, file, example):
+    """Returns the text of a namespace with the example of the header `name`."""
     line, code = example
     begin, end = ("", "") if "    {" in code else ("void run()\n{\n", "}\n")
     space = "example_" + re.sub(r"\W", "_", name.removesuffix(".h"))
@@ -60,14 +60,14 @@ def function_of(name, file, example):
 
 
 def source(root):
-    """The text of the source file, and what is wrong: a line for each header without an example."""
-    headers = public_headers(root)
+    """Returns the text of the source file, and the errors: a line for each header without an example."""
+    headers = find_public_headers(root)
     errors = [] if headers else [f"{root}: no public headers"]
     functions = []
     for name, file in headers:
-        example = example_of(file.read_text(encoding="utf-8"))
+        example = find_example(file.read_text(encoding="utf-8"))
         if example:
-            functions.append(function_of(name, file, example))
+            functions.append(write_function(name, file, example))
         elif name not in EXEMPT:
             errors.append(f"{file.relative_to(root).as_posix()}: no example after #pragma once: a comment with "
                           "/// @file, /// @code{.cpp} and /// @endcode")

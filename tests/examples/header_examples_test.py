@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Expects an example in each public header of the tree, and header_examples to report planted headers without one."""
+"""Tests that each public header has an example, and that header_examples reports planted headers without one."""
 
 import pathlib
 import subprocess
@@ -19,7 +19,7 @@ SOUND = {
                                     "/// void f(int n)\n/// {\n///\n///     ++n;\n/// }\n/// @endcode\n\n"
                                     "#include <vector>\n",
 }
-# Name -> (header, its text after the first two lines)
+# Maps a name to (header, its text after the first two lines).
 WITHOUT = {
     "no comment": ("lib/include/bdpt/scene.h", "#include <vector>\n"),
     "comment without example": ("lib/include/bdpt/scene.h", "/// @file\n/// Holds a scene.\n\nint i;\n"),
@@ -33,7 +33,7 @@ WITHOUT = {
 
 
 def run(root):
-    """The exit code of the script on a tree, its messages, and the text that it writes, if any."""
+    """Runs the script on a tree; returns its exit code, its messages, and the text that it writes, if any."""
     with tempfile.TemporaryDirectory() as folder:
         output = pathlib.Path(folder) / "examples.cpp"
         done = subprocess.run([sys.executable, header_examples.__file__, str(root), str(output)], capture_output=True,

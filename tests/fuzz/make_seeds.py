@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Writes the seeds of the fuzzers: make_seeds.py FOLDER [BDPT]. Needs oiiotool for JPEG and WebP, and BDPT for parts of
-renders, plans and rates; all else is made here.
+renders, plans and rates.
 
-FOLDER/scene holds scenes that use what the loader has code for; those of tests/data/compressed go with them.
+FOLDER/scene holds scenes that cover the loader; those of tests/data/compressed belong to them.
 FOLDER/image holds an image of each format.
-FOLDER/part holds parts of renders, and what they say in JSON.
+FOLDER/part holds parts of renders, and their JSON metadata.
 FOLDER/plan holds plans of renders, FOLDER/rates rates of samples.
 """
 
@@ -27,7 +27,7 @@ def chunk(name, data):
 
 
 def png(width, height, color_type=6):
-    """Each pixel another colour. 0 is grey, 2 RGB, 6 RGB with alpha."""
+    """Returns a PNG whose pixels all differ in colour. Type 0 is grey, 2 RGB, 6 RGB with alpha."""
     channels = {0: 1, 2: 3, 6: 4}[color_type]
     rows = b"".join(b"\0" + bytes((37 * (x + y * width) + 60 * c) % 256 for x in range(width) for c in range(channels))
                     for y in range(height))
@@ -36,7 +36,7 @@ def png(width, height, color_type=6):
 
 
 def exr(width, height):
-    """OpenEXR: scanlines of half R, G, B, without compression."""
+    """Returns an OpenEXR file: scan lines of half R, G, B, uncompressed."""
     def attribute(name, kind, data):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<I", len(data)) + data
 
@@ -56,13 +56,13 @@ def exr(width, height):
 
 
 def hdr(resolution, *scanlines, lines=""):
-    """Radiance HDR; scanlines are flat or encoded."""
+    """Returns a Radiance HDR file; scan lines are flat or run-length encoded."""
     head = f"#?RADIANCE\n{lines}FORMAT=32-bit_rle_rgbe\n\n{resolution}\n".encode()
     return head + b"".join(map(bytes, scanlines))
 
 
 def environments():
-    """Radiance HDR in all encodings and with all that changes pixels."""
+    """Returns Radiance HDR files in all encodings and with all header fields that change pixels."""
     pixel = [128, 64, 32, 129]
     newer = [2, 2, 0, 10, *[138, 7], *[3, 200, 201, 202, 135, 9], *[10, *range(10)], *[138, 130]]
     return {"flat.hdr": hdr("-Y 2 +X 4", 8 * pixel),
@@ -71,7 +71,7 @@ def environments():
 
 
 class Document:
-    """A glTF document in the making, with one buffer."""
+    """Builds a glTF document with one buffer."""
 
     def __init__(self):
         self.bytes = b""
@@ -93,7 +93,7 @@ class Document:
         return self.accessor(5126, kind, values)
 
     def sparse(self, count, indices, values):
-        """Displacements of a few vertices; all others are zero."""
+        """Adds displacements of a few vertices; all others are zero."""
         place = {"bufferView": self.view(bytes(indices)), "componentType": 5121}
         value_view = self.view(struct.pack(f"<{len(values)}f", *values))
         self.json["accessors"].append({"componentType": 5126, "type": "VEC3", "count": count, "sparse": {
@@ -126,7 +126,7 @@ def square(document):
 
 
 def rig():
-    """A skin of two joints, morph targets (one of them sparse), and an animation of each kind."""
+    """Returns a skin of two joints, morph targets (one of them sparse), and an animation of each kind."""
     document = Document()
     attributes = square(document)
     attributes["JOINTS_0"] = document.accessor(5121, "VEC4", 8 * (0, 1))
@@ -155,7 +155,8 @@ def rig():
 
 
 def stage():
-    """Textures, variants of materials, instances, lights, cameras, hidden nodes, XMP, a strip without indices."""
+    """Returns a scene with textures, material variants, instances, lights, cameras, hidden nodes, XMP, and a strip
+    without indices."""
     document = Document()
     mapping = {"mappings": [{"material": 1, "variants": [0]}]}
     indices = document.accessor(5125, "SCALAR", (0, 1, 2, 0, 2, 3))
@@ -201,7 +202,7 @@ def stage():
 
 
 def lamps():
-    """Light profiles of types B and C, as data and as a view, and an environment of six images."""
+    """Returns a scene with light profiles of types B and C, as data and as a view, and an environment of six images."""
     document = Document()
     document.json["meshes"] = [{"primitives": [{"attributes": square(document)}]}]
     document.node(mesh=0)
@@ -222,7 +223,7 @@ def lamps():
 
 
 def plain():
-    """Text with its buffer as a data URI: a fan, of integers."""
+    """Returns a text file with its buffer as a data URI: a fan with integer positions."""
     positions = "AAAAAAEAAAABAAEAAAABAA=="  # four points of three signed bytes and a byte of padding
     return json.dumps({
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "children": [1]}, {}],
@@ -234,8 +235,8 @@ def plain():
 
 
 def parts(command):
-    """Parts of renders of a few pixels, and their JSON."""
-    scene = "scenes/cornell-box.gltf"  # as it will be read in the part
+    """Returns parts of renders of a few pixels, and their JSON."""
+    scene = "scenes/cornell-box.gltf"  # the part will contain this name
     project = pathlib.Path(__file__).resolve().parents[2]
     kinds = {"bdpt": ["--integrator", "bdpt"], "layers": ["--integrator", "mis", "--aov", "albedo,depth,variance,alpha", "--crop", "1,0,3,2"],
              "ids": ["--integrator", "pt", "--aov", "object,material"],
@@ -254,7 +255,7 @@ def parts(command):
 
 
 def plans_and_rates(command):
-    """Plans of an image, of frames and of cameras, and rates of a few pixels."""
+    """Returns plans of an image, of frames and of cameras, and rates of a few pixels."""
     project = pathlib.Path(__file__).resolve().parents[2]
     kinds = {"image": ["--spp", "4", "--integrator", "bdpt", "--env", "none", "-o", "out.exr", "-o", "out.png", "--half", "--for", "make"],
              "frames": ["--spp", "2", "--frames", "1:3", "--fps", "8", "-o", "out.####.exr", "--for", "slurm"],

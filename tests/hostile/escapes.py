@@ -1,4 +1,4 @@
-"""Scenes that try to read a file outside of their folder, and what a process has opened."""
+"""Makes scenes that try to read a file outside of their folders, and lists the files that a process has opened."""
 
 import json
 import pathlib
@@ -16,7 +16,7 @@ def png():
 
 
 def scene(buffer_uri, image_uri):
-    """A triangle that needs both files."""
+    """Returns a triangle that needs both files."""
     return {
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
@@ -39,7 +39,7 @@ def plant(folder):
     (inside / "link.bin").symlink_to(folder / "canary.bin")
     (inside / "link.png").symlink_to(folder / "canary.png")
     (inside / "up").symlink_to(folder)
-    (folder / "scene-beside").mkdir()  # its name begins as that of the scene's folder
+    (folder / "scene-beside").mkdir()  # its name begins like that of the scene's folder
     (folder / "scene-beside" / "canary.bin").write_bytes(triangle)
     (folder / "scene-beside" / "canary.png").write_bytes(png())
     top = folder.resolve().as_posix()
@@ -55,7 +55,7 @@ def plant(folder):
         for part, uris in {"buffer": (way + ".bin", "inside.png"), "image": ("inside.bin", way + ".png")}.items():
             file = inside / f"{name}-{part}.gltf"
             file.write_text(json.dumps(scene(*uris)))
-            # Names that only look like ways out are names of files that are not there: an image may be missing.
+            # Names that only look like escapes are names of missing files: an image may be missing.
             yield file, part == "buffer" or name not in {"twice", "backslash", "home", "query"}
     file = inside / "sound.gltf"
     file.write_text(json.dumps(scene("inside.bin", "inside.png")))
@@ -66,12 +66,13 @@ OPENED = re.compile(r'(?:open|openat|openat2|creat)\((?:AT_FDCWD, |\d+(?:<[^>]*>
 
 
 def opened_files(trace):
-    """Paths that were opened successfully, by the output of strace."""
+    """Returns the paths that were opened successfully, from the output of strace."""
     return {pathlib.PurePosixPath(path) for path, _ in OPENED.findall(trace)}
 
 
 def outside(paths, usual, folders):
-    """Those that are neither usual nor below one of `folders`. Files of the system's own view are nobody's secret."""
+    """Returns the paths that are neither usual nor below one of `folders`. A process's own files in /proc, /sys and
+    /dev are harmless."""
     own = re.compile(r"/proc/(self|\d+)/(?!root|cwd|fd)|/sys/|/dev/(null|shm|urandom)|/proc/(meminfo|cpuinfo|filesystems|stat)")
 
     def is_fine(path):

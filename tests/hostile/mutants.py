@@ -1,4 +1,4 @@
-"""Broken twins of sound files, the same ones for the same seed."""
+"""Makes broken twins of valid files; the seed determines them."""
 
 import json
 import random
@@ -12,7 +12,7 @@ WORDS = [0, 1, 0x7F, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 0x7F800000, 0x7
 
 
 def split_glb(data):
-    """(JSON text, other chunks), or None."""
+    """Returns (JSON text, other chunks), or None."""
     if data[:4] != b"glTF" or len(data) < 20:
         return None
     length = struct.unpack_from("<I", data, 12)[0]
@@ -56,7 +56,7 @@ def mutate_numbers(text, chance):
 
 
 def remove_member(text, chance):
-    """Without one member of one object."""
+    """Removes one member of one object."""
     document = json.loads(text)
     places = []
 
@@ -73,7 +73,7 @@ def remove_member(text, chance):
 
 
 def mutate(data, seed):
-    """One mutant of a scene or an image."""
+    """Returns one mutant of a scene or an image."""
     chance = random.Random(seed)
     glb = split_glb(data)
     if not glb and not data.lstrip().startswith(b"{"):

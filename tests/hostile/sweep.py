@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""Throws files that nobody trusts at the command, and counts what becomes of them.
+"""Runs the command on untrusted files, and counts the outcomes.
 
     sweep.py COMMAND SCENE [FOLDER...] [--assets NAME] [--mutants N] [--seed N] [--timeout S] [--memory GB]
              [--every N] [--jobs N] [--trace] [--json FILE] [--keep FOLDER]
 
-Each scene goes through `bdpt info` and `bdpt render`, each part of a render (.part.exr) through `bdpt merge`, and is gone on
-with; each environment lights SCENE, which must be sound; any other image becomes a texture. Besides the files of the folders: mutants of those that are sound (N of each small one), and
-scenes that try to read files outside of their folders. Where the Khronos validator's report lies beside a file, the
-verdict is held against it, also for a twin of the file that shows all its meshes.
+Runs `bdpt info` and `bdpt render` on each scene, and `bdpt merge` on each part of a render (.part.exr), which it then
+resumes. Each environment lights SCENE, which must be valid; any other image becomes a texture. In addition to the files
+of the folders it tests mutants of the valid ones (N of each small one), and scenes that try to read files outside of
+their folders. If the Khronos validator's report lies beside a file, it compares the verdicts, also for a twin of the
+file that shows all its meshes.
 
-Broken promises are crashes, hangs, escapes, lacks of memory, refusals that are not one line with a documented exit
-code, files that are left half-written, and verdicts against the validator's: with any of them the exit code is 1, and
-they are listed. --trace looks at every file that is opened (strace).
+Faults are crashes, hangs, escapes, lack of memory, error messages that are not one line with a documented exit code,
+half-written files, and verdicts that contradict the validator's. They are listed, and the exit code is 1. --trace
+checks every file that is opened (strace).
 """
 
 import argparse
@@ -37,7 +38,7 @@ REFUSALS = {3: "not found", 4: "invalid", 5: "unsupported"}
 SCENES, ENVIRONMENTS = (".gltf", ".glb"), (".exr", ".hdr")
 PART = ".part.exr"
 TEXTURES = (".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".bmp", ".gif")
-LARGEST_ORIGIN = 300_000  # [bytes], of a file that mutants are made of
+LARGEST_ORIGIN = 300_000  # [bytes], limit of files that mutants are made of
 
 Case = collections.namedtuple("Case", "name group file expected codes", defaults=(None, ()))
 Result = collections.namedtuple("Result", "case outcome faults opened")
@@ -54,14 +55,14 @@ class Runner:
             ASAN_OPTIONS=f"exitcode=99:detect_leaks=0:hard_rss_limit_mb={options.memory * 1024}")
 
     def limit(self):
-        # Address space means nothing to AddressSanitizer, which has a limit of its own.
+        # AddressSanitizer reserves address space and has a limit of its own.
         if not self.sanitized:
             size = self.options.memory << 30
             resource.setrlimit(resource.RLIMIT_AS, (size, size))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
     def call(self, words, folder):
-        """(exit code or None after the time is up, stderr, opened files)."""
+        """Returns (exit code, or None after a timeout; stderr; opened files)."""
         trace = folder / "trace"
         prefix = ["strace", "-ff", "-qq", "-s", "4096", "-e", "trace=open,openat,openat2,creat", "-o",
                   str(trace)] if self.options.trace else []
@@ -71,16 +72,16 @@ class Runner:
                                   env=self.environment, preexec_fn=self.limit, check=False)
             code, text = done.returncode, done.stderr.decode("utf-8", "replace")
             refusal = REFUSAL_TOLD.search(done.stdout.decode("utf-8", "replace"))
-            if code == 0 and refusal:  # bdpt info tells why a render would fail
+            if code == 0 and refusal:  # bdpt info reports why a render would fail
                 code, text = int(refusal[1]), text + f"bdpt: error: {refusal[2]}\n"
         except subprocess.TimeoutExpired:
             code, text = None, ""
-        # A file for each thread, so that calls are whole lines.
+        # strace writes a file for each thread, so that lines are not interleaved.
         opened = set().union(*(escapes.opened_files(part.read_text(errors="replace")) for part in folder.glob("trace.*")))
         return code, text, opened
 
     def words(self, case, image, folder):
-        """The calls that a file is tried with."""
+        """Returns the commands to run on a file."""
         small = ["-o", str(image), "--size", "8x8", "--spp", "1", "--max-depth", "4", "--threads", "1"]
         suffix = case.file.suffix.lower()
         if case.file.name.endswith(PART):
@@ -122,7 +123,7 @@ class Runner:
 
 
 def judge(code, text, image):
-    """(outcome, fault or None) of one call."""
+    """Returns (outcome, fault or None) of one call."""
     lines = text.splitlines()
     finding = SANITIZER.search(text)
     if code is None:
@@ -147,11 +148,11 @@ def judge(code, text, image):
 
 
 def scene_cases(file, group, scratch):
-    """The file, and its twin that shows all."""
+    """Yields the file, and its twin that shows all meshes."""
     expected, codes = verdicts.expected_verdict(file)
     document = verdicts.read_document(file) if file.suffix == ".gltf" else None
     twin = verdicts.shown(document) if document else None
-    # What is not in use need not be looked at.
+    # Parts of the document that are not in use may stay unchecked.
     yield Case(file.name, group, file, "load" if expected == "load" else None if twin else expected, codes)
     if twin:
         folder = pathlib.Path(tempfile.mkdtemp(dir=scratch))
@@ -175,7 +176,7 @@ def folder_cases(folder, scratch, every):
 
 
 def mutant_cases(folders, scratch, count, seed, every):
-    """Mutants of files that are whole in themselves or whose neighbours are copied."""
+    """Yields mutants of files that are complete in themselves or whose neighbours are copied."""
     for folder in folders:
         files = sorted(file for file in folder.rglob("*")
                        if file.suffix in (*SCENES, *ENVIRONMENTS, *TEXTURES) and "hostile" not in file.parts)
@@ -198,7 +199,7 @@ def keep(result, folder):
 
 
 def report(results):
-    """Prints counts by group, then all faults; whether there are none."""
+    """Prints counts by group, then all faults; returns whether there are none, and the counts."""
     columns = ["tried", "refused", "warned", "accepted", "crash", "hang", "memory", "escape", "verdict", "message"]
     counts = collections.defaultdict(collections.Counter)
     for result in results:
@@ -250,7 +251,7 @@ def main():
         runner = Runner(options, scratch)
         planted = [Case(file.name, "escapes", file, "refuse" if refuse else None, ("a way out of the folder",))
                    for file, refuse in escapes.plant(scratch / "planted")]
-        # What a sound scene opens is usual: libraries, the module for images.
+        # A valid scene opens only usual files: libraries, the module for images.
         sound = runner.run(planted[-1])
         if sound.outcome not in ("accepted", "warned"):
             sys.exit(f"the sound scene does not render: {sound}")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that the sweep finds what it looks for, with commands that do it on purpose."""
+"""Tests that the sweep finds each fault, with commands that cause them on purpose."""
 
 import pathlib
 import stat
@@ -14,7 +14,7 @@ import mutants  # noqa: E402
 import sweep  # noqa: E402
 import verdicts  # noqa: E402
 
-# {fault} is what the command does; $out is the image that it should write, if any.
+# {fault} is the command's behaviour; $out is the image that it should write, if any.
 COMMAND = '''#!/bin/sh
 for word; do [ "$previous" = -o ] && out=$word; previous=$word; done
 {fault}
@@ -23,7 +23,7 @@ for word; do [ "$previous" = -o ] && out=$word; previous=$word; done
 
 class Judging(unittest.TestCase):
     def outcome(self, fault):
-        """What the sweep says of a command: (outcome, faults)."""
+        """Returns the sweep's verdict on a command: (outcome, faults)."""
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             command = folder / "bdpt"
@@ -91,7 +91,7 @@ class Judging(unittest.TestCase):
         self.assertEqual(mutants.mutate(data, 7), mutants.mutate(data, 7))
         sound = [one for one in made if one[:4] == b"glTF" and len(one) >= 12 and
                  struct.unpack_from("<I", one, 8)[0] == len(one)]
-        self.assertGreater(len(sound), 20)  # changes behind the frame
+        self.assertGreater(len(sound), 20)  # most changes are after the header
 
 
 if __name__ == "__main__":

@@ -1,10 +1,11 @@
-"""What the Khronos validator said about a file, and what bdpt must make of it."""
+"""Derives bdpt's expected verdict on a file from the Khronos validator's report."""
 
 import copy
 import json
 import pathlib
 
-# Errors that make a file unsafe or ambiguous: it must be refused. Codes of the Khronos validator (its ISSUES.md).
+# These errors make a file unsafe or ambiguous: it must be refused. Codes are those of the Khronos validator (its
+# ISSUES.md).
 REFUSE = {
     "ACCESSOR_INDEX_OOB", "ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE", "ACCESSOR_SPARSE_INDEX_OOB",
     "ACCESSOR_SPARSE_INDICES_NON_INCREASING", "ACCESSOR_TOO_LONG", "BUFFER_BYTE_LENGTH_MISMATCH",
@@ -14,7 +15,7 @@ REFUSE = {
     "INVALID_IBM_ACCESSOR_COUNT", "NODE_LOOP", "NODE_PARENT_OVERRIDE", "UNKNOWN_ASSET_MAJOR_VERSION",
 }
 
-# Errors after which the image is still defined: real exporters make them, so the file must load.
+# After these errors the image is still defined, and real exporters make them: the file must load.
 LOAD = {
     "ACCESSOR_ELEMENT_OUT_OF_MAX_BOUND", "ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND", "ACCESSOR_INVALID_SIGN",
     "ACCESSOR_JOINTS_INDEX_DUPLICATE", "ACCESSOR_MAX_MISMATCH", "ACCESSOR_MIN_MISMATCH", "ACCESSOR_NON_CLAMPED",
@@ -34,7 +35,8 @@ LOAD = {
 
 
 def expected_verdict(file):
-    """("refuse" | "load" | None, codes) by the report beside `file`; None: it may be either, or there is no report."""
+    """Returns ("refuse" | "load" | None, codes) from the report beside `file`; None if both are allowed, or there is no
+    report."""
     report = file.with_name(file.name + ".report.json")
     if not report.exists():
         return None, []
@@ -46,8 +48,8 @@ def expected_verdict(file):
 
 
 def shown(document):
-    """The document with all its meshes and skins in its scene, or None where nothing changes: many files with a fault
-    do not use the part that has it."""
+    """Returns the document with all its meshes and skins in its scene, or None if nothing changes: many files do not
+    use their faulty part."""
     try:
         result = copy.deepcopy(document)
         nodes = result.setdefault("nodes", [])
@@ -69,11 +71,11 @@ def shown(document):
         result["scene"] = 0
         return result
     except (AttributeError, KeyError, TypeError):
-        return None  # broken in just that part
+        return None  # the faulty part is one of these
 
 
 def read_document(file):
-    """The JSON of a text file, or None."""
+    """Returns the JSON of a text file, or None."""
     try:
         document = json.loads(pathlib.Path(file).read_text(encoding="utf-8"))
     except (ValueError, RecursionError):

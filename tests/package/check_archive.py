@@ -1,7 +1,7 @@
-"""The relocatable archive: check_archive.py ARCHIVE FOLDER SCENES VERSION OPENVDB.
+"""Tests the relocatable archive: check_archive.py ARCHIVE FOLDER SCENES VERSION OPENVDB.
 
-Unpacks it into FOLDER, where nothing of the build is, and runs it there; and, as root, in a root that has files of glibc
-and nothing else. OPENVDB is 1 where the build has the reader of volumes.
+Unpacks it into FOLDER, away from the build, and runs it there; as root also in a file system that contains only glibc.
+OPENVDB is 1 if the build has the reader of volumes.
 """
 
 import os
@@ -16,7 +16,7 @@ GLIBC = re.compile(r"(ld-linux[\w-]*|lib(c|m|mvec|pthread|dl|rt|util|resolv))\.s
 BARE = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin"}
 
 
-def elf_files(folder):
+def find_elf_files(folder):
     for file in sorted(folder.rglob("*")):
         if file.is_file() and not file.is_symlink():
             with file.open("rb") as stream:
@@ -24,20 +24,21 @@ def elf_files(folder):
                     yield file
 
 
-def dynamic_section(file):
-    """Names of the needed libraries, and folders that they are looked for in."""
+def read_dynamic_section(file):
+    """Returns the names of the needed libraries, and their search folders."""
     text = subprocess.run(["readelf", "-d", file], check=True, capture_output=True, text=True).stdout
     folders = re.findall(r"\((?:RUNPATH|RPATH)\).*\[(.*)\]", text)
     return set(re.findall(r"\(NEEDED\).*\[(.*)\]", text)), [name for names in folders for name in names.split(":")]
 
 
 def check_libraries(root):
-    """What each file needs is in the archive or in glibc. Returns the files of glibc here that are needed."""
+    """Tests that every needed library is in the archive or in glibc. Returns the files of the local glibc that are
+    needed."""
     glibc = set()
-    files = list(elf_files(root))
+    files = list(find_elf_files(root))
     assert len(files) > 10, files
     for file in files:
-        needed, folders = dynamic_section(file)
+        needed, folders = read_dynamic_section(file)
         assert folders and all(re.fullmatch(r"\$ORIGIN(/\.\.(/[\w./-]+)?)?", name) for name in folders), (file, folders)
         places = [pathlib.Path(name.replace("$ORIGIN", str(file.parent))) for name in folders]
         for name in needed:
@@ -54,7 +55,7 @@ def check_libraries(root):
 
 
 def render(command, scenes, out, volume, **how):
-    """Renders to `out`; `command` are words before those of bdpt."""
+    """Renders to `out`; `command` has the words before those of bdpt."""
     words = ["render", f"{scenes}/cornell-box.gltf", "--size", "16x16", "--spp", "1", "--quiet", "-o", str(out)]
     words += ["--volume", f"{scenes}/smoke.vdb"] if volume else []
     done = subprocess.run([*command, *words], env=BARE, capture_output=True, text=True, check=False, **how)
@@ -69,7 +70,7 @@ def check_tiff_is_refused(program, scenes, folder):
 
 
 def check_bare_root(root, glibc, scenes, folder, volume):
-    """In a root without a shell, a libstdc++ or anything else that is not glibc's."""
+    """Runs in a file system that contains nothing but glibc: no shell, no libstdc++."""
     bare = folder / "root"
     for path in glibc:
         copy = bare / path.relative_to("/")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails when a shared library exports anything but what its public headers mark BDPT_EXPORT, or lacks some of that:
+"""Tests that a shared library exports exactly what its public headers mark BDPT_EXPORT:
 check_exports.py NM LIBRARY HEADERS [HEADERS OF LIBRARIES BELOW]..."""
 
 import pathlib
@@ -10,11 +10,11 @@ import sys
 TYPE = re.compile(r"^(?:class|struct|enum class) (?:BDPT_EXPORT )?(\w+)\b(?!;)", re.M)
 CLASS = re.compile(r"^(?:class|struct) BDPT_EXPORT (\w+)", re.M)
 FUNCTION = re.compile(r"^(?:\[\[nodiscard\]\] )?BDPT_EXPORT [^;{}()]*?(\w+)\(", re.M)
-# Our style does not indent what is in a namespace, so these lines begin declarations of free functions.
+# Our style does not indent the content of namespaces, so these lines begin declarations of free functions.
 UNMARKED = re.compile(r"^(?!.*BDPT_EXPORT)(?:\[\[nodiscard\]\] )?(?!inline|constexpr|template|using|class|struct|enum)"
                       r"[\w:][\w:<>,&* ]* (\w+)\(", re.M)
-# What the standard library's templates leave in any program; with a return type, or as the type of a function, too. And
-# the exceptions of fmt, which it makes visible itself from version 10 on.
+# Templates of the standard library leave these symbols in any program; with a return type, or as the type of a
+# function, too. fmt makes its exceptions visible itself from version 10 on.
 STANDARD = re.compile(r"^(?:(?:typeinfo|typeinfo name|vtable|VTT|guard variable) for )?"
                       r"(?:(?:(?:unsigned|long|int|bool|char|void|float|double|short) )+(?:\((?:\*\)\()?)?)?"
                       r"(?:std|__gnu_cxx|__cxxabiv1)::|^__|^operator (?:new|delete)"
@@ -22,8 +22,9 @@ STANDARD = re.compile(r"^(?:(?:typeinfo|typeinfo name|vtable|VTT|guard variable)
 OF_CLASS = r"(?:(?:typeinfo|typeinfo name|vtable|VTT) for )?"
 
 
-def public_names(folder):
-    """Names of all types, the marked classes and the marked functions, and findings about functions without a mark."""
+def find_public_names(folder):
+    """Returns the names of all types, the marked classes and the marked functions, and findings about functions without
+    a mark."""
     types, classes, functions, errors = set(), set(), set(), []
     for header in sorted(pathlib.Path(folder).rglob("*.h")):
         text = header.read_text(encoding="utf-8")
@@ -37,15 +38,15 @@ def public_names(folder):
 
 
 def check(symbols, folder, folders_below=()):
-    """All findings for the lines of `nm -DC --defined-only`, and the number of public names."""
-    types, classes, functions, errors = public_names(folder)
-    below = [public_names(other) for other in folders_below]
+    """Returns all findings for the lines of `nm -DC --defined-only`, and the number of public names."""
+    types, classes, functions, errors = find_public_names(folder)
+    below = [find_public_names(other) for other in folders_below]
     types.update(*(names[0] for names in below))
-    copied = set().union(*(names[1] for names in below))  # what is inline there may be here too
+    copied = set().union(*(names[1] for names in below))  # inline functions of lower libraries may appear here too
     missing = classes | functions
     for line in symbols.splitlines():
         name = re.sub(r"^[0-9a-f]* *\w ", "", line)
-        # Templates of functions are told with their return type.
+        # Function templates are listed with their return type.
         head = re.sub(r"\[abi:\w+\]|^(?:(?:unsigned|long|int|bool|float|double) )+(?=bdpt::)", "", name).partition("(")[0]
         owner = next((c for c in classes if re.match(rf"{OF_CLASS}{c}(::|$)", head)), None)
         if owner or head in functions:

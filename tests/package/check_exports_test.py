@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants violations in a small header and list of symbols, and expects check_exports to find each."""
+"""Tests that check_exports finds each planted violation in a small header and list of symbols."""
 
 import pathlib
 import sys

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# One task of the package tests, in folder $WORK: check_package.sh TASK. CMakeLists.txt sets the rest
-# of the environment.
+# Runs one task of the package tests, in folder $WORK: check_package.sh TASK. CMakeLists.txt sets the rest of the
+# environment.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -8,7 +8,7 @@ consumer=$here/consumer
 prefix=$WORK/moved
 sky=$WORK/sky.tif
 unset CMAKE_PREFIX_PATH LD_LIBRARY_PATH PKG_CONFIG_PATH bdpt_DIR bdpt_ROOT
-export ASAN_OPTIONS=detect_leaks=0  # those of OpenImageIO are not our subject
+export ASAN_OPTIONS=detect_leaks=0  # ignores leaks of OpenImageIO
 
 skip() {
   printf 'skipped: %s\n' "$*"
@@ -20,7 +20,7 @@ fail() {
   exit 1
 }
 
-# build_consumer FOLDER TARGET CMAKE-OPTIONS...
+# build_consumer FOLDER TARGET CMAKE-OPTIONS...: configures and builds the consumer project.
 build_consumer() {
   local folder=$1 target=$2
   shift 2
@@ -37,13 +37,13 @@ expect_version() {
   [[ ${said%%$'\n'*} == "bdpt $VERSION" ]] || fail "$1 is not version $VERSION"
 }
 
-# One pixel of (1, 1, 1) in floats [TIFF 6.0]: the header, the pixel, and entries of tags from 256 to 511
-# as LOW-BYTE-OF-TAG:VALUE.
+# Writes a TIFF of one pixel of (1, 1, 1) in floats [TIFF 6.0]: the header, the pixel, and entries of tags from 256 to
+# 511 as LOW-BYTE-OF-TAG:VALUE.
 write_tiff() {
   printf 'II*\0\x14\0\0\0\0\0\x80\x3f\0\0\x80\x3f\0\0\x80\x3f\x0a\0'
   local entry
   for entry in 00:01 01:01 02:20 03:01 06:02 11:08 15:03 16:01 17:0c 53:03; do
-    # The bytes are in the format.
+    # The format string contains the bytes.
     # shellcheck disable=SC2059
     printf "\\x${entry%:*}\\x01\\x04\\0\\x01\\0\\0\\0\\x${entry#*:}\\0\\0\\0"
   done
@@ -54,22 +54,22 @@ install_and_move() {
   rm -rf "$WORK/installed" "$prefix"
   mkdir -p "$WORK"
   "$CMAKE" --install "$BUILD" --config "$CONFIG" --prefix "$WORK/installed" >"$WORK/install.log"
-  # A package that knows where it was first is found out.
+  # Moves the installation, to detect a package that stores its first location.
   mv "$WORK/installed" "$prefix"
   # Only OpenImageIO reads this format.
   write_tiff >"$sky"
   check_names "$prefix" "$BUILD" "$SOURCE" "$WORK"
 }
 
-# check_names FOLDER PATH...: nothing in FOLDER names one of the paths, where others might put what we then run. What
-# is there for debuggers may.
+# check_names FOLDER PATH...: fails if a file in FOLDER contains one of the paths, where others could place code that we
+# then run. Debug information may.
 check_names() {
   local folder=$1 file paths=() found=""
   shift
   paths=("${@/#/-e}")
   while IFS= read -r file; do
     cp "$file" "$WORK/no-debug"
-    strip --strip-debug "$WORK/no-debug" 2>/dev/null || true  # Other files are looked at as they are.
+    strip --strip-debug "$WORK/no-debug" 2>/dev/null || true  # Other files are checked as they are.
     if grep -qaF "${paths[@]}" "$WORK/no-debug"; then
       found+=" $file ($(grep -aoF "${paths[@]}" "$WORK/no-debug" | sort | uniq -c | sort -rn | sed -n 1p))"
     fi
@@ -91,7 +91,7 @@ run_command() {
   ! grep -v "^$prefix/bin/\.\./\|^$prefix/$LIBDIR/" <<<"$loaded" || fail "not from $prefix"
 }
 
-# What the component without OpenImageIO is able to do.
+# Tests the component without OpenImageIO.
 run_without_module() {
   local slim=$WORK/slim
   rm -rf "$slim"
@@ -117,7 +117,7 @@ run_without_module() {
   [[ ! -e $slim/out.png ]] || fail "an image without its volume"
 }
 
-# put_companions_beside FOLDER: of programs. A shared library has them beside itself.
+# put_companions_beside FOLDER: puts the companions beside programs in FOLDER. A shared library has them beside itself.
 put_companions_beside() {
   [[ $SHARED == 1 ]] || cp -r "$prefix/$LIBDIR/bdpt" "$1"
 }
@@ -137,12 +137,12 @@ use_find_package() {
   "$WORK/find_package/judge"
 }
 
-# compile PROGRAM SOURCE PACKAGE: as one does by hand. What is hidden in the program must not hide what
-# the library throws. Of the libraries a program loads those that it calls; they find the others.
+# compile PROGRAM SOURCE PACKAGE: compiles by hand. Hidden visibility in the program must not hide exceptions of the
+# library. A program links the libraries that it calls; they find the others.
 compile() {
   local words=(--cflags --libs)
   [[ $SHARED == 1 ]] || words+=(--static)
-  # Flags are words.
+  # Flags must be split into words.
   # shellcheck disable=SC2046,SC2086
   $LAUNCHER "$CXX" -std=c++20 -O1 -fvisibility=hidden $FLAGS "$2" -o "$1" \
     -Wl,--as-needed -Wl,-rpath,"$prefix/$LIBDIR" $("$PKG_CONFIG" "${words[@]}" "$3")
@@ -162,7 +162,7 @@ use_pkg_config() {
   compile judge "$consumer/judge.cpp" bdpt_eval
   ./judge
 
-  # The programs in the README and in the page about the library, with fewer pixels.
+  # Builds the programs in the README and in the page about the library, with fewer pixels.
   ln -s "$SOURCE/scenes" scenes
   local page program image
   for page in README.md docs/library.md; do
@@ -180,10 +180,10 @@ use_pkg_config() {
   done
 }
 
-# Builds the libraries as a part of a project: static ones, with bdpt::io, as quickly as compilers can (many files as
-# one, as some projects build all that they have). What was built before is kept. The libraries for the tests must not
-# even be looked for. Everything has sanitizers, and the targets of tests/fuzz are built along, for tests that run them:
-# so the command is there, too, as far as they use it. They are libFuzzer's where there is a compiler that has it.
+# Builds the libraries as a part of a project: static, with bdpt::io, and as quickly as possible (as a unity build,
+# which some projects use). Keeps the last build. Must not look for the libraries of the tests. Everything has
+# sanitizers, and the targets of tests/fuzz are built too, with libFuzzer if a compiler has it, for tests that run them;
+# they need parts of the command.
 use_add_subdirectory() {
   local unneeded=() package
   for package in Catch2 Python3 benchmark; do
@@ -205,7 +205,7 @@ use_add_subdirectory() {
   write_tiff >"$folder/sky.tif"
   local files=("$SOURCE/scenes/cornell-box.gltf" "$folder/sky.tif")
   [[ $OPENVDB != 1 ]] || files+=("$SOURCE/scenes/smoke.vdb")
-  # The program finds what is beside it, and not what is beside the caller.
+  # The program must find the reader beside itself, and not one in the current folder.
   local trap=$folder/trap
   rm -rf "$trap"
   mkdir "$trap"
@@ -217,7 +217,8 @@ use_add_subdirectory() {
   [[ ! -e $trap/caught ]] || fail "a program of the current folder was run"
 }
 
-# Builds a wheel as "pip wheel ." does, though without optimization. What it was built from is gone when the wheel is used, in an environment of its own.
+# Builds a wheel like "pip wheel .", but without optimization. Deletes the sources before the wheel is tested, in an
+# environment of its own.
 make_wheel() {
   local folder=$WORK/wheel python name
   rm -rf "$folder"
@@ -251,8 +252,8 @@ make_wheel() {
     "$FAKE_OIDN")
 }
 
-# Configures with BDPT_BUILD_IO=OFF and nothing else: the core and its tests, without looking for the
-# libraries of the rest.
+# Configures with BDPT_BUILD_IO=OFF and nothing else: the core and its tests, without looking for the libraries of the
+# rest.
 configure_core_alone() {
   local unneeded=() package
   for package in OpenImageIO OpenEXR Imath PNG JPEG WebP nlohmann_json fmt CLI11 benchmark; do
@@ -270,7 +271,7 @@ configure_core_alone() {
   ! grep -E '\bbdpt_(io|app|command|apps_tests|io_tests)\b' <<<"$targets" || fail "more than the core"
 }
 
-# The packages for Debian, unpacked and not installed.
+# Builds the Debian packages; unpacks them without installing.
 make_debian_packages() {
   if ! command -v dpkg-shlibdeps >/dev/null; then
     skip "dpkg-dev is not installed"
@@ -280,7 +281,7 @@ make_debian_packages() {
   (cd "$BUILD" && cpack -G DEB -C "$CONFIG" -B "$folder")
   local command=$folder/bdpt_${VERSION}_*.deb headers=$folder/libbdpt-dev_${VERSION}_*.deb depends
   local module=$folder/bdpt-openimageio_${VERSION}_*.deb
-  # The names of all end with the architecture.
+  # All package names end with the architecture.
   # shellcheck disable=SC2086
   depends=$(dpkg-deb -f $command Depends)
   [[ $depends == *libembree*libtbb* && $depends != *openimageio* ]] || fail "bdpt depends on: $depends"
@@ -314,7 +315,7 @@ make_debian_packages() {
   check_policy "$folder"
 }
 
-# lintian knows Debian's policy.
+# Checks Debian's policy with lintian.
 check_policy() {
   if ! command -v lintian >/dev/null; then
     echo "lintian is not installed: the packages are not held against Debian's policy"
@@ -326,7 +327,7 @@ check_policy() {
   ! grep -E '^(E|W):' <<<"$said" || fail "lintian has found errors or warnings"
 }
 
-# Each package says what it is, and under what licence.
+# Tests that each package states its purpose and its licence.
 check_descriptions() {
   local package name line
   for package in "$1"/*_"${VERSION}"_*.deb; do
@@ -339,7 +340,7 @@ check_descriptions() {
   [[ -z $line ]] || fail "several packages are called: $line"
 }
 
-# bdpt-openvdb, where the build has OpenVDB.
+# Tests bdpt-openvdb, if the build has OpenVDB.
 check_volume_package() {
   local folder=$1 packages depends
   packages=("$folder"/bdpt-openvdb_"${VERSION}"_*.deb)
@@ -356,7 +357,7 @@ check_volume_package() {
     -o "$folder/smoke.png" --size 16x16 --spp 1 --quiet
 }
 
-# python3-bdpt, with the Python it is built for. Another Python than Debian's makes no package.
+# Tests python3-bdpt with the Python it is built for. Only Debian's Python makes a package.
 check_python_package() {
   local folder=$1 packages
   packages=("$folder"/python3-bdpt_"${VERSION}"_*.deb)
@@ -368,7 +369,7 @@ check_python_package() {
   local depends usr=$folder/unpacked/usr
   depends=$(dpkg-deb -f "${packages[0]}" Depends)
   [[ $depends == "bdpt (= $VERSION), $PYTHON_DEPENDS, "*libstdc++6* ]] || fail "python3-bdpt depends on: $depends"
-  # What its module is compiled for.
+  # Finds the Python ABI of the module.
   local abi
   abi=$(dpkg-deb -c "${packages[0]}" | sed -n 's/.*_bdpt\.cpython-3\([0-9]*\)-.*/\1/p')
   [[ $depends == *"python3 (>= 3.$abi), python3 (<< 3.$((abi + 1))), python3-numpy"* ]] \
@@ -380,7 +381,7 @@ check_python_package() {
     "$usr" "$usr/bin/bdpt" "$SOURCE/scenes/cornell-box.gltf" "$VERSION"
 }
 
-# The archive, packed without much compression, whose libraries come along.
+# Builds the archive with its libraries, with little compression.
 make_archive() {
   local program folder=$WORK/archive name=bdpt-$VERSION-linux-$(uname -m) components=bdpt_runtime
   for program in patchelf xz readelf; do
@@ -397,7 +398,7 @@ make_archive() {
   rm -rf "$folder"
 }
 
-# Completions where they are installed, as shells find them by the name of the command.
+# Tests installed completions, which shells find by the name of the command.
 check_completions() {
   "$PYTHON3" "$SOURCE/tests/apps/completion_test.py" --installed "$prefix/share" "$1"
 }

@@ -1,6 +1,7 @@
-"""The Python package of a Debian package that is unpacked and not installed: check_python.py USR BDPT SCENE VERSION.
+"""Tests the Python package of an unpacked Debian package: check_python.py USR BDPT SCENE VERSION.
 
-USR is where it was unpacked, PYTHONPATH the folder of packages in there. BDPT is the command whose bits an image must have.
+USR is the folder where it was unpacked, PYTHONPATH the folder of packages in it. BDPT is the command whose images it
+must equal to the bit.
 """
 
 import importlib.metadata

@@ -1,8 +1,8 @@
-"""An installed wheel, whose build is gone: check_wheel.py FOLDER VERSION OPENVDB PAGE FAKE_DENOISER.
+"""Tests an installed wheel whose build folder is gone: check_wheel.py FOLDER VERSION OPENVDB PAGE FAKE_DENOISER.
 
-FOLDER has sky.tif and scenes: cornell-box.gltf, room-spot.gltf, smoke.vdb. OPENVDB is 1 where the wheel was built with OpenVDB. PAGE
-is docs/python.md, whose programs are run. FAKE_DENOISER, if not empty, is a library with the interface of Open Image
-Denoise.
+FOLDER has sky.tif and scenes: cornell-box.gltf, room-spot.gltf, smoke.vdb. OPENVDB is 1 if the wheel was built with
+OpenVDB. PAGE is docs/python.md, whose programs are run. FAKE_DENOISER, if not empty, is a library with the interface of
+Open Image Denoise.
 """
 
 import ast
@@ -36,7 +36,7 @@ def check_metadata(version):
 
 
 def check_command(box, version):
-    """It is the program, with the bits of the module and its companions."""
+    """Tests that the command is the program, and renders the same bits as the module."""
     assert run("--version").startswith(f"bdpt {version}\n")
     module = subprocess.run([sys.executable, "-m", "bdpt", "--version"], capture_output=True, text=True, check=True).stdout
     assert module.startswith(f"bdpt {version}\n"), module
@@ -47,7 +47,7 @@ def check_command(box, version):
 
 
 def check_companions(folder, openvdb):
-    """What is loaded or started when it is needed is in the wheel."""
+    """Tests that the wheel contains the files that are loaded or started on demand."""
     box = folder / "scenes/cornell-box.gltf"
     companions = {file.name for file in PACKAGE.iterdir()}
     assert {"libbdpt_oiio.so", "bdpt-read-ktx", "_bdpt.pyi", "py.typed"} <= companions, companions
@@ -60,7 +60,7 @@ def check_companions(folder, openvdb):
 
 
 def check_without_companions(folder):
-    """Without them it says so, and where it looked: beside itself, and nowhere else."""
+    """Tests that, without them, bdpt says so and names where it looked: beside itself, and nowhere else."""
     for name, options in {"libbdpt_oiio.so": {"env": folder / "sky.tif"},
                           "bdpt-read-vdb": {"volume": folder / "scenes/smoke.vdb"}}.items():
         (PACKAGE / name).unlink(missing_ok=True)
@@ -74,7 +74,7 @@ def check_without_companions(folder):
 
 
 def check_fake_denoiser(box, fake):
-    """That of the environment is taken, by the module and by the command: the fake one doubles an image."""
+    """Tests that the module and the command take the denoiser of the environment; the fake one doubles an image."""
     library = PACKAGE.parent / "pyoidn/oidn/lib/libOpenImageDenoise.so.2"
     library.parent.mkdir(parents=True)
     shutil.copy(fake, library)
@@ -88,7 +88,7 @@ def check_fake_denoiser(box, fake):
 
 
 def install_denoiser():
-    """Open Image Denoise, where pip reaches it."""
+    """Installs Open Image Denoise, if pip can reach it."""
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--retries", "1", "--timeout", "20", "install", "-q"]
     done = subprocess.run([*pip, "--no-deps", "pyoidn"], capture_output=True, text=True, check=False)
     if done.returncode != 0:
@@ -97,7 +97,7 @@ def install_denoiser():
 
 
 def run_page(page, denoises):
-    """Runs the notebook of the page, as small as can be, and shows what a notebook shows."""
+    """Runs the notebook of the page with small images, and displays like a notebook."""
     section = page.read_text(encoding="utf-8").partition("### In a notebook")[2].partition("\n### ")[0]
     cells = re.findall(r"^```python\n(.*?)^```", section, flags=re.M | re.S)
     assert len(cells) == 3 and all(word in section for word in ("volume=", "denoise=True", "base_color")), section

@@ -1,4 +1,4 @@
-"""What the tests share: the package, the command beside it, and a scene."""
+"""Provides fixtures for the tests: the package, the command beside it, and a scene."""
 
 import os
 import pathlib
@@ -17,7 +17,7 @@ def cornell_box():
 
 @pytest.fixture
 def command(tmp_path):
-    """Runs bdpt and gives what it wrote; skips where BDPT_COMMAND does not say which bdpt."""
+    """Returns a function that runs bdpt and returns its output; skips the test if BDPT_COMMAND is not set."""
     program = os.environ.get("BDPT_COMMAND")
     if not program:
         pytest.skip("BDPT_COMMAND is not set")

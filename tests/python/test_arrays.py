@@ -1,4 +1,4 @@
-"""Scenes made of arrays."""
+"""Tests scenes made of arrays."""
 
 import bdpt
 import numpy as np
@@ -38,7 +38,7 @@ def test_textures_lie_as_texture_coordinates_say():
 
 def test_one_mesh_stands_in_many_places():
     places = np.stack([np.eye(4, dtype=np.float32) for _ in range(3)])
-    places[:, 0, 3] = (0, 5, 10)  # rows, as NumPy has matrices
+    places[:, 0, 3] = (0, 5, 10)  # translations are in the last column, as in NumPy
     mesh = bdpt.Mesh(SQUARE, TRIANGLES, transforms=places, material=bdpt.Material(unlit=True, base_color=(1, 1, 1)))
     scene = bdpt.Scene([mesh], camera=bdpt.Camera(from_=(10, 3, 0.001), look_at=(10, 0, 0), fov=10), size=(4, 4))
     assert scene.triangles == 6

@@ -1,4 +1,4 @@
-"""Materials made in Python, and edits of scenes."""
+"""Tests materials made in Python, and edits of scenes."""
 
 import re
 
@@ -12,13 +12,13 @@ from test_arrays import FROM_ABOVE, UVS, WHITE_SKY, floor
 HEADER = SCENES.parent / "lib" / "include" / "bdpt" / "material_desc.h"
 
 
-def image_of(**material):
+def render_image(**material):
     scene = bdpt.Scene([floor(base_color=(0.5, 0.5, 0.5), **material)], [WHITE_SKY], FROM_ABOVE, (8, 8))
     return bdpt.render(scene, spp=64).image.mean()
 
 
 def test_all_fields_of_the_library_are_attributes():
-    """Counted in the header, where each field stands in a list."""
+    """Compares the attributes with the fields in the header."""
     lists = HEADER.read_text(encoding="utf-8").split("// Fields of")
     fields = sum(len(re.findall(r"(?:Number|Field)\{", text)) for text in lists if "TextureRef> =" not in text)
     layers = 6
@@ -43,17 +43,17 @@ def test_defaults_are_those_of_gltf():
 
 
 def test_layers_do_what_they_say():
-    plain = image_of()
+    plain = render_image()
     assert plain == pytest.approx(0.5, rel=0.02)
     clear = np.array([[[255, 255, 255, 0]]], np.uint8)
-    assert image_of(alpha_mode="mask", base_color_texture=clear) == pytest.approx(1.0)  # the sky below is seen
+    assert render_image(alpha_mode="mask", base_color_texture=clear) == pytest.approx(1.0)  # shows the sky below
     black = {"base_color_texture": np.zeros((1, 1, 3), np.uint8)}
-    assert image_of(**black) < 1e-4
-    assert 0.03 < image_of(clearcoat=1.0, **black) < 0.06  # 4 % of the white sky, seen from above
-    assert image_of(sheen_color=(1, 1, 1), sheen_roughness=0.5, **black) > 0.01
-    # Half of the diffuse light goes through, and as much comes from below, where the sky is as white.
-    assert image_of(diffuse_transmission=0.5, diffuse_transmission_color=(0.5, 0.5, 0.5)) == pytest.approx(0.5, rel=0.03)
-    assert image_of(diffuse_transmission=1.0, diffuse_transmission_color=(0.1, 0.1, 0.1)) == pytest.approx(0.1, rel=0.03)
+    assert render_image(**black) < 1e-4
+    assert 0.03 < render_image(clearcoat=1.0, **black) < 0.06  # 4 % of the white sky, seen from above
+    assert render_image(sheen_color=(1, 1, 1), sheen_roughness=0.5, **black) > 0.01
+    # Half of the diffuse light is transmitted, and as much comes from the equally white sky below.
+    assert render_image(diffuse_transmission=0.5, diffuse_transmission_color=(0.5, 0.5, 0.5)) == pytest.approx(0.5, rel=0.03)
+    assert render_image(diffuse_transmission=1.0, diffuse_transmission_color=(0.1, 0.1, 0.1)) == pytest.approx(0.1, rel=0.03)
 
 
 @pytest.mark.parametrize("texels", [np.array([[0, 1], [2, 3]], np.uint8), np.ones((3, 2, 4), np.float32),
@@ -97,7 +97,7 @@ def test_a_changed_material_renders_like_a_new_scene():
     new = bdpt.Scene([floor(name="floor", base_color=(0.5, 0.1, 0.1))], [WHITE_SKY], FROM_ABOVE, (8, 8))
     for edited in (scene.with_material("floor", red), scene.with_material(0, red)):
         assert (bdpt.render(edited, spp=4).image == bdpt.render(new, spp=4).image).all()
-    assert bdpt.render(scene, spp=4).image[..., 1].mean() == pytest.approx(0.5, rel=0.05)  # it stays as it was
+    assert bdpt.render(scene, spp=4).image[..., 1].mean() == pytest.approx(0.5, rel=0.05)  # unchanged
 
 
 def test_an_edited_texture_is_seen_and_others_stay():

@@ -1,4 +1,4 @@
-"""What is in memory in place of files, scenes and renders that are sent elsewhere, arrays that are not NumPy's own."""
+"""Tests objects in place of files, pickled scenes and renders, and arrays that are not NumPy's own."""
 
 import copy
 import io
@@ -17,10 +17,10 @@ FACES = [[0, 2, 1], [0, 3, 2]]
 
 
 class Tracked(np.ndarray):
-    """As arrays of trimesh are."""
+    """Imitates the arrays of trimesh."""
 
 
-def image_of(mesh):
+def render_image(mesh):
     camera = bdpt.Camera(from_=(0, 2, 3), look_at=(0, 0, 0))
     return bdpt.render(bdpt.Scene([mesh], [bdpt.PointLight(position=(0, 2, 0), intensity=(9, 9, 9))], camera), **SMALL).image
 
@@ -56,7 +56,7 @@ def test_save_writes_into_objects_what_it_writes_into_files(tmp_path, name):
     target = io.BytesIO()
     render.save(target, format="part" if name == "part.exr" else name)
     there, here = target.getvalue(), file.read_bytes()
-    assert len(there) == len(here) > 100 and there[:4] == here[:4]  # they tell when they were made
+    assert len(there) == len(here) > 100 and there[:4] == here[:4]  # they contain the time of their creation
 
 
 def test_a_renderer_writes_into_objects():
@@ -99,7 +99,7 @@ def test_scenes_of_files_are_pickled_and_others_say_why_not(tmp_path, monkeypatc
             pickle.dumps(edited)
 
 
-# The box is open to -z.
+# The box is open towards -z.
 @pytest.mark.parametrize("loaded, options", [
     ({}, {"from_": (0.2, 0.3, -0.7), "look_at": (0.3, 0.2, 0.3), "fov": 50}),
     ({}, {"view": "back"}),
@@ -110,7 +110,7 @@ def test_scenes_of_files_are_pickled_and_others_say_why_not(tmp_path, monkeypatc
     ({"from_": (0.2, 0.3, -0.7)}, {"fov": 60}),
 ])
 def test_a_view_belongs_to_a_render(loaded, options):
-    """It is that of a scene that was loaded so, and the scene stays as it was."""
+    """Tests that the view equals that of a scene loaded with it, and that the scene stays unchanged."""
     scene = bdpt.load(BOX, **loaded)
     before = bdpt.render(scene, **SMALL).image
     seen = bdpt.render(scene, **SMALL, **options).image
@@ -138,13 +138,13 @@ def test_views_of_arrays_belong_to_renders_too():
     lambda values: np.array(values, np.int16).view(Tracked), lambda values: np.asfortranarray(np.array(values)),
 ])
 def test_meshes_are_made_of_whatever_numpy_takes_for_an_array(make):
-    expected = image_of(bdpt.Mesh(np.array(FLOOR, np.float32), np.array(FACES, np.uint32)))
-    assert expected.any() and np.array_equal(image_of(bdpt.Mesh(make(FLOOR), make(FACES))), expected)
+    expected = render_image(bdpt.Mesh(np.array(FLOOR, np.float32), np.array(FACES, np.uint32)))
+    assert expected.any() and np.array_equal(render_image(bdpt.Mesh(make(FLOOR), make(FACES))), expected)
 
 
 def test_other_arrays_may_be_lists_too():
     mesh = bdpt.Mesh(FLOOR, FACES, normals=[[0, 1, 0]] * 4, uvs=[[0, 0]] * 4, transforms=[np.eye(4).tolist()])
-    assert image_of(mesh).any()
+    assert render_image(mesh).any()
     render = bdpt.render(bdpt.load(BOX), **SMALL)
     assert bdpt.compare(render, render.image.tolist())["relmse"] == 0.0
     assert bdpt.EnvironmentLight([[[1, 1, 1]]])

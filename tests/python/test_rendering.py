@@ -1,4 +1,4 @@
-"""Renders from Python: the bits of the command, parts that add up, progress and interrupts."""
+"""Tests renders from Python: equal bits with the command, adding parts, progress and interrupts."""
 
 import base64
 import json
@@ -19,7 +19,7 @@ def test_an_image_is_an_array_of_floats(cornell_box):
     render = bdpt.render(cornell_box, spp=2, **SMALL)
     assert render.image.shape == (16, 24, 3) and render.image.dtype == np.float32
     assert render.image.mean() > 0.01 and render.spp == 2 and render.samples == "0:2"
-    assert not render.image.flags.owndata  # the renderer's own memory
+    assert not render.image.flags.owndata  # refers to the renderer's own memory
 
 
 @pytest.mark.parametrize("options, words", [
@@ -38,7 +38,7 @@ def test_images_are_those_of_the_command_to_the_bit(command, cornell_box, tmp_pa
     assert all(np.array_equal(ours.layers[name], its.layers[name]) for name in its.layers)
     ours_twice = bdpt.read_part(parts["ours"])
     with pytest.raises(bdpt.Error, match="sample"):
-        ours_twice += its  # the same render, so it has these samples already
+        ours_twice += its  # adding the same render fails, because it has these samples already
 
 
 def test_a_scene_without_a_camera_is_framed_as_by_the_command(command, tmp_path):
@@ -77,11 +77,11 @@ def test_a_render_has_a_view_of_its_own(command, tmp_path, loaded, own, words):
     assert np.array_equal(bdpt.render(scene, spp=1, **SMALL).image, before)  # the scene's own view stays
     render += bdpt.render(scene, samples="1:2", **SMALL, **own)
     with pytest.raises(bdpt.Error):
-        render += bdpt.render(scene, samples="2:3", **SMALL)  # of another view
+        render += bdpt.render(scene, samples="2:3", **SMALL)  # has another view
 
 
 def test_the_size_of_a_view_is_that_of_the_command(command, tmp_path):
-    """Without size: that of the camera that is chosen."""
+    """Tests that, without size, the chosen camera determines it."""
     file, its = SCENES / "cornell-box.gltf", tmp_path / "its.part.exr"
     command("render", file, "--view", "front", "--spp", "1", "--integrator", "pt", "--max-depth", "1", "--part", its, "-q")
     ours = bdpt.render(bdpt.load(file), view="front", spp=1, integrator="pt", max_depth=1)
@@ -122,12 +122,12 @@ def test_a_turntable_is_that_of_the_command(command, tmp_path, load, own, words)
         its = bdpt.read_part(tmp_path / f"{number}.part.exr")
         assert np.array_equal(render.image, its.image), number
         render.save(tmp_path / "ours.png", exposure="light")
-        assert pixels_of_png(tmp_path / "ours.png") == pixels_of_png(tmp_path / f"{number}.png")
+        assert read_png_pixels(tmp_path / "ours.png") == read_png_pixels(tmp_path / f"{number}.png")
     assert not np.array_equal(renders[0].image, renders[1].image)
 
 
-def pixels_of_png(file):
-    """The bytes of its IDAT chunks: all but metadata."""
+def read_png_pixels(file):
+    """Returns the bytes of its IDAT chunks: all but metadata."""
     data, at, pixels = pathlib.Path(file).read_bytes(), 8, b""
     while at < len(data):
         size, kind = int.from_bytes(data[at:at + 4], "big"), data[at + 4:at + 8]
@@ -182,7 +182,7 @@ def test_progress_is_told_and_may_end_the_render(cornell_box):
 
 
 def test_other_threads_run_while_it_renders(cornell_box):
-    """One pass, so that nothing but the render itself could let them run."""
+    """Renders one pass, so that only the render itself can release the lock."""
     done, counts = threading.Event(), [0]
 
     def count():
@@ -213,7 +213,7 @@ def test_control_c_ends_a_render():
 
 @pytest.mark.parametrize("progress", ["told", "lambda *numbers: (told(), time.sleep(0.01))", "None"])
 def test_a_daemon_thread_does_not_disturb_the_end_of_python(progress):
-    """Python ends while the thread renders without its lock, and while the thread is in a callback."""
+    """Tests that Python can end while the thread renders without its lock, and while the thread is in a callback."""
     script = ("import bdpt, threading, time\n"
               f"scene = bdpt.load({str(SCENES / 'cornell-box.gltf')!r})\n"
               "renders = threading.Event()\n"
@@ -316,7 +316,7 @@ def test_errors_of_images():
 ])
 @pytest.mark.parametrize("metric", ["mse", "flip", "flip_ldr", "relmse_scales"])
 def test_images_that_cannot_be_compared_are_errors(image, reference, words, metric):
-    """As of the command."""
+    """Tests that errors are those of the command."""
     with pytest.raises(bdpt.Error) as raised:
         bdpt.compare(image, reference, metrics=[metric])
     assert raised.value.code == 4 and str(raised.value) == words

@@ -1,4 +1,4 @@
-"""What the stubs say of the package: all options, right programs are accepted, wrong ones refused."""
+"""Tests the stubs of the package: they have all options, accept correct programs and reject wrong ones."""
 
 import ast
 import inspect
@@ -16,7 +16,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKAGE = pathlib.Path(bdpt.__file__).parent
 FUNCTIONS = {"load": bdpt.load, "render": bdpt.render, "save": bdpt.Render.save}
-# Options of `bdpt render` that Python says in another way, or that concern one process of the command.
+# Options of `bdpt render` that Python expresses differently, or that concern one process of the command.
 OF_THE_COMMAND = {"file", "output", "float", "stats", "profile", "save_rates", "strategies", "strategy_depth", "part",
                   "fps", "cameras", "full_paths"}
 NOT_IN_JOBS = {"denoiser_library", "ktx_library"}  # they name code that is loaded
@@ -59,8 +59,8 @@ camera = bdpt.Camera(from_=(0, 0, 0))  # refused: Camera
 '''
 
 
-def keywords_of_stub():
-    """By function; those of classes are "Render.to_srgb" and the like."""
+def read_stub_keywords():
+    """Returns the keywords by function; methods are "Render.to_srgb" and the like."""
     found = {}
 
     def look(body, prefix):
@@ -82,20 +82,20 @@ def test_the_package_says_that_it_has_types():
 def test_stubs_have_each_option_of_the_command():
     schema = json.loads((ROOT / "docs" / "job.schema.json").read_text(encoding="utf-8"))
     options = {"from_" if name == "from" else name for name in schema["properties"] if name not in ("bdpt_job", "$schema")}
-    in_stubs = set().union(*keywords_of_stub().values())
+    in_stubs = set().union(*read_stub_keywords().values())
     assert in_stubs - NOT_IN_JOBS == options - OF_THE_COMMAND
     assert OF_THE_COMMAND < options and NOT_IN_JOBS < in_stubs
 
 
 def test_other_functions_have_the_keywords_of_these():
-    found = keywords_of_stub()
+    found = read_stub_keywords()
     assert found["Renderer.__init__"] == found["render"]
     assert found["Render.to_srgb"] == found["Renderer.save"] == found["save"]
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_stubs_signatures_and_help_have_the_same_keywords(name):
-    function, keywords = FUNCTIONS[name], keywords_of_stub()[name]
+    function, keywords = FUNCTIONS[name], read_stub_keywords()[name]
     signature = inspect.signature(function)
     only = {key for key, value in signature.parameters.items() if value.kind is value.KEYWORD_ONLY}
     assert only - {"progress", "format"} == keywords
@@ -106,12 +106,12 @@ def test_stubs_signatures_and_help_have_the_same_keywords(name):
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_each_keyword_of_a_stub_is_taken(name, cornell_box, tmp_path):
-    """The first keyword that is not known is the one that is reported."""
+    """Tests that bdpt reports the first unknown keyword."""
     render = bdpt.render(cornell_box, spp=1, size=(2, 2))
     first = {"load": "absent.glb", "render": cornell_box, "save": render}[name]
     rest = [tmp_path / "a.exr"] if name == "save" else []
-    assert keywords_of_stub()[name]
-    for keyword in keywords_of_stub()[name]:
+    assert read_stub_keywords()[name]
+    for keyword in read_stub_keywords()[name]:
         with pytest.raises(bdpt.Error) as raised:
             FUNCTIONS[name](first, *rest, **{keyword: "\0"}, no_such_option=1)
         assert "no_such_option" in str(raised.value)
@@ -135,7 +135,7 @@ def test_a_type_checker_accepts_what_is_right_and_refuses_what_is_wrong(tmp_path
 
 def test_stubs_are_those_of_the_module(tmp_path):
     done = mypy("mypy.stubtest", "bdpt", cwd=tmp_path)
-    # All classes and functions of nanobind have these; what they say of arguments is checked above.
+    # nanobind adds these to all classes and functions; the tests above check their arguments.
     of_nanobind = re.compile(r"is a disjoint base|metaclass differs|is not a function|__init__ is inconsistent")
     errors = re.findall(r"^error: (.*)", done.stdout, flags=re.M)
     assert errors and "not checking" not in done.stdout, done.stdout + done.stderr

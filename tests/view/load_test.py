@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Many moves, windows that close or do not read, and what they leave behind: load_test.py BDPT SCENE. Needs no browser."""
+"""Tests many moves, and windows that close or do not read, for leaks and delays: load_test.py BDPT SCENE. Needs no
+browser."""
 
 import struct
 import sys
@@ -13,23 +14,23 @@ MOVES = 1000
 MOST_GROWTH = 32  # [MiB]
 
 
-def header(message):
-    """Of pixels: their members by name."""
+def parse_header(message):
+    """Parses the header of a pixel message to a dictionary."""
     names = ("version", "slot", "generation", "sequence", "grid_width", "grid_height", "x", "y", "width", "height", "samples", "channels")
     return dict(zip(names, struct.unpack_from("<12I", message)))
 
 
-def finished(window):
-    """Waits until all samples are there; gives the state."""
+def wait_until_finished(window):
+    """Waits until all samples are rendered; returns the state."""
     return window.state(lambda state: "slots" in state and all(slot["done"] for slot in state["slots"]))
 
 
-def shown(window, sequence):
-    """Waits for pixels that show a move; gives their header."""
+def wait_for_move(window, sequence):
+    """Waits for pixels that show a move; returns their header."""
     while True:
         message = window.receive()
         if isinstance(message, bytes):
-            found = header(message)
+            found = parse_header(message)
             if found["sequence"] >= sequence:
                 return found
 
@@ -39,14 +40,14 @@ def move(window, i=0):
 
 
 def check_pixels(server):
-    """Sizes of messages are what their headers say; the last one is the whole picture."""
+    """Tests that sizes of messages match their headers, and that the last one is the whole picture."""
     with WebSocket(server) as window:
         size = window.state(lambda state: "size" in state)["size"]
         while True:
             message = window.receive()
             if not isinstance(message, bytes):
                 continue
-            found = header(message)
+            found = parse_header(message)
             expect(found["version"] == 2 and len(message) == 48 + 2 * found["channels"] * found["width"] * found["height"]
                    and found["x"] + found["width"] <= found["grid_width"] and found["y"] + found["height"] <= found["grid_height"],
                    f"an update of {found['grid_width']}x{found['grid_height']} pixels after {found['samples']} samples")
@@ -56,31 +57,32 @@ def check_pixels(server):
 
 def check_two_windows(server):
     with WebSocket(server) as first, WebSocket(server) as second:
-        before = finished(first)
-        finished(second)
-        shown(first, move(first))
+        before = wait_until_finished(first)
+        wait_until_finished(second)
+        wait_for_move(first, move(first))
         after = second.state(lambda state: state["camera"] != before["camera"])
         expect(after["camera"]["from"] != before["camera"]["from"], "what one window turns, the other sees")
-        shown(second, move(second))
-        expect(finished(first)["slots"][0]["samples"] == SAMPLES, "and both see all samples")
+        wait_for_move(second, move(second))
+        expect(wait_until_finished(first)["slots"][0]["samples"] == SAMPLES, "and both see all samples")
 
 
 def check_slow_reader(server):
-    """A window that reads nothing holds up neither the render nor the others, and its pictures do not pile up."""
+    """Tests that a window that reads nothing delays neither the render nor the other windows, and that its pictures do
+    not accumulate."""
     with WebSocket(server, small_buffer=True) as slow, WebSocket(server) as quick:
-        finished(quick)
+        wait_until_finished(quick)
         memory = server.memory()
         for i in range(40):
             move(slow, i)
-            shown(quick, move(quick, i))
-        expect(finished(quick)["slots"][0]["samples"] == SAMPLES, "beside a window that does not read, another one sees 40 moves")
+            wait_for_move(quick, move(quick, i))
+        expect(wait_until_finished(quick)["slots"][0]["samples"] == SAMPLES, "beside a window that does not read, another one sees 40 moves")
         expect(server.memory() < memory + MOST_GROWTH, f"nothing piles up ({memory:.0f} to {server.memory():.0f} MiB)")
     with WebSocket(server) as window:
-        finished(window)
+        wait_until_finished(window)
 
 
 def check_closed_windows(server):
-    """Windows that close while pixels come."""
+    """Tests windows that close while pixels arrive."""
     threads, files = server.threads(), server.files()
     for i in range(50):
         with WebSocket(server) as window:
@@ -88,7 +90,7 @@ def check_closed_windows(server):
                 window.receive()
             move(window, i)
     with WebSocket(server) as window:
-        finished(window)
+        wait_until_finished(window)
     wait_for(lambda: server.threads() <= threads and server.files() <= files, "50 windows that closed leave neither threads nor files")
     expect(server.alive, "50 windows close in the middle: the server is alive, without their threads and files")
 
@@ -99,13 +101,13 @@ def check_moves(server):
             window.answer(move(window, i))
 
     with WebSocket(server) as window:
-        finished(window)
-        moves(window, 200)  # what is allocated once
-        finished(window)
+        wait_until_finished(window)
+        moves(window, 200)  # allocates what is allocated once
+        wait_until_finished(window)
         threads, files, memory = server.threads(), server.files(), server.memory()
         moves(window, MOVES)
-        shown(window, move(window))
-        finished(window)
+        wait_for_move(window, move(window))
+        wait_until_finished(window)
         wait_for(lambda: server.threads() <= threads and server.files() <= files, "threads and files end")
         grown = server.memory() - memory
         expect(grown < MOST_GROWTH, f"{MOVES} moves leave no threads, files and memory ({grown:+.1f} MiB of {memory:.0f})")

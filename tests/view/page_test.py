@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Uses the page of `bdpt view` in Chromium as its users do: page_test.py BDPT SCENE.
+"""Tests the page of `bdpt view` in Chromium as its users use it: page_test.py BDPT SCENE.
 
-Exit code 77 says that Chromium or chromedriver (Debian: chromium, chromium-driver) are not installed."""
+Exits with 77 if Chromium or chromedriver (Debian: chromium, chromium-driver) are not installed."""
 
 import json
 import pathlib
@@ -92,8 +92,8 @@ def check_light(window):
            "the server has what was chosen")
 
 
-def command_words(window, bdpt):
-    """The words of the copied command, with the program that is tested."""
+def read_command_words(window, bdpt):
+    """Returns the words of the copied command, with the program under test."""
     window.press("c")
     words = shlex.split(window.run("return document.getElementById('command').value;"))
     expect(words[:2] == ["bdpt", "render"], f"the page shows a command: {' '.join(words)[:150]}")
@@ -101,7 +101,8 @@ def command_words(window, bdpt):
 
 
 def check_equality(window, bdpt, folder):
-    """What is saved is what the command makes, and what is seen is its picture. Gives the job, and what was seen then."""
+    """Tests that saved files equal the command's output, and that the canvas equals its picture. Returns the job and
+    the picture."""
     window.finished()
     window.downloads_to(folder)
     window.press("e")
@@ -109,10 +110,10 @@ def check_equality(window, bdpt, folder):
     shown = window.codes()
     window.press("j")
     job = wait_for(lambda: next((f for f in folder.glob("*.json") if f.stat().st_size), None), "the key J saves a job")
-    words = command_words(window, bdpt)
+    words = read_command_words(window, bdpt)
     rendered, by_job = folder / "command" / "rendered.exr", folder / "command" / "job.exr"
     rendered.parent.mkdir()
-    subprocess.run([*without_outputs(words), "-o", str(rendered), "--quiet"], check=True, cwd=folder)
+    subprocess.run([*remove_outputs(words), "-o", str(rendered), "--quiet"], check=True, cwd=folder)
     subprocess.run([bdpt, "render", str(job), "-o", str(by_job), "--quiet"], check=True, cwd=folder)
     files = [ExrFile(file) for file in (saved, rendered, by_job)]
     values = [{name: [bytes(memoryview(row)) for row in rows] for name, rows in one.values.items()} for one in files]
@@ -123,20 +124,20 @@ def check_equality(window, bdpt, folder):
         window.wait(f"window.bdptView.state.curve === '{curve}' && document.getElementById('command').value.includes('{curve}')"
                     if curve != "filmic" else "window.bdptView.state.curve === 'filmic'")
         picture = folder / "command" / f"{curve}.png"
-        subprocess.run([*without_outputs(command_words(window, bdpt)), "-o", str(picture), "--quiet"], check=True, cwd=folder)
-        wanted, there = codes_of(window, picture), window.codes()
+        subprocess.run([*remove_outputs(read_command_words(window, bdpt)), "-o", str(picture), "--quiet"], check=True, cwd=folder)
+        wanted, there = read_codes(window, picture), window.codes()
         worst = max(abs(a - b) for a, b in zip(wanted, there))
         expect(len(wanted) == len(there) and worst <= 1, f"{curve}: the page shows the command's PNG (differs by {worst} of 255)")
         expect(len(set(wanted)) > 20, "which is no empty picture")
     window.press("s")
     png = wait_for(lambda: next((f for f in folder.glob("*.png") if f.stat().st_size), None), "the key S saves a PNG")
-    expect(codes_of(window, png) == codes_of(window, picture), "the saved PNG is the command's")
+    expect(read_codes(window, png) == read_codes(window, picture), "the saved PNG is the command's")
     window.set("curve", "filmic", "change")
     return job, shown
 
 
-def without_outputs(words):
-    """A command without its -o FILE."""
+def remove_outputs(words):
+    """Returns a command without its -o FILE."""
     result, rest = [], list(words)
     while rest:
         word = rest.pop(0)
@@ -147,8 +148,8 @@ def without_outputs(words):
     return result
 
 
-def codes_of(window, file):
-    """Red, green and blue bytes of a PNG file, as the browser reads it."""
+def read_codes(window, file):
+    """Returns red, green and blue bytes of a PNG file, as the browser decodes it."""
     import base64
     url = "data:image/png;base64," + base64.b64encode(file.read_bytes()).decode()
     return window.call("POST", "/execute/async", {"script": """
@@ -264,7 +265,7 @@ def check_access(window):
 
 
 def check_file(window, scene):
-    """The scene is read again when it changes; a broken file keeps the picture."""
+    """Tests that the scene is reloaded when it changes; a broken file keeps the picture."""
     window.finished()
     text = scene.read_text(encoding="utf-8")
     before, picture = window.seen(), window.codes()
@@ -301,7 +302,7 @@ def check_two_tabs(window, server):
     wait_for(lambda: window.state("camera") != camera, "a drag in the second tab turns the camera")
     turned = window.state("camera")
     window.drag((0.4, 0.5), (0.5, 0.5))
-    window.close_tab()  # in the middle of a render
+    window.close_tab()  # closes the tab during a render
     window.go_to(first)
     window.finished()
     expect(window.state("camera") not in (camera, None) and turned != camera, "what one tab turns, the other sees")
@@ -329,7 +330,7 @@ def check_connection(window, server):
 
 
 def check_job(window, bdpt, job, picture):
-    """A saved job is gone on with: same view, same light, same samples."""
+    """Tests that a saved job resumes with the same view, light and samples."""
     with Server(bdpt, job) as server:
         window.show(server)
         window.finished()
@@ -342,7 +343,7 @@ def check_job(window, bdpt, job, picture):
 
 
 def check_rates(window, bdpt, scene):
-    """Adaptive sampling has a layer more."""
+    """Tests that adaptive sampling adds a layer."""
     with Server(bdpt, scene, "--size", "32x24", "--spp", "32", "--integrator", "mis", "--adaptive") as server:
         window.show(server)
         window.finished()
@@ -351,7 +352,7 @@ def check_rates(window, bdpt, scene):
 
 
 def check_background(window, bdpt, scene):
-    """What is over a background looks as the command's PNG does, its shadow on the ground too."""
+    """Tests that the picture over a background equals the command's PNG, including the shadow on the ground."""
     picture = scene.parent / "over.png"
     for background in ("#3060a0", "transparent"):
         words = ("--size", "48x36", "--spp", "4", "--integrator", "mis", "--background", background, "--ground", "shadow", "--margin", "0.2")
@@ -359,14 +360,14 @@ def check_background(window, bdpt, scene):
         with Server(bdpt, scene, *words) as server:
             window.show(server)
             window.finished()
-            wanted, shown = codes_of(window, picture), window.codes()
+            wanted, shown = read_codes(window, picture), window.codes()
             worst = max(abs(a - b) for a, b in zip(wanted, shown))
             expect(len(wanted) == len(shown) and worst <= 1 and len(set(wanted)) > 20,
                    f"over {background} the page shows the command's PNG (differs by {worst} of 255)")
 
 
 def check_memory(window, bdpt, scene):
-    """What does not fit is told in the page, which keeps the picture."""
+    """Tests that the page reports insufficient memory and keeps the picture."""
     text = scene.read_text(encoding="utf-8")
     with Server(bdpt, scene, "--size", "32x24", "--spp", "1", "--max-memory", "64M") as server:
         window.show(server)

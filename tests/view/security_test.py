@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Asks `bdpt view` for what it must refuse, by bare sockets: security_test.py BDPT SCENE.
+"""Sends requests to `bdpt view` that it must refuse, by raw sockets: security_test.py BDPT SCENE.
 
-Each refusal is one line, and the server goes on."""
+Each refusal is one line, and the server keeps running."""
 
 import json
 import random
@@ -15,7 +15,7 @@ from served import Server, answer_of, expect, received, wait_for
 from web_socket import WebSocket, handshake
 
 CONNECTIONS = 10_000
-AT_ONCE = 200  # far below the usual limit of 1024 open files, of which there are two for each
+AT_ONCE = 200  # far below the usual limit of 1024 open files; each connection takes two
 MEBIBYTE = 1 << 20
 
 
@@ -92,8 +92,8 @@ def check_methods(server):
         refused(server.request(server.path(), method=method), f"the method {method}")
 
 
-def pour(connection, part, most):
-    """Sends a part again and again until the other side closes: bytes that were taken."""
+def send_repeatedly(connection, part, most):
+    """Sends a part again and again until the other side closes; returns the number of bytes accepted."""
     sent = 0
     try:
         while sent < most:
@@ -107,7 +107,7 @@ def pour(connection, part, most):
 def check_bodies(server):
     before = server.memory()
     gigabyte = 1 << 30
-    most = 64 * MEBIBYTE  # what sockets buffer is far below
+    most = 64 * MEBIBYTE  # far above what sockets buffer
     for name, header, part in (("a gigabyte", f"Content-Length: {gigabyte}", bytes(65536)),
                                ("a chunked body", "Transfer-Encoding: chunked", b"10000\r\n" + bytes(65536) + b"\r\n"),
                                ("one larger than any number", f"Content-Length: {10 ** 30}", bytes(65536)),
@@ -115,7 +115,7 @@ def check_bodies(server):
         for method, file in (("POST", ""), ("GET", ""), ("POST", "save.exr")):
             with server.connect() as connection:
                 connection.sendall(f"{method} {server.path(file)} HTTP/1.1\r\nHost: {server.host}\r\n{header}\r\n\r\n".encode())
-                sent = pour(connection, part, most)
+                sent = send_repeatedly(connection, part, most)
                 expect(sent < most, f"{method} {file or 'page'} with {name}: the connection is closed ({sent >> 10} KiB were sent)")
     expect(server.memory() < before + 64, f"memory does not grow with bodies ({before:.0f} to {server.memory():.0f} MiB)")
     with server.connect() as connection:
@@ -128,7 +128,7 @@ def check_headers(server):
                        ("100,000 headers", "".join(f"X-{i}: 1\r\n" for i in range(100_000))),
                        ("a line that goes on", "X: 1\r\n" + " 2\r\n" * 100_000)):
         with server.connect() as connection:
-            sent = pour(connection, f"GET {server.path()} HTTP/1.1\r\nHost: {server.host}\r\n{text}\r\n".encode(), 1)
+            sent = send_repeatedly(connection, f"GET {server.path()} HTTP/1.1\r\nHost: {server.host}\r\n{text}\r\n".encode(), 1)
             status, _ = answer_of(connection)
             expect(status in range(400, 500) or status == 0, f"{name} is refused ({status}, {sent} bytes sent)")
     status, _ = server.request(server.path("a" * MEBIBYTE))
@@ -162,12 +162,12 @@ def check_many_connections(server):
             try:
                 connections.append(server.connect())
                 if i % 2:
-                    connections[-1].sendall(b"GET / HT")  # the rest never comes
+                    connections[-1].sendall(b"GET / HT")  # the rest is never sent
             except OSError:
                 pass
         opened += AT_ONCE
         for connection in connections:
-            # Reset, so that no port waits for packets that come late.
+            # Resets the connection, so that no port waits for late packets.
             connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
             connection.close()
     wait_for(lambda: server.request(server.path())[0] == 200, "the page is served again")
@@ -177,7 +177,7 @@ def check_many_connections(server):
 
 
 def check_half_open(server):
-    """Requests that are never finished keep nobody else from the page for long."""
+    """Tests that unfinished requests do not block others from the page for long."""
     held = []
     for i in range(100):
         connection = server.connect()
@@ -190,8 +190,8 @@ def check_half_open(server):
         connection.close()
 
 
-def talk(server, name, payload, kind=web_socket.TEXT):
-    """Sends a frame to a web socket, which may answer an error or close."""
+def send_socket_frame(server, name, payload, kind=web_socket.TEXT):
+    """Sends a frame to a web socket, which may answer with an error or close."""
     with WebSocket(server) as window:
         try:
             window.send_frame(kind, payload)
@@ -213,8 +213,8 @@ def check_socket(server):
     for name, payload in (("no JSON", b"hello"), ("not text", b"\xff\xfe\xfd"), ("an array", b"[1,2]"), ("a number", b"5"), ("deep JSON", deep),
                           ("no request", b'{"seq":7}'), ("another request", b'{"seq":7,"format_disk":true}'),
                           ("a sequence that is a text", b'{"seq":"x","reset":true}'), ("a negative sequence", b'{"seq":-1,"reset":true}')):
-        talk(server, name, payload)
-    talk(server, "binary data", random.Random(2).randbytes(1000), web_socket.BINARY)
+        send_socket_frame(server, name, payload)
+    send_socket_frame(server, "binary data", random.Random(2).randbytes(1000), web_socket.BINARY)
     wrong = [{"move": "x"}, {"move": {"orbit": [1], "pan": [0, 0], "dolly": 1}}, {"move": {"orbit": [1e300, 0], "pan": [0, 0], "dolly": 1}},
              {"move": {"orbit": [0, 0], "pan": [0, 0], "dolly": 0}}, {"move": {"orbit": [0, 0], "pan": [0, 0], "dolly": -1}},
              {"move": {"orbit": [0, 0], "pan": [0, 0], "dolly": 1e300}}, {"move": {"orbit": [None, 0], "pan": [0, 0], "dolly": 1}},
@@ -238,7 +238,7 @@ def check_socket(server):
 
 
 def check_frames(server):
-    """Frames against the protocol: the web socket is closed."""
+    """Tests that frames that violate the protocol close the web socket."""
     text = b'{"seq":1,"reset":true}'
     for name, frame in (("a frame without a mask", bytes([0x81, len(text)]) + text),
                         ("a frame of a gigabyte", bytes([0x81, 0xff]) + struct.pack(">Q", 1 << 30) + bytes(4) + bytes(65536)),

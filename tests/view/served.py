@@ -1,4 +1,4 @@
-"""`bdpt view` as the tests start it, what its process takes of the machine, and its requests by bare sockets."""
+"""Starts `bdpt view` for the tests, measures its resources, and sends requests by raw sockets."""
 
 import pathlib
 import re
@@ -10,7 +10,7 @@ import sys
 import time
 
 SKIPPED = 77
-PATIENCE = 60  # [s] until something that must happen has not
+PATIENCE = 60  # [s] to wait for an expected event
 
 
 def expect(condition, what):
@@ -20,7 +20,7 @@ def expect(condition, what):
 
 
 def wait_for(condition, what):
-    """The first true value of a function; the test fails where there is none."""
+    """Waits until a function returns a true value and returns it; fails the test after a timeout."""
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end:
         value = condition()
@@ -31,7 +31,7 @@ def wait_for(condition, what):
 
 
 class Server:
-    """Use it with `with`: the process ends with it. A `scene` without a folder is one of `folder`, else of this one."""
+    """Runs the server as a context manager. A `scene` without a folder is one of `folder`, else of this one."""
 
     def __init__(self, bdpt, scene, *options, port=0, folder=None):
         path = pathlib.Path(scene)
@@ -44,7 +44,7 @@ class Server:
         self.port, self.token = int(found[1]), found[2]
 
     def _read_address(self):
-        """The first line that it prints."""
+        """Reads the first line of output."""
         if not select.select([self.process.stdout], [], [], PATIENCE)[0]:
             self.process.kill()
             sys.exit("failed: bdpt view prints no address")
@@ -57,7 +57,7 @@ class Server:
         self.stop()
 
     def stop(self):
-        """Ends it as Ctrl-C does, and gives the exit code."""
+        """Ends the process as Ctrl-C does, and returns the exit code."""
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
         try:
@@ -76,7 +76,7 @@ class Server:
     def alive(self):
         return self.process.poll() is None
 
-    # What it takes of the machine, as Linux tells it
+    # These report resources of the process, from Linux's /proc.
 
     def threads(self):
         return len(list(pathlib.Path(f"/proc/{self.process.pid}/task").iterdir()))
@@ -85,12 +85,12 @@ class Server:
         return len(list(pathlib.Path(f"/proc/{self.process.pid}/fd").iterdir()))
 
     def memory(self):
-        """Resident memory [MiB]."""
+        """Returns the resident memory [MiB]."""
         text = pathlib.Path(f"/proc/{self.process.pid}/status").read_text(encoding="utf-8")
         return int(re.search(r"VmRSS:\s+(\d+)", text)[1]) / 1024
 
     def listening(self):
-        """Addresses that its sockets listen at, as "127.0.0.1:80"; of IPv6 in the digits of /proc."""
+        """Returns the addresses that its sockets listen on, as "127.0.0.1:80"; those of IPv6 in the digits of /proc."""
         inodes = set()
         for link in pathlib.Path(f"/proc/{self.process.pid}/fd").iterdir():
             try:
@@ -110,7 +110,7 @@ class Server:
                     addresses.append(f"{plain}:{int(port, 16)}")
         return addresses
 
-    # Requests
+    # These send requests.
 
     @property
     def host(self):
@@ -120,7 +120,7 @@ class Server:
         return socket.create_connection(("127.0.0.1", self.port), timeout)
 
     def request(self, target, headers=None, method="GET", body=b""):
-        """Status and body of an answer, 0 without one. `headers` replace those that a browser would send."""
+        """Returns status and body of an answer; the status is 0 without one. `headers` replace those of a browser."""
         lines = {"Host": self.host, "Connection": "close", **(headers or {})}
         text = f"{method} {target} HTTP/1.1\r\n" + "".join(f"{k}: {v}\r\n" for k, v in lines.items() if v is not None) + "\r\n"
         try:
@@ -131,18 +131,18 @@ class Server:
             return 0, b""
 
     def path(self, name="", token=None):
-        """Of a file of the server; "" is the page."""
+        """Returns the path of a file of the server; "" is the page."""
         return f"/{self.token if token is None else token}/{name}"
 
     def get(self, name=""):
-        """The body of a file of the server."""
+        """Returns the body of a file of the server."""
         status, body = self.request(self.path(name))
         expect(status == 200, f"{name or 'the page'} is served ({status} {body[:200] if status != 200 else ''})")
         return body
 
 
 def received(connection):
-    """All that comes until the other side closes, or resets."""
+    """Reads until the other side closes or resets."""
     parts = []
     while True:
         try:
@@ -156,15 +156,15 @@ def received(connection):
 
 
 def answer_of(connection):
-    """Status and body of what comes; status 0: it closed without an answer."""
+    """Returns status and body of the answer; status 0 means that the connection was closed without one."""
     head, _, body = received(connection).partition(b"\r\n\r\n")
     found = re.match(rb"HTTP/1\.[01] (\d{3})", head)
     if found and re.search(rb"(?i)transfer-encoding: *chunked", head):
-        body = unchunked(body)
+        body = decode_chunks(body)
     return int(found[1]) if found else 0, body
 
 
-def unchunked(body):
+def decode_chunks(body):
     parts = []
     while True:
         size, _, body = body.partition(b"\r\n")

@@ -1,4 +1,4 @@
-"""A client of web sockets [RFC 6455] that does no more than the tests of bdpt view need."""
+"""Implements the subset of a web socket client [RFC 6455] that the tests of bdpt view need."""
 
 import base64
 import json
@@ -10,7 +10,7 @@ TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10
 
 
 def handshake(server, token, headers=None):
-    """The first request of a web socket."""
+    """Returns the opening request of a web socket."""
     lines = {"Host": server.host, "Origin": f"http://{server.host}", "Upgrade": "websocket", "Connection": "Upgrade",
              "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": base64.b64encode(os.urandom(16)).decode(), **(headers or {})}
     path = "/socket" if token is None else f"/{token}/socket"
@@ -19,7 +19,7 @@ def handshake(server, token, headers=None):
 
 
 class WebSocket:
-    """A window of the page without its browser."""
+    """Imitates a window of the page, without a browser."""
 
     def __init__(self, server, small_buffer=False):
         self.connection = server.connect()
@@ -63,13 +63,13 @@ class WebSocket:
         self.connection.sendall(head + mask + bytes(byte ^ mask[i % 4] for i, byte in enumerate(payload)))
 
     def ask(self, **what):
-        """Sends a request; gives its number."""
+        """Sends a request; returns its number."""
         self.sequence += 1
         self.send_frame(TEXT, json.dumps({"seq": self.sequence, **what}).encode())
         return self.sequence
 
     def receive(self):
-        """The next message: a dictionary, or bytes of pixels. Answers pings."""
+        """Returns the next message: a dictionary, or bytes of pixels. Answers pings."""
         parts, kind = b"", None
         while True:
             first, second = self._take(2)
@@ -91,14 +91,14 @@ class WebSocket:
                     return json.loads(parts) if kind == TEXT else parts
 
     def answer(self, sequence):
-        """The answer to a request; what comes before is dropped."""
+        """Waits for the answer to a request; drops earlier messages."""
         while True:
             message = self.receive()
             if isinstance(message, dict) and message.get("ack") == sequence:
                 return message
 
     def state(self, wanted=lambda state: True):
-        """The next state that is as `wanted`."""
+        """Returns the next state for which `wanted` holds."""
         while True:
             message = self.receive()
             if isinstance(message, dict) and "state" in message and wanted(message["state"]):

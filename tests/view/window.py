@@ -1,4 +1,4 @@
-"""The page of `bdpt view` in a browser: what a user does there and sees."""
+"""Drives the page of `bdpt view` in a browser: performs a user's actions and reads the page."""
 
 import pathlib
 import sys
@@ -11,20 +11,20 @@ STAGE = "document.querySelector('.stage')"
 
 
 class Window(Browser):
-    """Use it with `with`: the browser ends with it."""
+    """Runs a browser as a context manager."""
 
     def show(self, server):
         """Opens the page and waits for the first pixels."""
         self.open(server.url)
         self.wait("document.documentElement.dataset.ready === 'true'")
 
-    # What it shows
+    # These read the page.
 
     def state(self, member):
         return self.run("const value = window.bdptView.state; return value && value[arguments[0]];", member)
 
     def seen(self):
-        """What came from the server: the number of the last move, of the restart, of pictures; width of the grid."""
+        """Returns what the page has received: numbers of the last move, restart and update; width of the grid."""
         return self.run("return { ...window.bdptView.seen };")
 
     def drawn(self):
@@ -32,37 +32,37 @@ class Window(Browser):
                   "requestAnimationFrame(() => requestAnimationFrame(() => done(true)));", "args": []})
 
     def picture(self):
-        """What the canvas shows, once all drawing is done."""
+        """Returns the pixels of the canvas, after all drawing is done."""
         self.drawn()
         return self.run(f"return {STAGE}.toDataURL();")
 
     def codes(self, slot=0):
-        """Red, green and blue bytes of the picture before it is magnified."""
+        """Returns red, green and blue bytes of the picture before it is magnified."""
         self.drawn()
         return self.run("const canvas = window.bdptView.stage.slots[arguments[0]].canvas;"
                         "const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;"
                         "return [...data].filter((_, i) => i % 4 < 3);", slot)
 
     def text(self, name):
-        """Of an element; empty if it is hidden."""
+        """Returns the text of an element; empty if it is hidden."""
         return self.run("const one = document.getElementById(arguments[0]);"
                         "return !one || one.hidden ? '' : one.textContent;", name)
 
     def finished(self):
-        """Waits until all samples are there."""
+        """Waits until all samples are rendered."""
         self.wait("window.bdptView.state.slots.every((slot, i) => slot.done && window.bdptView.seen.samples[i] === slot.samples) && "
                   "window.bdptView.seen.grid === window.bdptView.state.size[0]")
 
     def wait_for_generation(self, before):
         self.wait(f"window.bdptView.seen.generation > {before}")
 
-    # What a user does
+    # These act like a user.
 
     def box(self):
         return self.run(f"const box = {STAGE}.getBoundingClientRect(); return [box.left, box.top, box.width, box.height];")
 
     def place(self, x, y):
-        """A place of the picture in [0, 1] as one of the window."""
+        """Converts a position in the picture in [0, 1] to one in the window."""
         left, top, width, height = self.box()
         return left + x * width, top + y * height
 
@@ -74,7 +74,7 @@ class Window(Browser):
         return {"type": "pointerMove", "duration": duration, "x": round(place[0]), "y": round(place[1])}
 
     def drag(self, start, end, button=LEFT, steps=4):
-        """From one place of the picture to another, both in [0, 1]."""
+        """Drags from one position in the picture to another, both in [0, 1]."""
         a, b = self.place(*start), self.place(*end)
         between = [(a[0] + (b[0] - a[0]) * i / steps, a[1] + (b[1] - a[1]) * i / steps) for i in range(1, steps + 1)]
         self.pointer([self.move(a), {"type": "pointerDown", "button": button}, *[self.move(place, 15) for place in between],
@@ -98,13 +98,13 @@ class Window(Browser):
         self.call("POST", "/goog/cdp/execute", {"cmd": "Browser.setDownloadBehavior",
                                                 "params": {"behavior": "allow", "downloadPath": str(folder)}})
 
-    # Tabs
+    # These handle tabs.
 
     def tab(self):
         return self.call("GET", "/window")
 
     def new_tab(self):
-        """Opens a tab and goes there; gives its name."""
+        """Opens a tab and switches to it; returns its handle."""
         name = self.call("POST", "/window/new", {"type": "tab"})["handle"]
         self.go_to(name)
         return name

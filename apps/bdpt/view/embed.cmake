@@ -1,5 +1,5 @@
-# cmake -DOUTPUT=FILE.cpp -DSTYLES=a.css;... -DSCRIPTS=a.js;... -DTEMPLATE=view.html -P embed.cmake: the page
-# of bdpt view as arrays of a C++ file.
+# Embeds the page of bdpt view in a C++ file, as arrays:
+# cmake -DOUTPUT=FILE.cpp -DSTYLES=a.css;... -DSCRIPTS=a.js;... -DTEMPLATE=view.html -P embed.cmake
 include("${CMAKE_CURRENT_LIST_DIR}/../../../cmake/EmbedText.cmake")
 
 string(REPLACE "\\;" ";" STYLES "${STYLES}")

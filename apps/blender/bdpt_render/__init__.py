@@ -1,4 +1,4 @@
-"""bdpt as a render engine of Blender: exports a frame as GLB, runs the command, and shows its image."""
+"""Makes bdpt a render engine of Blender: exports a frame as GLB, runs the command, and shows its image."""
 
 from . import engine, panels, settings
 

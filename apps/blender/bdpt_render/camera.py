@@ -1,4 +1,4 @@
-"""The camera of a scene: its view, its lens, and the window of the film that is rendered."""
+"""Converts the camera of a scene: its view, its lens, and the window of the film that is rendered."""
 
 import dataclasses
 import math
@@ -8,9 +8,9 @@ import numpy as np
 
 @dataclasses.dataclass
 class Film:
-    """A film of width x height pixels whose pixels [x0, x1) x [y0, y1), row 0 on top, are rendered.
+    """A film of width x height pixels, of which [x0, x1) x [y0, y1) are rendered; row 0 is on top.
 
-    A shifted lens sees a window of a larger film whose middle is on the axis of the lens.
+    A shifted lens sees a window of a larger film that is centred on the axis of the lens.
     """
 
     width: int
@@ -23,25 +23,25 @@ class Film:
         return words if whole else words + ["--crop", ",".join(map(str, self.crop))]
 
 
-def size_of(render):
-    """Width and height of the image [pixels], as Blender rounds them."""
+def compute_size(render):
+    """Returns width and height of the image [pixels], rounded as Blender does."""
     return (max(1, render.resolution_x * render.resolution_percentage // 100),
             max(1, render.resolution_y * render.resolution_percentage // 100))
 
 
 def film_of(scene, camera):
-    width, height = size_of(scene.render)
-    # Blender counts rows from the bottom.
-    left, right, bottom, top = border_of(scene.render, width, height)
-    x, y = shift_of(scene.render, camera)
+    width, height = compute_size(scene.render)
+    # Blender numbers rows from the bottom.
+    left, right, bottom, top = find_border(scene.render, width, height)
+    x, y = compute_shift(scene.render, camera)
     left, right = left + abs(x) + x, right + abs(x) + x
     bottom, top = bottom + abs(y) + y, top + abs(y) + y
     width, height = width + 2 * abs(x), height + 2 * abs(y)
     return Film(width, height, (left, height - top, right, height - bottom))
 
 
-def border_of(render, width, height):
-    """left, right, bottom, top [pixels] of the region that is rendered, in single precision as Blender does."""
+def find_border(render, width, height):
+    """Returns left, right, bottom and top [pixels] of the rendered region, in single precision as Blender does."""
     if not render.use_border:
         return 0, width, 0, height
     pixels = lambda share, size: int(np.float32(share) * np.float32(size))
@@ -50,30 +50,31 @@ def border_of(render, width, height):
 
 
 def fits_width(render, camera):
-    """Whether the sensor's side is the image's width: the longer side, unless the camera says which."""
-    width, height = size_of(render)
+    """Returns whether the sensor size spans the width of the image: the camera decides, or else the longer side."""
+    width, height = compute_size(render)
     return camera.sensor_fit == "HORIZONTAL" or (camera.sensor_fit == "AUTO" and width >= height)
 
 
-def shift_of(render, camera):
-    """Whole pixels to the right and upwards; the error is at most half a pixel."""
-    width, height = size_of(render)
+def compute_shift(render, camera):
+    """Returns the lens shift in whole pixels to the right and upwards; rounding costs at most half a pixel."""
+    width, height = compute_size(render)
     side = width if fits_width(render, camera) else height
     return round(camera.shift_x * side), round(camera.shift_y * side)
 
 
 def gltf_camera(scene, camera, matrix):
-    """The camera as glTF has it. `matrix` is that of its object, from which targets of the focus are far."""
+    """Returns the camera as glTF. `matrix` is the world matrix of its object; focus distances are measured from
+    there."""
     render = scene.render
-    width, height = size_of(render)
+    width, height = compute_size(render)
     film = film_of(scene, camera)
     if camera.type == "PANO":
         raise RuntimeError(f'camera "{camera.name}": bdpt has no panoramic cameras')
     if camera.type not in ("PERSP", "ORTHO"):
         raise RuntimeError(f'camera "{camera.name}": bdpt has no cameras of the type {camera.type}')
-    side_height = height / width if fits_width(render, camera) else 1.0  # of the image, over the sensor's side
+    side_height = height / width if fits_width(render, camera) else 1.0  # image height over the sensor's side
     grown = film.height / height
-    near_far = {"znear": 0.01, "zfar": 1000.0}  # glTF wants them; bdpt clips nothing
+    near_far = {"znear": 0.01, "zfar": 1000.0}  # glTF requires them; bdpt clips nothing
     if camera.type == "ORTHO":
         ymag = camera.ortho_scale * side_height * grown / 2.0
         return {"type": "orthographic", "orthographic": {"xmag": ymag * film.width / film.height, "ymag": ymag, **near_far}}
@@ -82,7 +83,7 @@ def gltf_camera(scene, camera, matrix):
     yfov = 2.0 * math.atan(sensor * side_height * grown / 2.0 / camera.lens)
     item = {"type": "perspective", "perspective": {"yfov": yfov, "aspectRatio": film.width / film.height, **near_far}}
     if camera.dof.use_dof:
-        # f-number and focal length [mm] to the radius of the lens [m].
+        # Converts the f-number and the focal length [mm] to the radius of the lens [m].
         item["extras"] = {"lensRadius": camera.lens / camera.dof.aperture_fstop / 2000.0,
                           "focusDistance": focus_distance(camera, matrix)}
     return item

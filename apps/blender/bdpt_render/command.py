@@ -1,4 +1,4 @@
-"""The command bdpt, at work in a process of its own."""
+"""Runs the command bdpt in a process of its own."""
 
 import contextlib
 import json
@@ -9,11 +9,11 @@ import sysconfig
 import tempfile
 import threading
 
-STOPPED = (0, 130, 143)  # exit codes of renders that have written their image
+STOPPED = (0, 130, 143)  # exit codes after which the image has been written
 
 
 def program(chosen):
-    """The command: the chosen one, else that of PATH, else that of the Python environment."""
+    """Returns the path of the command: the chosen one, else that in PATH, else that of the Python environment."""
     if chosen:
         return chosen
     found = shutil.which("bdpt")
@@ -21,7 +21,7 @@ def program(chosen):
 
 
 class Command:
-    """bdpt render with those words. `ended()` takes note of what it has said since."""
+    """Runs `bdpt render` with the given words. `ended()` also processes the events printed since the last call."""
 
     def __init__(self, path, words):
         self.fraction, self.samples, self.noise = 0.0, 0, None
@@ -70,19 +70,19 @@ class Command:
             self.samples, self.done = event["samples"], event
 
     def sentence(self):
-        """What has been done, when it has ended well."""
+        """Describes a render that succeeded."""
         noise = self.done.get("noise")
         left = f", noise {100 * noise:.2g} %" if noise is not None else ""
         return f"bdpt rendered {self.samples} samples per pixel in {self.done['seconds']:.1f} s{left}"
 
     def wait(self, seconds):
-        """At most so long, for its end."""
+        """Waits until the command ends, for at most that many seconds."""
         if self._process is not None:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 self._process.wait(seconds)
 
     def stop(self):
-        """The command writes its image after the pass in flight."""
+        """Interrupts the command, which writes its image after the pass in flight."""
         if self._process is not None:
             self._process.terminate()
 

@@ -1,4 +1,4 @@
-"""The render engine: exports a frame, runs the command, and takes its image."""
+"""Implements the render engine: exports a frame, runs the command, and loads its image."""
 
 import math
 import pathlib
@@ -13,8 +13,8 @@ from .command import Command, program
 from .exr import Exr
 from .live_image import LiveImage
 
-STEP = 0.1  # [s] between looks at the command
-PATIENCE = 30.0  # [s] for a cancelled command to finish its pass
+STEP = 0.1  # [s] between polls of the command
+PATIENCE = 30.0  # [s] that a cancelled command may take to finish its pass
 
 
 class BDPT_RenderEngine(bpy.types.RenderEngine):
@@ -29,7 +29,7 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
         passes.register(self, scene, renderlayer)
 
     def render(self, depsgraph):
-        """Whatever goes wrong is a message to the user; it ends the render, and an animation too."""
+        """Renders a frame. Every error is reported to the user and ends the render, and an animation too."""
         try:
             with tempfile.TemporaryDirectory(prefix="bdpt-") as folder:
                 self._render(depsgraph, pathlib.Path(folder))
@@ -46,7 +46,7 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
         for warning in dict.fromkeys(exported.warnings):
             self.report_to_user("WARNING", warning)
         image = folder / "image.exr"
-        words = [*exported.words(), *words_of(scene), *passes.words(scene, depsgraph.view_layer_eval), "-o", str(image)]
+        words = [*exported.words(), *list_options(scene), *passes.words(scene, depsgraph.view_layer_eval), "-o", str(image)]
         command = self._run(words, exported.film, depsgraph.view_layer_eval)
         for warning in command.warnings:
             self.report_to_user("WARNING", warning)
@@ -63,7 +63,7 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
             self.report_to_user("INFO", command.sentence())
 
     def _exported(self, depsgraph, folder):
-        """The scene at all moments of the shutter. The graph is back at its frame afterwards."""
+        """Exports the scene at all moments of the shutter, then returns the dependency graph to its frame."""
         scene = depsgraph.scene
         frame = scene.frame_current_final
         times = export.shutter_times(scene.render)
@@ -112,7 +112,7 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
                     raise main_thread.Cancelled
             return command
         finally:
-            command.kill()  # where it has not ended
+            command.kill()  # if it still runs
             if live:
                 live.close()
 
@@ -130,7 +130,7 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
 
 
 def check(scene):
-    """Refuses what cannot be rendered."""
+    """Raises an error for scenes that bdpt cannot render."""
     if scene.camera is None:
         raise RuntimeError(f'scene "{scene.name}" has no camera')
     if scene.camera.type != "CAMERA":
@@ -139,8 +139,8 @@ def check(scene):
         raise RuntimeError(f'scene "{scene.name}": bdpt has no stereoscopy')
 
 
-def words_of(scene):
-    """How to render, by the settings of the scene."""
+def list_options(scene):
+    """Returns the options of `bdpt render` that follow from the settings of the scene."""
     chosen = scene.bdpt
     words = ["--spp", str(chosen.samples), "--integrator", chosen.integrator, "--max-depth", str(chosen.max_depth)]
     words += ["--time", f"{chosen.time:g}s"] if chosen.time > 0.0 else []
@@ -156,8 +156,9 @@ def words_of(scene):
 
 
 def denoiser_of_blender():
-    """The folder of Open Image Denoise that comes with Blender, or with its module; None where it uses the system's."""
-    version = bpy.utils.resource_path("LOCAL")  # a folder beside that of libraries
+    """Returns the folder of the Open Image Denoise library that Blender or its module ships; None if it uses the
+    system's."""
+    version = bpy.utils.resource_path("LOCAL")  # the folder beside that of the libraries
     folder = pathlib.Path(version).parent / "lib"
     return folder if version and any(folder.glob("libOpenImageDenoise.so.2*")) else None
 

@@ -1,4 +1,4 @@
-"""The scene of a render as a GLB file, and the words for `bdpt render` that say the rest."""
+"""Exports the scene of a render as a GLB file, and the remaining settings as options of `bdpt render`."""
 
 import math
 import pathlib
@@ -8,16 +8,16 @@ import numpy as np
 
 from . import camera, instances, lamps, meshes, world
 
-# Blender's z is up, that of glTF is y.
+# Rotates Blender's z-up coordinates to the y-up coordinates of glTF.
 Y_UP = mathutils.Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 SHUTTER_MOMENTS = 3
 
 
 class Export:
-    """A scene that is placed at one moment or, for motion blur, at several."""
+    """Exports a scene at one moment or, for motion blur, at several."""
 
     def __init__(self, depsgraph, folder):
-        """At the first moment, in the main thread."""
+        """Exports shapes and positions at the first moment. Must run in the main thread."""
         self.file = pathlib.Path(folder, "scene.glb")
         self.warnings = []
         scene = depsgraph.scene
@@ -25,7 +25,7 @@ class Export:
         made = meshes.Meshes(depsgraph, folder)
         self._glb, of_instances = made.glb, made.of_instances()
         self._nodes, self._moments = {}, []
-        self._y_up = of_instances.keys()  # whose vertices the exporter has turned
+        self._y_up = of_instances.keys()  # the exporter has already rotated their vertices
         for instance, shown in instances.instances_of(depsgraph):
             if shown.type == "LIGHT":
                 holds, lost = lamps.add_lamp(self._glb, shown.data, instance.name, instance.matrix.to_scale())
@@ -44,7 +44,7 @@ class Export:
         self.place(depsgraph)
 
     def place(self, depsgraph):
-        """Where things are at one more moment. Their shapes stay those of the first one."""
+        """Records the transforms at one more moment. Shapes stay those of the first moment."""
         self._moments.append(instances.matrices_of(depsgraph))
         if len(self._moments) == 1:
             return
@@ -57,7 +57,7 @@ class Export:
         document["nodes"], channels, samplers = [], [], []
         times = None
         for key, node in self._nodes.items():
-            # What appears or disappears while the shutter is open stays where it is.
+            # Instances that appear or disappear while the shutter is open do not move.
             matrices = [self._in_gltf(key, moment.get(key, self._moments[0][key])) for moment in self._moments]
             index = self._glb.add("nodes", node)
             if all(matrix == matrices[0] for matrix in matrices):
@@ -75,7 +75,7 @@ class Export:
         self._glb.write(self.file)
 
     def _in_gltf(self, key, matrix):
-        """Lamps and cameras look along -z in Blender, too, and have no scale."""
+        """Converts a world matrix to glTF. Lamps and cameras look along -z in Blender, too, and lose their scale."""
         if key in self._y_up:
             return Y_UP @ matrix @ Y_UP.transposed()
         place, turn, _ = matrix.decompose()
@@ -88,7 +88,8 @@ class Export:
 
 
 def transforms(matrices):
-    """Translations, rotations and scales as arrays; quaternions as (x, y, z, w), each near the one before."""
+    """Returns translations, rotations and scales as arrays. Quaternions are (x, y, z, w), with signs that keep each
+    near the one before."""
     parts = [matrix.decompose() for matrix in matrices]
     turns = [turn for _, turn, _ in parts]
     for before, turn in zip(turns, turns[1:]):
@@ -99,7 +100,7 @@ def transforms(matrices):
 
 
 def shutter_times(render):
-    """Moments [frames] at which the shutter is open, from the frame's own time; (0,) without motion blur."""
+    """Returns the moments [frames] at which the shutter is open, relative to the frame; (0,) without motion blur."""
     if not render.use_motion_blur:
         return (0.0,)
     open_for = render.motion_blur_shutter

@@ -1,4 +1,4 @@
-"""OpenEXR files as the command writes them: scan lines, without compression or by ZIP, one part."""
+"""Reads OpenEXR files as the command writes them: one part, scan lines, uncompressed or ZIP."""
 
 import struct
 import zlib
@@ -6,13 +6,13 @@ import zlib
 import numpy as np
 
 MAGIC = 20000630
-UNSUPPORTED = 0x1A00  # tiles, deep data, several parts
+UNSUPPORTED = 0x1A00  # flags of tiles, deep data and multiple parts
 ROWS_OF_CHUNK = {0: 1, 2: 1, 3: 16}  # by compression: none, ZIPS, ZIP
 DTYPES = {0: "<u4", 1: "<f2", 2: "<f4"}
 
 
 class Exr:
-    """Channels by name as arrays of (height, width), row 0 on top, and the header's texts by name."""
+    """Holds the channels by name as arrays of (height, width), row 0 on top, and the text attributes by name."""
 
     def __init__(self, file):
         with open(file, "rb") as stream:
@@ -35,7 +35,7 @@ class Exr:
 
     @staticmethod
     def _attributes(data, at):
-        """Pairs of type and bytes by name, and where the header ends."""
+        """Returns the attributes, name -> (type, bytes), and the offset where the header ends."""
         attributes = {}
         while data[at] != 0:
             name, kind = data[at:data.index(b"\0", at)], None
@@ -53,7 +53,7 @@ class Exr:
         while data[at] != 0:
             end = data.index(b"\0", at)
             yield data[at:end].decode(), struct.unpack_from("<i", data, end + 1)[0]
-            at = end + 17  # the type, linearity, three unused bytes, two sampling rates
+            at = end + 17  # skips type, linearity, three unused bytes and two sampling rates
 
     def _read_chunk(self, data, offset, rows, compression):
         y, size = struct.unpack_from("<ii", data, offset)
@@ -61,8 +61,8 @@ class Exr:
         first = y - self.y
         rows = min(rows, self.height - first)
         length = rows * self.width * sum(np.dtype(DTYPES[kind]).itemsize for kind in self._kinds.values())
-        # A chunk that does not shrink is stored as it is.
-        raw = packed if compression == 0 or size == length else unzipped(packed)
+        # A chunk that compression would enlarge is stored uncompressed.
+        raw = packed if compression == 0 or size == length else undo_zip(packed)
         at = 0
         for row in range(first, first + rows):
             for name, pixels in self.channels.items():
@@ -70,14 +70,15 @@ class Exr:
                 at += pixels[row].nbytes
 
     def pixels(self, names, fill=None):
-        """An array of (height, width, channels), float32. A missing channel is `fill`, or an error without one."""
+        """Returns an array of (height, width, channels), float32. Missing channels get `fill`; without one they raise
+        an error."""
         image = np.empty((self.height, self.width, len(names)), np.float32)
         for i, name in enumerate(names):
             image[..., i] = self.channels[name] if fill is None else self.channels.get(name, fill)
         return image
 
 
-def unzipped(packed):
+def undo_zip(packed):
     """Undoes deflate, differences of bytes, and the split into even and odd bytes [OpenEXR file layout]."""
     differences = np.frombuffer(zlib.decompress(packed), np.uint8).astype(np.int64)
     differences[1:] -= 128

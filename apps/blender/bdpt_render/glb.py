@@ -1,4 +1,4 @@
-"""GLB files: the document as a dictionary, and its binary buffer, both to be added to."""
+"""Reads and writes GLB files: the document as a dictionary, and its binary buffer. Both can be extended."""
 
 import json
 import pathlib
@@ -24,7 +24,7 @@ class Glb:
         return glb
 
     def add(self, kind, item):
-        """Its index in the list `kind` of the document."""
+        """Appends an item to the list `kind` of the document and returns its index."""
         items = self.document.setdefault(kind, [])
         items.append(item)
         return len(items) - 1
@@ -35,7 +35,7 @@ class Glb:
             used.append(extension)
 
     def add_accessor(self, values):
-        """Floats or unsigned integers: (n) or (n, components)."""
+        """Adds floats or unsigned integers of the shape (n) or (n, components)."""
         values = np.ascontiguousarray(values)
         self.binary += bytes(-len(self.binary) % 4)
         view = self.add("bufferViews", {"buffer": 0, "byteOffset": len(self.binary), "byteLength": values.nbytes})

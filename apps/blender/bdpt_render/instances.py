@@ -1,4 +1,4 @@
-"""What a dependency graph places in the scene: meshes, lamps and the camera, with names and matrices."""
+"""Lists the meshes, lamps and the camera that a dependency graph places in the scene, with names and matrices."""
 
 import dataclasses
 
@@ -11,13 +11,13 @@ NOT_SEEN = ("EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "CAMERA", "LIGHT_PROBE", 
 
 @dataclasses.dataclass
 class Instance:
-    key: tuple  # the same at all times
+    key: tuple  # is the same at all times
     name: str
     matrix: mathutils.Matrix
 
 
 def instances_of(depsgraph):
-    """Pairs of Instance and its evaluated object, which is valid until the next pair."""
+    """Yields pairs of an Instance and its evaluated object, which is valid until the next pair."""
     for item in depsgraph.object_instances:
         thing = item.object
         if not item.show_self or thing.type not in (*MESHES, "LIGHT"):
@@ -27,14 +27,14 @@ def instances_of(depsgraph):
 
 
 def matrices_of(depsgraph):
-    """By key, and that of the camera by None."""
+    """Returns the matrices of instances by key; None is the key of the camera."""
     matrices = {instance.key: instance.matrix for instance, _ in instances_of(depsgraph)}
     matrices[None] = depsgraph.scene.camera.evaluated_get(depsgraph).matrix_world.copy()
     return matrices
 
 
 def shapes_of(depsgraph):
-    """What tells whether a mesh deforms, by key."""
+    """Returns values by key that differ when a mesh deforms."""
     shapes = {}
     for instance, thing in instances_of(depsgraph):
         if thing.type == "MESH":

@@ -1,4 +1,4 @@
-"""Lamps as glTF has them: its units are taken for watts, so W/sr is candela and W/m^2 is lux."""
+"""Converts lamps to glTF. bdpt reads glTF intensities as radiometric: candela as W/sr, lux as W/m^2."""
 
 import math
 
@@ -9,10 +9,11 @@ SOFT_SUN = math.radians(1.0)
 
 
 def add_lamp(glb, lamp, name, scale):
-    """What a node of the lamp holds, and what gets lost. The node has no scale: only area lamps have, by `scale`."""
-    power, warnings = power_of(lamp)
+    """Adds a lamp; returns the properties of its node, and warnings. The node has no scale: only area lamps use it, as
+    `scale`."""
+    power, warnings = compute_power(lamp)
     if lamp.type == "AREA":
-        return {"mesh": add_shining_mesh(glb, lamp, power, name, scale)}, warnings
+        return {"mesh": add_emissive_mesh(glb, lamp, power, name, scale)}, warnings
     strongest = max(power) or 1.0
     item = {"name": name, "color": [channel / strongest for channel in power]}
     if lamp.type == "SUN":
@@ -24,15 +25,15 @@ def add_lamp(glb, lamp, name, scale):
         if lamp.shadow_soft_size > 0.0:
             item["extras"] = {"radius": lamp.shadow_soft_size}
     if lamp.type == "SPOT":
-        item.update(type="spot", spot=cone_of(lamp))
+        item.update(type="spot", spot=convert_cone(lamp))
     glb.use(EXTENSION)
     lights = glb.document.setdefault("extensions", {}).setdefault(EXTENSION, {"lights": []})["lights"]
     lights.append(item)
     return {"extensions": {EXTENSION: {"light": len(lights) - 1}}}, warnings
 
 
-def power_of(lamp):
-    """[W] by colour, of suns [W/m^2], and what gets lost."""
+def compute_power(lamp):
+    """Returns the power [W] of each colour channel (of suns: irradiance [W/m^2]), and warnings."""
     factor = lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0)
     color = np.array(lamp.color) * factor
     if getattr(lamp, "use_temperature", False):
@@ -50,23 +51,24 @@ def power_of(lamp):
     return (color * inputs["Color"].default_value[:3] * inputs["Strength"].default_value).tolist(), []
 
 
-def cone_of(lamp):
-    """Blender's edge is a smooth step of the cosine, that of glTF a square: an inner cone with as much light."""
+def convert_cone(lamp):
+    """Returns the cone angles of a spot. Blender smooths its edge with smoothstep of the cosine, glTF with a square:
+    the inner cone is chosen so that both emit as much light."""
     outer = lamp.spot_size / 2.0
-    edge = 0.75 * lamp.spot_blend * (1.0 - math.cos(outer))  # 1/2 of one edge's width is 2/3 of the other's
+    edge = 0.75 * lamp.spot_blend * (1.0 - math.cos(outer))  # mean over the edge: Blender 1/2, glTF 2/3
     inner = math.acos(min(1.0, math.cos(outer) + edge))
     return {"innerConeAngle": min(inner, 0.9999 * outer), "outerConeAngle": min(outer, math.pi / 2.0)}
 
 
-def add_shining_mesh(glb, lamp, power, name, scale):
-    """glTF has no area lamps: a black, one-sided face that shines as the lamp does."""
+def add_emissive_mesh(glb, lamp, power, name, scale):
+    """Adds an area light, which glTF lacks, as a black one-sided mesh with the same emission."""
     width = lamp.size * scale[0]
     height = (lamp.size_y if lamp.shape in ("RECTANGLE", "ELLIPSE") else lamp.size) * scale[1]
     is_round = lamp.shape in ("DISK", "ELLIPSE")
     count = 64 if is_round else 4
-    # A polygon of the circle's area, or the rectangle.
+    # Takes a polygon of the circle's area, or the rectangle.
     reach = 0.5 * math.sqrt(2.0 * math.pi / count / math.sin(2.0 * math.pi / count)) if is_round else math.sqrt(0.5)
-    # Clockwise as seen from +z: it shines along -z, as lamps do.
+    # Vertices run clockwise as seen from +z: the mesh emits along -z, as lamps do.
     angles = -2.0 * math.pi * (np.arange(count) + 0.5) / count
     points = np.stack([reach * width * np.cos(angles), reach * height * np.sin(angles), np.zeros(count)], axis=1)
     triangles = np.array([[0, i, i + 1] for i in range(1, count - 1)], np.uint32)

@@ -1,4 +1,4 @@
-"""The image while it grows: a viewer for `bdpt render --display`, by the protocol of tev."""
+"""Receives the image of a running `bdpt render --display` by the protocol of tev."""
 
 import socket
 import struct
@@ -10,7 +10,7 @@ CREATE_IMAGE, UPDATE_IMAGE = 4, 6
 
 
 class LiveImage:
-    """Listens on a port of this machine only. `take()` gives what came since."""
+    """Listens on a loopback port. `take()` returns the latest image."""
 
     def __init__(self):
         self._server = socket.create_server(("127.0.0.1", 0))
@@ -22,7 +22,7 @@ class LiveImage:
         self._thread.start()
 
     def take(self):
-        """The image as (height, width, 3), row 0 on top, where it has changed; else None."""
+        """Returns the image as (height, width, 3), row 0 on top, if it has changed since the last call; else None."""
         with self._lock:
             changed, self._changed = self._changed, False
             return self._pixels.copy() if changed else None
@@ -44,7 +44,7 @@ class LiveImage:
                     while message := self._message(stream):
                         self._take_message(message)
                 except (OSError, ValueError, struct.error):
-                    pass  # a preview that breaks off is no loss
+                    pass  # a preview may break off
 
     @staticmethod
     def _message(stream):
@@ -52,7 +52,7 @@ class LiveImage:
         return stream.read(struct.unpack("<I", length)[0] - 4) if len(length) == 4 else b""
 
     def _take_message(self, message):
-        at = message.index(b"\0", 2) + 1  # after the kind, a flag and the name
+        at = message.index(b"\0", 2) + 1  # skips kind, flag and name
         if message[0] == CREATE_IMAGE:
             width, height = struct.unpack_from("<ii", message, at)
             with self._lock:

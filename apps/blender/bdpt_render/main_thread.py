@@ -1,4 +1,4 @@
-"""Calls in the main thread, the only one that may change Blender's data while its windows are drawn."""
+"""Calls functions in the main thread, the only one that may change Blender's data while its windows are drawn."""
 
 import threading
 
@@ -10,22 +10,23 @@ class Cancelled(Exception):
 
 
 def call(function, cancelled):
-    """function(), in the main thread. Gives up, before it has begun, when cancelled() says so."""
+    """Calls function() in the main thread and returns its result. Raises Cancelled if cancelled() holds before the call
+    begins."""
     if threading.current_thread() is threading.main_thread():
         return function()
-    outcome, ended, turn = [], threading.Event(), threading.Lock()  # who takes the turn decides whether it runs
+    outcome, ended, turn = [], threading.Event(), threading.Lock()  # whoever acquires `turn` decides
 
     def run():
         if turn.acquire(blocking=False):
             try:
                 outcome.append((function(), None))
-            except Exception as error:  # raised again in the thread that waits
+            except Exception as error:  # raised again in the waiting thread
                 outcome.append((None, error))
             ended.set()
 
     bpy.app.timers.register(run)
     while not ended.wait(0.05):
-        # Who cancels may wait for this thread in the main one.
+        # A user who cancels may block the main thread until this thread ends.
         if cancelled() and turn.acquire(blocking=False):
             raise Cancelled
     value, error = outcome[0]

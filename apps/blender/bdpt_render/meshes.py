@@ -1,4 +1,4 @@
-"""Meshes and materials as a GLB file, by Blender's own exporter."""
+"""Exports meshes and materials as a GLB file with Blender's own exporter."""
 
 import contextlib
 import pathlib
@@ -9,7 +9,7 @@ from .glb import Glb
 from .instances import instances_of
 
 EXPORTER = "io_scene_gltf2"
-# What exporters of other versions do not know is left out.
+# Options that the installed exporter does not know are dropped.
 OPTIONS = {
     "export_format": "GLB", "use_active_scene": True, "export_cameras": False, "export_lights": False,
     "export_apply": False, "export_animations": False, "export_skins": False, "export_morph": False,
@@ -17,12 +17,13 @@ OPTIONS = {
 
 
 class Meshes:
-    """The meshes that a dependency graph shows, each once. In the main thread only: it makes data for a moment."""
+    """Exports each mesh that a dependency graph shows once. Runs in the main thread only, as it creates temporary
+    data."""
 
     def __init__(self, depsgraph, folder):
         self._made, self._names = contextlib.ExitStack(), {}
-        self._meshes = {}  # temporary objects by what is shown
-        self._nodes = {}   # temporary objects' names by keys of instances
+        self._meshes = {}  # names of temporary objects, by mesh and materials
+        self._nodes = {}   # names of temporary objects, by keys of instances
         with self._made:
             scene = bpy.data.scenes.new("bdpt export")
             self._made.callback(bpy.data.scenes.remove, scene)
@@ -36,12 +37,12 @@ class Meshes:
         make_glass_solid(self.glb)
 
     def of_instances(self):
-        """Indices of the GLB's meshes by keys of instances."""
+        """Returns the indices of meshes in the GLB by keys of instances."""
         nodes = {node["name"]: node["mesh"] for node in self.glb.document.get("nodes", ()) if "mesh" in node}
         return {key: nodes[name] for key, name in self._nodes.items() if name in nodes}
 
     def _shown(self, depsgraph, scene, thing):
-        """The name of a temporary object with the mesh of `thing`; None where it has no faces."""
+        """Returns the name of a temporary object with the mesh of `thing`; None if it has no faces."""
         materials = tuple(slot.material for slot in thing.material_slots)
         key = (thing.data.as_pointer(), tuple(material and material.name_full for material in materials))
         if key not in self._meshes:
@@ -64,7 +65,7 @@ class Meshes:
         return made.name
 
     def _material(self, material):
-        """The original, or a copy with the values of this frame where they are animated."""
+        """Returns the original material or, if it is animated, a copy with the values of this frame."""
         original = material.original
         tree = original.node_tree
         if not (original.animation_data or (tree and tree.animation_data)):
@@ -85,7 +86,7 @@ class Meshes:
 
 
 def make_glass_solid(glb):
-    """In Blender what transmits refracts, as the surface of a body; in glTF it does only with a thickness."""
+    """Gives transmissive materials a thickness: Blender refracts at every such surface, glTF only in solid bodies."""
     for material in glb.document.get("materials", ()):
         extensions = material.get("extensions", {})
         if extensions.get("KHR_materials_transmission", {}).get("transmissionFactor", 0.0) > 0.0:
@@ -95,7 +96,7 @@ def make_glass_solid(glb):
 
 
 def take_values(source, target):
-    """Values of sockets, those of groups not included."""
+    """Copies the values of sockets, except inside groups."""
     if source.node_tree is None or target.node_tree is None:
         return
     for node in source.node_tree.nodes:

@@ -1,14 +1,14 @@
-"""Panels of the engine, and those of Blender that it shares."""
+"""Defines the panels of the engine, and enables those of Blender that it shares."""
 
 import bpy
 
 ENGINE = "BDPT"
-# Panels of EEVEE that show what any engine has.
+# Panels of EEVEE that apply to any engine.
 SHARED = ("EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface", "DATA_PT_EEVEE_light",
           "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture",
           *(("EEVEE_NEXT_MATERIAL_PT_settings", "EEVEE_NEXT_MATERIAL_PT_settings_surface")
             if (4, 2, 0) <= bpy.app.version < (5, 0, 0) else ("EEVEE_MATERIAL_PT_settings", "EEVEE_MATERIAL_PT_settings_surface")))
-# Panels for any engine that show what bdpt does not have, or what those above have.
+# Generic panels that show settings that bdpt lacks, or that repeat the panels above.
 EXCLUDED = ("DATA_PT_light", "DATA_PT_area", "DATA_PT_preview", "TEXTURE_PT_preview", "DATA_PT_camera_stereoscopy",
             "RENDER_PT_stereoscopy", "RENDER_PT_output_views")
 
@@ -87,7 +87,7 @@ CLASSES = (BDPT_PT_sampling, BDPT_PT_light_paths, BDPT_PT_film, BDPT_PT_motion_b
 
 
 def shared_panels():
-    """Panels of Blender that work for this engine."""
+    """Returns Blender's panels that work for this engine."""
     for panel in bpy.types.Panel.__subclasses__():
         name, engines = panel.__name__, getattr(panel, "COMPAT_ENGINES", ())
         of_any = "BLENDER_RENDER" in engines and name not in EXCLUDED and "freestyle" not in name

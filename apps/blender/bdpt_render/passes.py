@@ -1,27 +1,27 @@
-"""Render passes of Blender, and the layers of the command's images that fill them."""
+"""Maps Blender's render passes to the layers of the command's images."""
 
 import dataclasses
 
 import numpy as np
 
-FAR = 1e10  # depth where nothing is seen, as Cycles has it
-CRYPTO_LEVELS = 3  # layers of each kind
+FAR = 1e10  # depth of the background, as in Cycles
+CRYPTO_LEVELS = 3  # layers for each kind of id
 
 
 @dataclasses.dataclass
 class Pass:
     name: str
     channels: str   # names of its channels in Blender
-    kind: str       # of update_render_passes()
-    layer: tuple    # channels of the command's EXR
-    aov: str = ""   # what --aov has to have
-    fill: float = None  # of channels that the EXR lacks
+    kind: str       # argument of update_render_passes()
+    layer: tuple    # channels in the command's EXR
+    aov: str = ""   # name for --aov
+    fill: float = None  # value where the EXR lacks the channel
 
 
 COMBINED = Pass("Combined", "RGBA", "COLOR", ("R", "G", "B", "A"), fill=1.0)
 
 
-def passes_of(scene, layer):
+def list_passes(scene, layer):
     yield COMBINED
     xyz = lambda name: tuple(f"{name}.{axis}" for axis in "XYZ")
     if layer.use_pass_z:
@@ -42,44 +42,44 @@ def passes_of(scene, layer):
 
 
 def register(engine, scene, layer):
-    for item in passes_of(scene, layer):
+    for item in list_passes(scene, layer):
         engine.register_pass(scene, layer, item.name, len(item.channels), item.channels, item.kind)
 
 
 def words(scene, layer):
-    aovs = sorted({item.aov for item in passes_of(scene, layer) if item.aov})
+    aovs = sorted({item.aov for item in list_passes(scene, layer) if item.aov})
     return ["--aov", ",".join(aovs)] if aovs else []
 
 
 def fill(result, scene, layer, exr):
-    """Writes the layers of `exr` into the passes of `result`."""
-    for item in passes_of(scene, layer):
+    """Copies the layers of `exr` to the passes of `result`."""
+    for item in list_passes(scene, layer):
         target = result.layers[0].passes[item.name]
         pixels = exr.pixels(item.layer, item.fill)
         if item.kind == "VECTOR":
-            pixels = np.stack([pixels[..., 0], -pixels[..., 2], pixels[..., 1]], axis=-1)  # z is up
+            pixels = np.stack([pixels[..., 0], -pixels[..., 2], pixels[..., 1]], axis=-1)  # converts to z-up
         if item.name == "Depth":
             pixels = np.minimum(pixels, FAR)
         put(target, pixels)
 
 
 def put_color(result, color):
-    """Shows a preview of (height, width, 3)."""
+    """Shows a preview image of (height, width, 3)."""
     opaque = np.ones((*color.shape[:2], 1), np.float32)
     put(result.layers[0].passes["Combined"], np.concatenate([color, opaque], axis=-1))
 
 
 def put(target, pixels):
-    """Row 0 of `pixels` is on top, that of Blender at the bottom."""
+    """Copies `pixels`, whose row 0 is on top, to a pass, whose row 0 is at the bottom."""
     values = np.ascontiguousarray(pixels[::-1], np.float32)
     try:
         target.rect.foreach_set(values.ravel())
-    except TypeError:  # Blender 3 counts pixels
+    except TypeError:  # Blender 3 takes a list of pixels
         target.rect.foreach_set(values.reshape(-1, values.shape[-1]))
 
 
 def stamp_mattes(result, layer, exr):
-    """Metadata by which Cryptomatte nodes find names: those of the command, with Blender's names of layers."""
+    """Adds the metadata in which Cryptomatte nodes look up names: the command's, under Blender's layer names."""
     for key, text in exr.texts.items():
         if key.startswith("cryptomatte/"):
             result.stamp_data_add_field(key, f"{layer.name}.{text}" if key.endswith("/name") else text)

@@ -1,4 +1,4 @@
-"""What users set: of the add-on, of a scene, of a view layer."""
+"""Defines the user settings of the add-on, of scenes and of view layers."""
 
 import bpy
 

@@ -1,4 +1,4 @@
-"""The world of a scene as the environment of bdpt."""
+"""Converts the world of a scene to an environment of bdpt."""
 
 import math
 import pathlib
@@ -8,11 +8,11 @@ import bpy
 
 
 def environment_words(world, folder):
-    """Options of bdpt render, and what is lost."""
+    """Returns the options of `bdpt render` and warnings about what is lost."""
     if world is None:
         return ["--env", "none"], []
     if not world.use_nodes:
-        return constant(world.color, 1.0, folder), []
+        return write_constant(world.color, 1.0, folder), []
     output = next((node for node in world.node_tree.nodes if node.type == "OUTPUT_WORLD" and node.is_active_output), None)
     links = output.inputs["Surface"].links if output else ()
     if not links:
@@ -24,21 +24,21 @@ def environment_words(world, folder):
     if strength.links:
         return ["--env", "none"], ["the world is black: its strength is not a number"]
     if not color.links:
-        return constant(color.default_value[:3], strength.default_value, folder), []
+        return write_constant(color.default_value[:3], strength.default_value, folder), []
     texture = color.links[0].from_node
     if texture.type != "TEX_ENVIRONMENT" or texture.image is None or texture.projection != "EQUIRECTANGULAR":
         return ["--env", "none"], [f"the world is black: its colour is no equirectangular image ({texture.name})"]
-    file = saved(texture.image, folder)
-    # The middle of the image is seen along +x, that of ours along -z. A Mapping node turns the other way, as it turns what
-    # is looked up.
-    rotation, warnings = rotation_of(texture)
+    file = save_image(texture.image, folder)
+    # The centre of the image lies along +x in Blender and along -z in bdpt. A Mapping node rotates the lookup
+    # direction, so the image turns the other way.
+    rotation, warnings = find_rotation(texture)
     turn = -90.0 - math.degrees(rotation)
-    intensity = strength.default_value * exposure_of(file)
+    intensity = strength.default_value * read_exposure(file)
     return ["--env", str(file), "--env-intensity", f"{intensity:.9g}", "--env-rotation", f"{turn:.9g}"], warnings
 
 
-def rotation_of(texture):
-    """[rad] about the vertical axis, of a Mapping node before the texture, and what is lost."""
+def find_rotation(texture):
+    """Returns the rotation [rad] about the vertical axis by a Mapping node before the texture, and warnings."""
     links = texture.inputs["Vector"].links
     mapping = links[0].from_node if links else None
     if mapping is None or mapping.type == "TEX_COORD":
@@ -50,16 +50,16 @@ def rotation_of(texture):
     return z, [] if only_turned else [f"the world is turned about z only (node {mapping.name})"]
 
 
-def exposure_of(file):
-    """What the pixels of a Radiance HDR file have been multiplied by: bdpt divides it out, Cycles does not."""
+def read_exposure(file):
+    """Returns the exposure factor of a Radiance HDR file: bdpt divides pixels by it, Cycles does not."""
     with file.open("rb") as stream:
         header = stream.read(1 << 16).partition(b"\n\n")[0]
     lines = header.split(b"\n") if header.startswith(b"#?") else []
     return math.prod(float(line[len(b"EXPOSURE="):]) for line in lines if line.startswith(b"EXPOSURE="))
 
 
-def saved(image, folder):
-    """Its file; images that are packed into the .blend file are written first."""
+def save_image(image, folder):
+    """Returns the file of an image; writes images that are packed into the .blend file first."""
     file = pathlib.Path(bpy.path.abspath(image.filepath_from_user()))
     if file.is_file() and file.suffix.lower() in (".exr", ".hdr"):
         return file
@@ -72,13 +72,13 @@ def saved(image, folder):
     return file
 
 
-def constant(color, strength, folder):
-    """One pixel in the format of Radiance: one exponent for three mantissas of 8 bits."""
+def write_constant(color, strength, folder):
+    """Writes a 1 x 1 Radiance image: 8-bit mantissas with a shared exponent. Returns options of `bdpt render`."""
     radiance = [strength * channel for channel in color]
     greatest = max(radiance)
     if greatest <= 0.0:
         return ["--env", "none"]
-    # The image has the colour, the option its strength, exactly.
+    # The image holds the hue and the option the strength, so that the product is exact.
     relative = [channel / greatest for channel in radiance]
     mantissas = bytes(min(255, round(255 * channel)) for channel in relative)
     file = pathlib.Path(folder, "world.hdr")

@@ -1,4 +1,4 @@
-"""Bidirectional path tracing: glTF scenes, or arrays, to images.
+"""Renders glTF scenes or arrays to images by bidirectional path tracing.
 
     import bdpt
     scene = bdpt.load("scene.glb", env="sky.exr")
@@ -25,10 +25,10 @@ Renderer.save = with_signature(Renderer.save)  # type: ignore[method-assign]
 
 
 def orbit(scene: Scene, views: int, **options: Any) -> Iterator[Render]:
-    """A turntable: renders of the views 1 to `views`, one after the other, as bdpt render --orbit makes them.
+    """Renders a turntable: yields the views 1 to `views` in turn, as bdpt render --orbit makes them.
 
-    Options are those of render(). One exposure for all views: save(file, exposure="light").
+    Takes the options of render(). For one exposure in all views use save(file, exposure="light").
     """
     last = operator.index(views)
-    for view in range(1, max(1, last) + 1):  # a number of views that is none is an error of render()
+    for view in range(1, max(1, last) + 1):  # render() reports an invalid number of views
         yield render(scene, orbit=last, frames=view, **options)

@@ -1,4 +1,4 @@
-"""python -m bdpt is the command bdpt."""
+"""Runs the command bdpt, by python -m bdpt."""
 
 from bdpt._command import main
 

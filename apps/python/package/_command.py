@@ -1,4 +1,4 @@
-"""The command bdpt of a wheel: the program beside this file."""
+"""Starts the command bdpt of a wheel: the program beside this file."""
 
 import os
 import pathlib

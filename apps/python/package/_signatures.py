@@ -1,4 +1,4 @@
-"""Gives functions of the module the signatures that their stubs have, for help() and what completes keywords."""
+"""Gives functions of the module the signatures of their stubs, for help() and keyword completion."""
 
 import ast
 import functools
@@ -9,7 +9,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def with_signature(function: Function) -> Function:
-    """`function`, whose inspect.signature() has all its keywords."""
+    """Wraps `function` so that inspect.signature() lists all its keywords."""
     declaration, text, _ = function.__nb_signature__[0]  # type: ignore[attr-defined]
     definition = ast.parse(declaration + ": ...").body[0]
     assert isinstance(definition, ast.FunctionDef)

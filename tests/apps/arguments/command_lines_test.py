@@ -1,8 +1,8 @@
-"""What the command answers to many command lines: command_lines_test.py [--record] BDPT SCENES.
+"""Compares the output of many command lines with recorded output: command_lines_test.py [--record] BDPT SCENES.
 
-command_lines.txt has a block for each: the line, the exit code, what it printed (> standard output, ! standard error)
-and the files that it wrote (+). The lines run one after the other in one folder, with box.gltf (a scene of SCENES),
-sky.hdr and empty.gltf. --record writes what the command says now: read the difference before it is committed.
+command_lines.txt has a block for each: the line, the exit code, the output (> standard output, ! standard error) and
+the files that were written (+). The lines run one after the other in one folder, with box.gltf (a scene of SCENES),
+sky.hdr and empty.gltf. --record writes the current output: review the difference before committing it.
 """
 
 import pathlib
@@ -16,18 +16,18 @@ TABLE = pathlib.Path(__file__).with_name("command_lines.txt")
 SKY = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81"
 
 
-def files_in(folder):
-    """Names of the files below the folder, with the time of their last change."""
+def list_files(folder):
+    """Returns the names of the files below the folder, with their modification times."""
     return {str(file.relative_to(folder)): file.stat().st_mtime_ns for file in folder.rglob("*") if file.is_file()}
 
 
-def answer(bdpt, folder, line):
-    """The block of one command line."""
+def run_line(bdpt, folder, line):
+    """Runs one command line; returns its block."""
     words = shlex.split(line)[1:]
-    before = files_in(folder)
+    before = list_files(folder)
     ran = subprocess.run([bdpt, *words], cwd=folder, capture_output=True, stdin=subprocess.DEVNULL, timeout=300,
                          check=False)
-    written = sorted(name for name, time in files_in(folder).items() if before.get(name) != time)
+    written = sorted(name for name, time in list_files(folder).items() if before.get(name) != time)
     lines = [f"$ {line}", f"exit code {ran.returncode}"]
     lines += ["> " + text for text in ran.stdout.decode().splitlines()]
     lines += ["! " + text for text in ran.stderr.decode().splitlines()]
@@ -36,7 +36,7 @@ def answer(bdpt, folder, line):
 
 
 def read_table(text):
-    """Blocks of lines: titles, which begin with #, and command lines with what is recorded of them."""
+    """Parses blocks of lines: titles, which begin with #, and command lines with their recorded output."""
     return [block.splitlines() for block in text.strip().split("\n\n")]
 
 
@@ -55,7 +55,7 @@ def main():
             if block[0].startswith("#"):
                 now.append(block)
                 continue
-            now.append(answer(bdpt, folder, block[0].removeprefix("$ ")))
+            now.append(run_line(bdpt, folder, block[0].removeprefix("$ ")))
             if now[-1] != block and not record:
                 wrong += 1
                 print("recorded:", *block, "now:", *now[-1], "", sep="\n")

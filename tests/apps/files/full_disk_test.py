@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Fails when a render on a disk that fills up loses its part, leaves something half-written, or does not say so:
-full_disk_test.py COMMAND SCENE. Skipped (77) where no process may mount a file system of its own.
+"""Tests that a render on a disk that fills up keeps its part, leaves no half-written file, and reports the error:
+full_disk_test.py COMMAND SCENE. Exits with 77 (skipped) where processes may not mount file systems in a namespace.
 
-The disk is a tmpfs in a namespace of its own, in which this script runs itself again."""
+The disk is a tmpfs in a new namespace, in which this script runs itself again."""
 
 import os
 import pathlib
@@ -13,20 +13,20 @@ import tempfile
 
 COMMAND, SCENE = sys.argv[1:3]
 WORDS = [SCENE, "--size", "96x72", "--integrator", "bdpt", "--threads", "1"]
-DISK = 2 << 20  # [bytes]; a part takes about a tenth
+DISK = 2 << 20  # [bytes]; a part takes about a tenth of it
 ISOLATED = ["unshare", "--user", "--map-root-user", "--mount"]
 
 
 class Render:
-    """A render that goes on until it is stopped."""
+    """Runs a render until it is stopped."""
 
     def __init__(self, part):
         words = [COMMAND, "render", *WORDS, "--spp", "2000000000", "--part", str(part), "--json"]
         self.process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
-        self.begun = self.wait_for('"progress"')  # before that a signal would end it
+        self.begun = self.wait_for('"progress"')  # a signal before the render begins would end it
 
     def wait_for(self, text):
-        """Whether the text comes before many lines of progress do."""
+        """Returns whether the text appears before many lines of progress."""
         patience = 60
         for line in self.process.stdout:
             patience -= '"progress"' in line
@@ -35,7 +35,7 @@ class Render:
         return False
 
     def checkpoint(self, outcome):
-        """Whether a checkpoint ends so."""
+        """Requests a checkpoint; returns whether it has this outcome."""
         self.process.send_signal(signal.SIGUSR1)
         return self.wait_for(outcome)
 
@@ -46,7 +46,7 @@ class Render:
 
 
 def fill(folder):
-    """Leaves no room at all."""
+    """Fills the disk completely."""
     filler = folder / "filler"
     with filler.open("wb", buffering=0) as file:
         try:

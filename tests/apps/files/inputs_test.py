@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Fails when an output overwrites a file that the command reads: inputs_test.py COMMAND SCENE.
+"""Tests that no output overwrites a file that the command reads: inputs_test.py COMMAND SCENE.
 
-A scene with a buffer, images and a light profile in files of their own; a map, rates, parts and plans. Each is the output
-once, by its name, by another spelling, through a symbolic and a hard link.
+Inputs are a scene with a buffer, images and a light profile in separate files; an environment map, rates, parts and
+plans. Each is named as the output once, by its name, by another spelling, through a symbolic and a hard link.
 """
 
 import base64
@@ -23,7 +23,7 @@ def bdpt(*words, cwd):
 
 
 def make(folder):
-    """What is read."""
+    """Writes the input files."""
     scene = json.loads(pathlib.Path(SCENE).read_text())
     for index, buffer in enumerate(scene["buffers"]):
         data = base64.b64decode(buffer["uri"].partition("base64,")[2])
@@ -31,8 +31,8 @@ def make(folder):
         (folder / f"buffer {index}.exr").write_bytes(data)
     bdpt("render", SCENE, *HOW, "-o", "map.exr", "-o", "used.png", "--adaptive", "--save-rates", "rates.exr", cwd=folder)
     bdpt("render", SCENE, *HOW, "-o", "unused.png", cwd=folder)
-    (folder / "lamp.exr").write_text("a light profile\n")  # that no light has
-    # Only the names matter: materials do not have them.
+    (folder / "lamp.exr").write_text("a light profile\n")  # no light uses it
+    # Only the names matter: no material uses these images.
     scene["images"] = [{"uri": "used.png"}, {"uri": "./unused.png"}]
     scene["extensionsUsed"] = [*scene.get("extensionsUsed", []), "EXT_lights_ies"]
     scene.setdefault("extensions", {})["EXT_lights_ies"] = {"lights": [{"uri": "lamp.exr"}]}
@@ -44,7 +44,7 @@ def make(folder):
     (folder / "soft.exr").symlink_to("buffer 0.exr")
     (folder / "again").symlink_to(".")
     (folder / "dangling.exr").symlink_to("to.exr")
-    # Not /dev/stdout itself, which root could lose.
+    # Tests a link, because root could replace /dev/stdout itself.
     (folder / "stdout").symlink_to("/proc/self/fd/1")
 
 
@@ -53,8 +53,8 @@ FILES = ["buffer 0.exr", "used.png", "unused.png", "lamp.exr", "map.exr", "rates
          "hard-scene.gltf.png", "hard-buffer 0.exr.png", "soft.exr", "./again/used.png", "again/again/buffer 0.exr"]
 
 
-def commands(file):
-    """Those that would write `file`."""
+def list_commands(file):
+    """Yields the commands that would write `file`."""
     yield ["render", *READS, "-o", file]
     yield ["render", *READS, "-o", "new.exr", "--stats", file]
     yield ["render", *READS, "-o", "new.exr", "--save-rates", file]
@@ -75,17 +75,17 @@ OTHERS = [
     ["merge", "a.part.exr", "-o", "again/a.part.exr"],
     ["compare", "map.exr", "rates.exr", "--error-image", "hard-map.exr.png"],
     ["compare", "rates.exr", "map.exr", "--error-image", "hard-map.exr.png"],
-    # Rates of a plan would be written over the map.
+    # The plan would write its rates over the map.
     ["plan", "scene.gltf", *HOW, "--env", "rates.exr", "--adaptive", "-o", "new.exr", "--parts", "1", "--for", "make",
      "-d", ".", "--restart"],
-    # The outputs among themselves.
+    # Two outputs name the same file.
     ["render", "scene.gltf", *HOW, "-o", "one.exr", "-o", "again/one.exr"],
     ["render", "scene.gltf", *HOW, "-o", "-", "--stats", "stdout"],
     ["render", "scene.gltf", *HOW, "-o", "to.exr", "-o", "dangling.exr"],
 ]
 
 
-def contents(folder):
+def read_contents(folder):
     files = [file for file in folder.rglob("*") if file.is_file() and file.name != "stdout"]
     return {str(file.relative_to(folder)): file.read_bytes() for file in files}
 
@@ -93,18 +93,18 @@ def contents(folder):
 with tempfile.TemporaryDirectory() as name:
     FOLDER = pathlib.Path(name)
     make(FOLDER)
-    # All of it can be read.
+    # Checks that all inputs are readable.
     sound = bdpt("render", *READS, "-o", "sound.exr", "--seed", "2", cwd=FOLDER)
     failed = [] if sound.returncode == 0 else [("the scene", sound.stderr.decode())]
-    before = contents(FOLDER)
+    before = read_contents(FOLDER)
     count = 0
-    for words in [words for file in FILES for words in commands(file)] + OTHERS:
+    for words in [words for file in FILES for words in list_commands(file)] + OTHERS:
         done = bdpt(*words, cwd=FOLDER)
         message = done.stderr.decode()
         refused = done.returncode == 2 and message.count("\n") == 1 and any(
             text in message for text in ("both an input and an output", "an input or another output", "named twice"))
-        if not refused or contents(FOLDER) != before:
-            changed = [file for file, data in contents(FOLDER).items() if before.get(file) != data]
+        if not refused or read_contents(FOLDER) != before:
+            changed = [file for file, data in read_contents(FOLDER).items() if before.get(file) != data]
             failed.append((" ".join(words), f"exit code {done.returncode}, changed {changed}: {message}"))
             for file in changed:
                 if file in before:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Fails when a render takes more memory than bdpt says that it needs, or much less, or when what does not fit is not
-refused with numbers: memory_test.py COMMAND SMOKE.vdb."""
+"""Tests that renders take the memory that bdpt estimates, neither more nor much less, and that bdpt refuses a scene
+that does not fit, with numbers: memory_test.py COMMAND SMOKE.vdb."""
 
 import array
 import json
@@ -18,7 +18,7 @@ COMMAND, SMOKE = sys.argv[1:3]
 
 
 class Run:
-    """A render, how much memory it took [bytes] and what it said of that."""
+    """Runs a render; records its peak memory [bytes] and its estimate."""
 
     def __init__(self, folder, *words, address_space=None):
         stats = folder / "stats.json"
@@ -35,8 +35,8 @@ class Run:
         stats.unlink(missing_ok=True)
 
 
-def apart(function):
-    """In a process of its own: what this one ever held in memory would count for its children, too."""
+def run_in_child_process(function):
+    """Runs a function in a separate process: the peak memory of this one would count for its children, too."""
 
     def run(folder, *arguments, **more):
         pid = os.fork()
@@ -60,10 +60,10 @@ def png(side):
             chunk(b"IDAT", zlib.compress(rows, 1)) + chunk(b"IEND", b""))
 
 
-@apart
+@run_in_child_process
 def write_scene(folder, name, instances=1, texture_sides=(), lamps=1, triangles=1):
-    """Of a square of about that many triangles, which is placed again and again."""
-    side = max(2, round((triangles / 2) ** 0.5) + 1)  # corners along an edge of a square
+    """Writes a scene of a square of about that many triangles and its instances."""
+    side = max(2, round((triangles / 2) ** 0.5) + 1)  # vertices along an edge of the square
     places = [(x / side, y / side) for y in range(side) for x in range(side)]
     corners = array.array("f", [value for x, y in places for value in (x, y, x * y)]).tobytes()
     uvs = array.array("f", [value for place in places for value in place]).tobytes()
@@ -100,9 +100,9 @@ def write_scene(folder, name, instances=1, texture_sides=(), lamps=1, triangles=
     (folder / name).write_text(json.dumps(scene))
 
 
-@apart
+@run_in_child_process
 def write_sky(folder, name, width, height):
-    """A Radiance HDR image of one colour."""
+    """Writes a Radiance HDR image of one colour."""
     line = bytes([2, 2, width >> 8, width & 255])
     for value in (120, 110, 100, 128):
         for begin in range(0, width, 127):
@@ -112,7 +112,7 @@ def write_sky(folder, name, width, height):
 
 
 def check_estimates(folder):
-    """The process without a scene to speak of is what all of them share."""
+    """Tests estimates, less the memory of a process with a minimal scene."""
     small = ["--size", "32x32", "--integrator", "pt"]
     least = write_scene(folder, "least.gltf")
     base = Run(folder, least, *small)
@@ -130,7 +130,7 @@ def check_estimates(folder):
         done = Run(folder, *words)
         taken, estimate = done.peak - base.peak, done.estimate - base.estimate
         print(f"{name}: {taken / 1e6:.1f} MB of memory, estimated as {estimate / 1e6:.1f} MB {done.error}")
-        # Pages and allocators add a little that is nobody's.
+        # Pages and allocators add a little that no estimate covers.
         yield f"{name}: more than estimated", done.code == 0 and taken < 1.05 * estimate + 3e6
         yield f"{name}: much less than estimated", estimate < 1.3 * taken + 3e6
 
@@ -161,7 +161,7 @@ def check_refusals(folder):
 
 
 def check_broken_volumes(folder):
-    """A length in the head of an OpenVDB file, where it asks for 2 GB."""
+    """Tests lengths in the header of an OpenVDB file that demand 2 GB."""
     least = write_scene(folder, "least.gltf")
     whole = pathlib.Path(SMOKE).read_bytes()
     broken = folder / "broken.vdb"

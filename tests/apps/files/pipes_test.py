@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails when scenes from the standard input, or images to the standard output, are not those of files:
+"""Tests that scenes from the standard input and images to the standard output equal those of files:
 pipes_test.py COMMAND SCENE."""
 
 import json
@@ -21,8 +21,8 @@ def bdpt(*words, source=None, cwd=None):
         return subprocess.run([COMMAND, *map(str, words)], stdin=stream, capture_output=True, check=False, cwd=cwd)
 
 
-def equal(a, b, **more):
-    """Whether the images in two files are."""
+def are_equal(a, b, **more):
+    """Returns whether the images in two files are equal."""
     return bdpt("compare", a, b, "--threshold", "mse=0", **more).returncode == 0
 
 
@@ -30,16 +30,16 @@ def check_images(folder):
     from_file = folder / "file.exr"
     piped = folder / "piped.exr"
     bdpt("render", SCENE, *HOW, "-o", from_file)
-    # URIs of a scene that comes from a pipe start from the working directory.
+    # URIs of a scene from a pipe are relative to the working directory.
     done = bdpt("render", "-", *HOW, "-o", "-", source=SCENE, cwd=pathlib.Path(SCENE).parent)
     piped.write_bytes(done.stdout)
-    yield "EXR", done.stdout[:4] == EXR and equal(piped, from_file)
-    yield "compare from a pipe", equal("-", from_file, source=piped)
+    yield "EXR", done.stdout[:4] == EXR and are_equal(piped, from_file)
+    yield "compare from a pipe", are_equal("-", from_file, source=piped)
     yield "PNG", bdpt("render", SCENE, *HOW, "-o", "png:-").stdout[:4] == PNG
     yield "EXR by name", bdpt("render", SCENE, *HOW, "-o", "exr:-").stdout[:4] == EXR
     both = bdpt("render", SCENE, *HOW, "-o", folder / "beside.exr", "-o", "-")
     piped.write_bytes(both.stdout)
-    yield "a pipe beside a file", equal(piped, folder / "beside.exr")
+    yield "a pipe beside a file", are_equal(piped, folder / "beside.exr")
     frames = folder / "turn.##.exr"
     bdpt("render", "-", *HOW, "--orbit", "2", "--frames", "1:2", "-o", frames, source=SCENE)
     yield "frames of one pipe", all((folder / f"turn.0{i}.exr").exists() for i in (1, 2))
@@ -84,7 +84,7 @@ def check_refusals(folder):
 
 
 def check_files_called_so(folder):
-    """A file of that name is no standard input."""
+    """Tests that a file of that name is not the standard input."""
     (folder / "-").write_bytes(pathlib.Path(SCENE).read_bytes())
     yield "a file called -", bdpt("render", "./-", *HOW, "-o", "b.exr", cwd=folder).returncode == 0
     scene = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4, "uri": "-"}], "scenes": [{}], "scene": 0}

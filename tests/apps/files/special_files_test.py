@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Fails when an output replaces what is no regular file: special_files_test.py COMMAND SCENE.
+"""Tests that no output replaces a special file: special_files_test.py COMMAND SCENE.
 
-Each output of each command meets devices, pipes, sockets, folders and links. What is there stays what it is, and gets the
-bytes or is refused with exit code 6. Root makes devices for it, and never names those of the system, which a defect could replace.
+Each output of each command names devices, pipes, sockets, folders and links. They keep their type, and receive the
+bytes or are refused with exit code 6. Root creates devices for the test; it never names those of the system, which a
+defect could replace.
 """
 
 import os
@@ -30,7 +31,7 @@ def render(*words):
     return ["render", SCENE, *HOW, *words]
 
 
-# Name of the output -> the command that writes it, where a.exr, b.exr and p.part.exr are there.
+# Maps the name of an output to the command that writes it; a.exr, b.exr and p.part.exr exist.
 OUTPUTS = {
     "out.exr": render("-o", "out.exr"),
     "out.png": render("-o", "out.png"),
@@ -51,7 +52,7 @@ OUTPUTS = {
     "job/plan.json": ["plan", SCENE, *HOW, "-o", "planned.exr", "--parts", "2", "--for", "make", "-d", "job", "--restart"],
     "job/Makefile": ["plan", SCENE, *HOW, "-o", "planned.exr", "--parts", "2", "--for", "make", "-d", "job", "--restart"],
 }
-PARTS = {"kept.part.exr", "anew.part.exr"}  # are read again
+PARTS = {"kept.part.exr", "anew.part.exr"}  # the command reads these back
 
 
 def make_device(path):
@@ -59,7 +60,7 @@ def make_device(path):
 
 
 def make_link(path):
-    """To a device that nobody misses."""
+    """Makes a link to a device that may be lost."""
     if ROOT:
         make_device(path.parent / "null")
     path.symlink_to("null" if ROOT else "/dev/null")
@@ -70,7 +71,7 @@ def make_disk(path):
 
 
 def make_socket(path):
-    # The address is short, whatever the path.
+    # Binds a relative name, because addresses of sockets are short.
     here = os.getcwd()
     os.chdir(path.parent)
     socket.socket(socket.AF_UNIX).bind(path.name)
@@ -85,16 +86,16 @@ KINDS = {
     "links in a circle": lambda path: path.symlink_to(path.name),
     "dangling link": lambda path: path.symlink_to("aim"),
 } | ({"device": make_device, "disk": make_disk} if ROOT else {})
-WRITTEN = {"link to a device", "pipe", "device", "dangling link"}  # all else is refused
+WRITTEN = {"link to a device", "pipe", "device", "dangling link"}  # all other kinds are refused
 
 
-def facts(path):
+def read_status(path):
     status = path.lstat()
     return stat.S_IFMT(status.st_mode), status.st_ino, status.st_rdev, status.st_mode
 
 
 class Reader:
-    """Reads what comes through a pipe, which is open from the begin: so nobody waits for a reader that waits for them."""
+    """Reads a pipe. Opens it at once, so that writers do not block."""
 
     def __init__(self, path):
         self.pipe = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
@@ -123,19 +124,19 @@ class Reader:
         return self.bytes
 
 
-def meets(folder, kind, output, words):
-    """What is wrong, or None."""
+def try_output(folder, kind, output, words):
+    """Returns an error message, or None."""
     path = folder / output
     path.parent.mkdir(exist_ok=True)
     KINDS[kind](path)
-    before = facts(path)
+    before = read_status(path)
     reader = Reader(path) if kind == "pipe" and output not in PARTS else None
     done = bdpt(*words, cwd=folder)
     bytes_read = reader.end() if reader else None
     if not path.exists() and not path.is_symlink():
         return "is gone"
-    if facts(path) != before:
-        return f"was {before}, is {facts(path)}"
+    if read_status(path) != before:
+        return f"was {before}, is {read_status(path)}"
     message = done.stderr.decode()
     if kind in WRITTEN and not (output in PARTS and kind != "dangling link"):
         if done.returncode != 0:
@@ -154,16 +155,16 @@ def check_outputs(results):
     for kind in KINDS:
         for output, words in OUTPUTS.items():
             if output.startswith("job/") and kind != "device":
-                continue  # a plan is read again, and links among its files are refused
+                continue  # plans are read back, and their links are refused
             with tempfile.TemporaryDirectory() as name:
                 folder = pathlib.Path(name)
                 for file in ("a.exr", "b.exr", "p.part.exr"):
                     (folder / file).write_bytes((READY / file).read_bytes())
-                results.append((f"{kind}, {output}", meets(folder, kind, output, words)))
+                results.append((f"{kind}, {output}", try_output(folder, kind, output, words)))
 
 
 def check_bench(results):
-    """A benchmark whose tables are devices."""
+    """Tests a benchmark whose tables are devices."""
     for name in ("bench.json", "bench.csv", "report.html"):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / name
@@ -184,7 +185,7 @@ with tempfile.TemporaryDirectory() as ready:
     RESULTS = []
     check_outputs(RESULTS)
     check_bench(RESULTS)
-    # The standard output by its names; but not by /dev/stdout itself, which root could lose.
+    # Tests names of the standard output, but not /dev/stdout itself, which root could lose.
     (READY / "stdout").symlink_to("/proc/self/fd/1")
     for stdout in ("stdout", "/dev/fd/1", "/proc/self/fd/1"):
         done = bdpt(*render("-o", "x.exr", "--stats", stdout), cwd=READY)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Takes layers of ids apart as the specification of Cryptomatte 1.2.0 says, by other code: cryptomatte_test.py BDPT FOLDER.
+"""Decodes id layers as specified by Cryptomatte 1.2.0, with independent code: cryptomatte_test.py BDPT FOLDER.
 
-FOLDER holds the scenes of the project. Hash, files and mattes are read by this program alone."""
+FOLDER holds the scenes of the project. This program has its own code for the hash, the files and the mattes."""
 
 import json
 import pathlib
@@ -24,7 +24,7 @@ def expect(condition, what):
 
 
 def murmur3(data):
-    """MurmurHash3_x86_32 with seed 0."""
+    """Returns MurmurHash3_x86_32 with seed 0."""
     def rotated(x, bits):
         return (x << bits | x >> (32 - bits)) & 0xffffffff
 
@@ -42,8 +42,8 @@ def murmur3(data):
     return result ^ result >> 16
 
 
-def hex_of(name):
-    """Eight digits of the bits of the float that pixels have."""
+def hash_to_hex(name):
+    """Returns the eight hexadecimal digits of the float that pixels hold for a name."""
     value = murmur3(name.encode())
     return f"{value ^ 1 << 23 if value >> 23 & 255 in (0, 255) else value:08x}"
 
@@ -53,17 +53,18 @@ def bits(value):
 
 
 class Cryptomatte:
-    """`manifest`: hexadecimal ids by name; `levels(x, y)`: pairs of id and coverage."""
+    """Decodes one kind of ids. `manifest` has hexadecimal ids by name; `levels(x, y)` returns pairs of id and
+    coverage."""
 
     def __init__(self, exr, kind):
         keys = [name.split("/")[1] for name in exr.attributes if name.startswith("cryptomatte/") and name.endswith("/name")
                 and exr.text(name) == kind]
-        expect(keys == [hex_of(kind)[:7]], f"{kind} has one key, made of its name")
+        expect(keys == [hash_to_hex(kind)[:7]], f"{kind} has one key, made of its name")
         entry = f"cryptomatte/{keys[0]}/"
         expect(exr.text(entry + "hash") == "MurmurHash3_32" and exr.text(entry + "conversion") == "uint32_to_float32",
                f"{kind} tells its hash and conversion")
         self.manifest = json.loads(exr.text(entry + "manifest"))
-        expect(all(hex_of(name) == value for name, value in self.manifest.items()), f"{kind}: ids are hashes of names")
+        expect(all(hash_to_hex(name) == value for name, value in self.manifest.items()), f"{kind}: ids are hashes of names")
         layers = sorted({name.partition(".")[0] for name in exr.channels if name.startswith(kind)})
         expect(layers == [f"{kind}{i:02}" for i in range(3)], f"{kind} has six levels")
         self.pairs = [tuple(exr.values[f"{layer}.{c}"] for c in pair) for layer in layers for pair in ("rg", "ba")]
@@ -84,14 +85,14 @@ class Cryptomatte:
 
 
 def check_levels(exr, crypto, kind):
-    """Ids have names, the greatest share is first, and all that is covered is of some id."""
+    """Tests that ids have names, coverage is sorted, and ids cover all of the alpha."""
     known = set(crypto.manifest.values())
     for y in range(exr.height):
         for x in range(exr.width):
             levels = crypto.levels(x, y)
             shares = [share for _, share in levels]
             named = all(bits(value) in known if share > 0 else (value, share) == (0, 0) for value, share in levels)
-            whole = sum(shares) == exr.values["A"][y][x] or shares[-1] > 0  # of 16 samples: exact
+            whole = sum(shares) == exr.values["A"][y][x] or shares[-1] > 0  # exact, with 16 samples
             if not named or not whole or shares != sorted(shares, reverse=True):
                 sys.exit(f"failed: {kind} at {x}, {y}: {levels}, alpha {exr.values['A'][y][x]}")
     expect(True, f"{kind}: ids are named, ranked, and cover what alpha does")
@@ -117,12 +118,12 @@ def manifests(exr):
     return {name: value for name, value in exr.attributes.items() if name.startswith("cryptomatte/")}
 
 
-def same(a, b):
+def have_same_ids(a, b):
     return crypto_channels(a) == crypto_channels(b) and manifests(a) == manifests(b)
 
 
 def check_mattes(folder, scene):
-    """The matte of an object before all others is the alpha of it alone."""
+    """Tests that the matte of a front object equals its alpha when rendered alone."""
     exr = folder.render(scene, "all.exr")
     for kind in KINDS:
         check_levels(exr, Cryptomatte(exr, kind), kind)
@@ -142,19 +143,19 @@ def check_mattes(folder, scene):
 
 
 def check_ways(folder, scene, words):
-    """However a render is split, run and stored, its ids are the same."""
+    """Tests that ids do not depend on how a render is split, run and stored."""
     whole = folder.render(scene, "whole.exr", *words)
     for kind in KINDS:
         check_levels(whole, Cryptomatte(whole, kind), kind)
     expect(Cryptomatte(whole, "CryptoObject").most_ids() >= 3, "what moves shares pixels")
-    expect(same(folder.render(scene, "half.exr", "--half", "--tiled", *words), whole), "--half and --tiled keep ids as they are")
-    expect(same(folder.render(scene, "one.exr", "--threads", "1", "--integrator", "bdpt", *words), whole),
+    expect(have_same_ids(folder.render(scene, "half.exr", "--half", "--tiled", *words), whole), "--half and --tiled keep ids as they are")
+    expect(have_same_ids(folder.render(scene, "one.exr", "--threads", "1", "--integrator", "bdpt", *words), whole),
            "ids depend on neither threads nor integrators")
     for part, samples in (("a", "0:5"), ("b", "5:7"), ("c", "7:16")):
         folder.bdpt_with("render", scene, "--samples", samples, "--aov", "alpha,object,material", *SIZE, *words, "--part",
                          folder.path / f"{part}.part.exr")
     folder.bdpt_with("merge", *(folder.path / f"{part}.part.exr" for part in "cab"), "-o", folder.path / "merged.exr")
-    expect(same(ExrFile(folder.path / "merged.exr"), whole), "parts have the ids of the whole")
+    expect(have_same_ids(ExrFile(folder.path / "merged.exr"), whole), "parts have the ids of the whole")
     crop = folder.render(scene, "crop.exr", "--crop", "10,4,37,20", *words)
     cut = {name: [row[10:37] for row in rows[4:20]] for name, rows in crypto_channels(whole).items()}
     expect(crypto_channels(crop) == cut, "a crop has the ids of that region")
@@ -165,7 +166,7 @@ def check_refusals(folder, scene):
     expect(outcome.returncode == 2 and ".exr" in outcome.stderr, "ids want an .exr file")
     outcome = subprocess.run([folder.bdpt, "render", scene, "-o", folder.path / "a.exr", "--aov", "objects"], capture_output=True, text=True)
     expect(outcome.returncode == 2 and "object and material" in outcome.stderr, "the names of AOVs are told")
-    # Whoever gives the same things other names makes another render.
+    # Renders of the same scene with other names are not compatible.
     renamed = json.loads(scene.read_text())
     renamed["nodes"][1]["name"] = "renamed"
     (folder.path / "renamed.gltf").write_text(json.dumps(renamed))
@@ -178,7 +179,7 @@ def check_refusals(folder, scene):
 
 
 def cubes():
-    """Three cubes: one before all others, two of one mesh that overlap behind it."""
+    """Returns a scene of three cubes: one in front, two of one mesh that overlap behind it."""
     corners = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
     triangles = [0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3]
     data = struct.pack("<24f", *(v for corner in corners for v in corner)) + struct.pack("<36H", *triangles)

@@ -1,21 +1,22 @@
-"""Reads OpenEXR files of scan lines or tiles with ZIP compression, by the description of the format and nothing of ours."""
+"""Reads OpenEXR files of scan lines or tiles with ZIP compression, independently of our code, by the format
+description."""
 
 import array
 import struct
 import sys
 import zlib
 
-LINES = 16  # of a block of ZIP
-SIZES = {0: 4, 1: 2, 2: 4}  # of uint, half and float
+LINES = 16  # lines of a ZIP block
+SIZES = {0: 4, 1: 2, 2: 4}  # bytes of uint, half and float
 
 
-def text_at(data, at):
+def read_text(data, at):
     end = data.index(b"\0", at)
     return data[at:end].decode(), end + 1
 
 
-def unpacked(block, size):
-    """Undoes ZIP: bytes were split into even and odd ones, and each is the difference to the one before."""
+def undo_zip(block, size):
+    """Undoes ZIP: even and odd bytes are split, and each is the difference to the one before."""
     if len(block) == size:
         return block
     raw = bytearray(zlib.decompress(block))
@@ -28,7 +29,8 @@ def unpacked(block, size):
 
 
 class ExrFile:
-    """`attributes` (bytes by name), `text(name)`, `channels` (name to type), `values[name]`: a list of rows."""
+    """Holds `attributes` (bytes by name), `text(name)`, `channels` (name to type), and `values[name]`, a list of
+    rows."""
 
     def __init__(self, path):
         data = path.read_bytes()
@@ -38,8 +40,8 @@ class ExrFile:
         assert version & ~0x7ff == 0, "one part of flat pixels"
         self.attributes, at = {}, 8
         while data[at]:
-            name, at = text_at(data, at)
-            _, at = text_at(data, at)
+            name, at = read_text(data, at)
+            _, at = read_text(data, at)
             size = struct.unpack_from("<i", data, at)[0]
             self.attributes[name] = data[at + 4:at + 4 + size]
             at += 4 + size
@@ -58,7 +60,7 @@ class ExrFile:
     def _read_channels(self):
         data, at, self.channels = self.attributes["channels"], 0, {}
         while data[at]:
-            name, at = text_at(data, at)
+            name, at = read_text(data, at)
             self.channels[name] = struct.unpack_from("<i", data, at)[0]
             at += 16
 
@@ -80,9 +82,9 @@ class ExrFile:
             self._read_block(data[place:place + size], x, y, columns, lines)
 
     def _read_block(self, block, x, y, columns, lines):
-        raw, at = unpacked(block, lines * columns * sum(SIZES[kind] for kind in self.channels.values())), 0
+        raw, at = undo_zip(block, lines * columns * sum(SIZES[kind] for kind in self.channels.values())), 0
         for row in range(y, y + lines):
-            for name, kind in self.channels.items():  # in the order of names
+            for name, kind in self.channels.items():  # channels are sorted by name
                 size = columns * SIZES[kind]
                 values = array.array("f", raw[at:at + size]) if kind == 2 else \
                     array.array("f", struct.unpack(f"<{columns}e", raw[at:at + size]))

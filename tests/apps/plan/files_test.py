@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Fails when files that bdpt plan writes for engines are not what those read: plan_files_test.py COMMAND SCENE.
+"""Tests that the render engines can read the files of bdpt plan: plan_files_test.py COMMAND SCENE.
 
-Shell scripts by bash, and by shellcheck where it is installed. Manifests of Kubernetes by the Python package
-kubernetes-validate, and calls of AWS by botocore, where these are installed; a line says which are not."""
+Checks shell scripts with bash, and with shellcheck if it is installed; manifests of Kubernetes with the Python package
+kubernetes-validate, and calls of AWS with botocore, if these are installed. Prints which are not."""
 
 import importlib.util
 import json
@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 COMMAND, SCENE = sys.argv[1:3]
-ODD = "a $HOME `job` \"of\" mine's"  # a name that each language would read as something else
+ODD = "a $HOME `job` \"of\" mine's"  # a name that every language must quote
 
 
 def plan(folder, engine):
@@ -30,7 +30,7 @@ def run(*words, **more):
     return done.stdout if done.returncode == 0 else sys.exit(f"{' '.join(map(str, words))}: {done.stdout}{done.stderr}")
 
 
-def has(module):
+def is_installed(module):
     there = importlib.util.find_spec(module) is not None
     print(f"{module}: {'used' if there else 'not installed'}")
     return there
@@ -45,8 +45,8 @@ def check_scripts(job):
     return [f"{job}: no scripts"] if not scripts else []
 
 
-def aws_calls(job, folder):
-    """Arguments of each call of the aws command by submit.sh."""
+def run_submit(job, folder):
+    """Returns the arguments of each call of the aws command by submit.sh."""
     tools = folder / "tools"
     tools.mkdir()
     log = folder / "calls"
@@ -59,7 +59,7 @@ def aws_calls(job, folder):
 
 
 def check_aws(job, folder):
-    define, tasks, merge = aws_calls(job, folder)
+    define, tasks, merge = run_submit(job, folder)
     container = json.loads(define["--container-properties"])
     retry = json.loads(define["--retry-strategy"])
     overrides = json.loads(merge["--container-overrides"])
@@ -68,7 +68,7 @@ def check_aws(job, folder):
             merge["--depends-on"]]
     expected = [["render", "--plan", place], "registry/bdpt:1", ["merge", "--plan", place], "size=4", "jobId=id-5"]
     errors = [] if seen == expected else [f"aws-batch: {seen}, not {expected}"]
-    if has("botocore"):
+    if is_installed("botocore"):
         import botocore.loaders
         import botocore.model
         import botocore.validate
@@ -86,7 +86,7 @@ def check_aws(job, folder):
 
 
 def check_kubernetes(job):
-    if not has("kubernetes_validate"):
+    if not is_installed("kubernetes_validate"):
         return []
     import kubernetes_validate
     import yaml

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Fails when a planned render that make runs, of which tasks are killed at random, is not the image of one render, or
-planned frames are not those of one render: plan_make_test.py COMMAND SCENE."""
+"""Tests that planned renders run by make, of which tasks are killed at random, equal one render, and planned frames
+equal those of one render: plan_make_test.py COMMAND SCENE."""
 
 import json
 import os
@@ -23,7 +23,7 @@ def bdpt(*words):
 
 
 def renders_below(group):
-    """Numbers of the processes of a process group that are renders."""
+    """Returns the pids of the renders in a process group."""
     found = []
     for folder in pathlib.Path("/proc").glob("[0-9]*"):
         try:
@@ -44,7 +44,7 @@ def send(process, number):
 
 
 def make_and_kill(job):
-    """Runs make while renders are killed, some just when they write a checkpoint; returns how many were."""
+    """Runs make while it kills renders, some during a checkpoint; returns the number of kills."""
     make = subprocess.Popen(["make", "-C", job, "-j4", "-k", f"BDPT={COMMAND}", "THREADS=1"], start_new_session=True,
                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     killed = 0
@@ -57,12 +57,12 @@ def make_and_kill(job):
     return killed
 
 
-def frames_by_make(folder, scene):
-    """Errors of an animation that make renders in tasks of less than a frame."""
+def check_frames(folder, scene):
+    """Returns the errors of an animation that make renders in tasks smaller than a frame."""
     words = [scene, "--size", "48x27", "--spp", "16", "--env", "none", "--frames", "1:3", "--fps", "8"]
     job = folder / "frames"
     bdpt("plan", *words, "-o", folder / "planned.#.exr", "--parts", "5", "--for", "make", "-d", job)
-    # The makefile knows where the program is that wrote it.
+    # The makefile contains the path of the program that wrote it.
     subprocess.run(["make", "-C", job, "-j2", "-k", "THREADS=1"], check=True, capture_output=True)
     bdpt("render", *words, "-o", folder / "whole.#.exr")
     pairs = [(folder / f"planned.{frame}.exr", folder / f"whole.{frame}.exr") for frame in (1, 2, 3)]
@@ -91,7 +91,7 @@ def main():
         errors += [] if killed >= LEAST_KILLED and parts else ["too few renders were killed to tell anything"]
         error = mse(folder / "out.exr", folder / "whole.exr")
         errors += [] if error == 0 else [f"the image is another one: mean square error {error}"]
-        errors += frames_by_make(folder, pathlib.Path(SCENE).with_name("motion.gltf"))
+        errors += check_frames(folder, pathlib.Path(SCENE).with_name("motion.gltf"))
         print("\n".join(errors) or "the pixels are those of one render")
         sys.exit(bool(errors))
 

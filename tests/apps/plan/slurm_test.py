@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Fails when the scripts of a plan for Slurm do not do with signals and failures what docs/farm.md says. Slurm itself is
-played by programs that write down how they were called: plan_slurm_test.py COMMAND SCENE.
+"""Tests that the scripts of a Slurm plan handle signals and failures as docs/farm.md says, with programs in place of
+Slurm's that log their calls: plan_slurm_test.py COMMAND SCENE.
 
-benchmarks/farm/slurm_trial.py tries the same with Slurm."""
+benchmarks/farm/slurm_trial.py tests the same with a real Slurm."""
 
 import os
 import pathlib
@@ -17,7 +17,7 @@ ENDLESS = 2_000_000_000
 
 
 class Job:
-    """A plan for Slurm in a scratch folder, of two tasks that take for ever or next to no time."""
+    """A Slurm plan in a scratch folder, of two tasks that run very long or very short."""
 
     def __init__(self, folder, samples):
         self.folder = folder
@@ -43,8 +43,8 @@ class Job:
         return lines
 
 
-def child_of(process):
-    """The render that a script has started, once it has caught its signals."""
+def find_render_pid(process):
+    """Returns the pid of the render that a script has started, after the script has set its signal handlers."""
     for _ in range(200):
         for folder in pathlib.Path("/proc").glob("[0-9]*"):
             try:
@@ -53,16 +53,16 @@ def child_of(process):
             except OSError:
                 continue
             if f"PPid:\t{process.pid}\n" in status and b"--task" in words:
-                time.sleep(1.0)  # so that there is something to keep
+                time.sleep(1.0)  # gives the render something to save
                 return int(folder.name)
         time.sleep(0.05)
     raise RuntimeError("no render was started")
 
 
 def run_with(job, number, to_render=False, restarts=0):
-    """Exit code of a task that gets a signal, and what it asked of Slurm."""
+    """Sends a signal to a task; returns its exit code and its calls of Slurm."""
     script = job.start(restarts)
-    render = child_of(script)
+    render = find_render_pid(script)
     os.kill(render if to_render else script.pid, number)
     if number == signal.SIGTERM:
         time.sleep(0.01)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Fails when bdpt does not do as process 1 of a container what it does elsewhere, or when two of these with the same name
-and number spoil each other's parts: process_one_test.py COMMAND SCENE. Skipped (77) where no process may have a
-namespace of its own."""
+"""Tests that bdpt works as process 1 of a container as it does elsewhere, and that two of these with the same host name
+and pid do not damage each other's parts: process_one_test.py COMMAND SCENE. Exits with 77 (skipped) where processes
+may not create namespaces."""
 
 import os
 import pathlib
@@ -20,8 +20,8 @@ def start(*words):
     return subprocess.Popen([*ISOLATED, COMMAND, "render", *WORDS, *map(str, words)])
 
 
-def inner(process):
-    """The number, out here, of what is process 1 in there. OSError when it has ended."""
+def find_outer_pid(process):
+    """Returns the outer pid of the container's process 1. Raises OSError if it has ended."""
     for _ in range(200):
         if process.poll() is not None:
             raise ProcessLookupError
@@ -37,9 +37,9 @@ def inner(process):
 
 def send(process, number):
     try:
-        os.kill(inner(process), number)
+        os.kill(find_outer_pid(process), number)
     except OSError:
-        pass  # it has ended
+        pass  # the process has ended
 
 
 def main():
@@ -59,13 +59,13 @@ def main():
         process = start("--spp", 2_000_000_000, "--part", part)
         time.sleep(2)
         send(process, signal.SIGTERM)
-        # unshare hands the exit code on.
+        # unshare passes the exit code on.
         code = process.wait(timeout=60)
         check(f"SIGTERM to process 1: exit code {code}", code == 143)
         check("and its part is there", part.exists())
         part.unlink()
 
-        # Two containers, both process 1, one target, as many writes as may be.
+        # Runs two containers, both with process 1, on one target, with as many writes as possible.
         both = [start("--spp", 1000, "--part", part) for _ in range(2)]
         while all(process.poll() is None for process in both):
             for process in both:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails when what a command prints gets lost, and its exit code is 0: streams_test.py COMMAND SCENE."""
+"""Tests that a command whose output gets lost fails with an exit code: streams_test.py COMMAND SCENE."""
 
 import os
 import pathlib
@@ -17,7 +17,7 @@ PRINTING = [
     ["render", SCENE, *HOW, "-o", "-"],
     ["render", SCENE, *HOW, "-o", "png:-"],
     ["render", SCENE, *HOW, "-o", "a.exr", "--stats", "-"],
-    ["render", SCENE, *HOW, "-o", "a.exr", "--stats", "stdout"],  # a link
+    ["render", SCENE, *HOW, "-o", "a.exr", "--stats", "stdout"],  # the link `stdout`
     ["merge", "a.part.exr", "-o", "a.exr", "--json"],
     ["merge", "a.part.exr", "-o", "-"],
     ["compare", "b.exr", "b.exr"],
@@ -29,7 +29,7 @@ QUIET = ["render", SCENE, *HOW, "-o", "a.exr"]
 
 
 def bdpt(words, redirection, cwd):
-    """As a shell starts it."""
+    """Runs the command through a shell."""
     return subprocess.run(["sh", "-c", f'exec "$0" "$@" {redirection}', COMMAND, *words], stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False, cwd=cwd, timeout=120)
 
@@ -50,7 +50,7 @@ def checks(folder):
     yield "a full standard error", done.returncode == 6
     done = bdpt(["render", "-", *HOW, "-o", "a.exr"], "<&-", folder)
     yield f"a closed input: {done.stderr}", done.returncode == 3
-    # The reader leaves; the image must not go with it.
+    # The reader closes the pipe; the image must survive.
     (folder / "a.exr").unlink(missing_ok=True)
     done = bdpt([*QUIET, "--json"], "| true", folder)
     yield "a reader that left", (folder / "a.exr").exists()
@@ -59,7 +59,7 @@ def checks(folder):
 with tempfile.TemporaryDirectory() as name:
     FOLDER = pathlib.Path(name)
     (FOLDER / "stdout").symlink_to("/proc/self/fd/1")
-    if os.geteuid() == 0:  # who could lose those of the system
+    if os.geteuid() == 0:  # root could lose the system's files
         os.mknod(FOLDER / "full", 0o666 | stat.S_IFCHR, os.makedev(1, 7))
     else:
         (FOLDER / "full").symlink_to("/dev/full")

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Fails when a command does not get along with few threads: thread_limit_test.py COMMAND SCENE. Skipped (77) without
-root, which alone can be a user who has no other process, and where that user may not run the command.
+"""Tests commands with a low thread limit: thread_limit_test.py COMMAND SCENE. Exits with 77 (skipped) without root,
+which the test needs to become a user without other processes, and if that user may not run the command.
 
-It renders with fewer threads and says so, or ends with exit code 7 and the cause.
+A command renders with fewer threads and says so, or ends with exit code 7 and the cause.
 """
 
 import os
@@ -30,7 +30,7 @@ def bdpt(words, limit, cwd):
                           stderr=subprocess.PIPE, check=False, cwd=cwd, preexec_fn=become_user, timeout=300)
 
 
-def good(done, image):
+def is_correct(done, image):
     message = done.stderr.decode()
     if done.returncode == 0:
         return image is None or image.exists()
@@ -56,7 +56,7 @@ def checks(folder):
             image.unlink(missing_ok=True)
             done = bdpt(words, limit, folder)
             message = done.stderr.decode()
-            passed = good(done, output) or (what == "verify" and done.returncode in (10, 11))
+            passed = is_correct(done, output) or (what == "verify" and done.returncode in (10, 11))
             yield f"{what}, limit {limit}: {done.returncode}: {message}", passed
             if what == "render":
                 codes.append(done.returncode)
@@ -78,7 +78,7 @@ with tempfile.TemporaryDirectory() as name:
     smoke = pathlib.Path(SCENE).with_name("smoke.vdb")
     known = subprocess.run([COMMAND, "render", SCENE, *HOW, "-o", FOLDER / "b.exr", "--volume", smoke],
                            capture_output=True, check=False)
-    if known.returncode == 0:  # not without OpenVDB
+    if known.returncode == 0:  # needs OpenVDB
         shutil.copy(smoke, FOLDER / "smoke.vdb")
     subprocess.run([COMMAND, "render", SCENE, *HOW, "-o", FOLDER / "b.exr", "--part", FOLDER / "p.part.exr", "-q"],
                    check=True)

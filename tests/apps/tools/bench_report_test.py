@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Opens the report of a small benchmark in Chromium: bench_report_test.py BDPT SCENE [PAGE IMAGE].
+"""Tests the report of a small benchmark in Chromium: bench_report_test.py BDPT SCENE [PAGE IMAGE].
 
-Exit code 77 says that Chromium or chromedriver (Debian: chromium, chromium-driver) are not installed. With PAGE, no
-benchmark is run: that report is opened, and a screenshot of it is written to IMAGE."""
+Exits with 77 if Chromium or chromedriver (Debian: chromium, chromium-driver) are not installed. With PAGE, runs no
+benchmark but opens that report, and writes a screenshot of it to IMAGE."""
 
 import base64
 import json
@@ -29,7 +29,7 @@ def expect(condition, what):
 
 
 def make_report(bdpt, scene, folder):
-    """A report of two scenes with a page of its own: the same scene under two names."""
+    """Writes a report of two scenes: the same scene under two names."""
     second = folder / "second.gltf"
     second.write_bytes(pathlib.Path(scene).read_bytes())
     subprocess.run([bdpt, "bench", scene, str(second), "-o", str(folder / "out"), "--size", f"{SIZE}x{SIZE}", "--time",
@@ -44,7 +44,7 @@ def page_data(page):
 
 
 def pixel(images, name, x, y):
-    """Red, green and blue of a pixel of the page's data, read by other code than the page's."""
+    """Returns red, green and blue of a pixel of the page's data, decoded independently of the page."""
     planes = zlib.decompress(base64.b64decode(images["images"][name]))
     count = len(planes) // 4
     packed = sum(planes[plane * count + y * SIZE + x] << (8 * plane) for plane in range(4))
@@ -53,14 +53,14 @@ def pixel(images, name, x, y):
 
 
 def image(browser, selector):
-    """What a canvas shows, once all drawing is done."""
+    """Returns the pixels of a canvas, after all drawing is done."""
     browser.call("POST", "/execute/async", {"script": "const done = arguments[0];"
                  "requestAnimationFrame(() => requestAnimationFrame(() => done(true)));", "args": []})
     return browser.run(f"return {selector}.toDataURL();")
 
 
 def number(text):
-    """What the page wrote, "0.0123" or "1.2·10⁻³"."""
+    """Parses a number as the page writes it, "0.0123" or "1.2·10⁻³"."""
     digits = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
     return float(re.sub(f"[{digits}]", lambda found: "-0123456789"[digits.index(found[0])], text).replace("·10", "e"))
 
@@ -174,7 +174,7 @@ def check_figures(browser, data):
 
 
 def check_times(browser, data):
-    """The bars have the widths of the shares, the map the colours of the times."""
+    """Tests that the bars have the widths of the shares, and the map the colours of the times."""
     for index, scene in enumerate(data["scenes"]):
         bars = browser.run("""
             return [...document.querySelectorAll('.scene')[arguments[0]].querySelectorAll('.phase-bars svg g')].map((bar) => ({

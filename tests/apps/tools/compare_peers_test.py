@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Holds `bdpt compare` against other programs: compare_peers_test.py BDPT TOOL SCENE, where TOOL is numpy, flip or idiff.
+"""Compares `bdpt compare` with other programs: compare_peers_test.py BDPT TOOL SCENE, where TOOL is numpy, flip or
+idiff.
 
 numpy needs the Python module of that name, flip the authors' flip-evaluator (which reads the files for both), idiff
-OpenImageIO's program. What is not installed is skipped, which exit code 77 says."""
+OpenImageIO's program. Exits with 77 if the tool is not installed."""
 
 import json
 import os
@@ -22,7 +23,7 @@ def skip(what):
 
 
 def compare(bdpt, image, reference, *options):
-    """The mean of each metric."""
+    """Returns the mean of each metric."""
     text = subprocess.run([bdpt, "compare", image, reference, "--json", *options], check=True, capture_output=True,
                           text=True).stdout
     report = json.loads(text)
@@ -82,7 +83,7 @@ def check_idiff(bdpt, image, reference):
     rms, psnr = (float(re.search(rf"{name} = ([\d.e+-]+)", text)[1]) for name in ("RMS error", "Peak SNR"))
     ours = compare(bdpt, image, reference)
     expect("rmse", ours["rmse"], rms, 1e-5)
-    # Its peak is the greatest value of both images, but at least 1.
+    # idiff takes the greatest value of both images as the peak, but at least 1.
     stats = "".join(subprocess.run(["oiiotool", "--stats", file], check=True, capture_output=True, text=True).stdout
                     for file in (image, reference))
     peak = max(1.0, *(float(value) for line in re.findall(r"Stats Max:(.*)\(", stats) for value in line.split()))

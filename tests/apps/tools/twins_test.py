@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Fails when a scene and its twin, which a converter packed in another way, are not the same image:
+"""Tests that scenes and their twins, which a converter has encoded differently, give the same image:
 twins_test.py COMMAND ROOT.
 
-Then the other way round: scenes that differ must be found to.
+Then tests that scenes that differ are found to differ.
 """
 
 import argparse
@@ -16,7 +16,7 @@ sys.path.insert(0, str(ROOT / "benchmarks" / "assets"))
 import twins  # noqa: E402
 
 DATA = ROOT / "tests" / "data" / "twins"
-# Twin, what it was made of, and the mean FLIP that rounding may bring.
+# Each row has the twin, its original, and the mean FLIP that rounding may cause.
 PAIRS = [
     (DATA / "instances-quantized.glb", ROOT / "scenes" / "instances.gltf", twins.MOVED),
     (DATA / "textured-emitter-webp.glb", ROOT / "scenes" / "textured-emitter.gltf", twins.EXACT),
@@ -33,7 +33,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         for pairs, expected in ((PAIRS, True), (OTHERS, False)):
             for twin, model, rounding in pairs:
-                # What is packed without loss, and in its order, takes the same random numbers.
+                # Lossless encodings that keep the order use the same random numbers.
                 options = argparse.Namespace(command=COMMAND, size="48x36", spp="8",
                                              noise=0 if rounding == twins.EXACT else 1.2)
                 verdict = twins.compare(options, twin, model, rounding, pathlib.Path(name))

@@ -1,4 +1,4 @@
-"""A browser without a window, driven through chromedriver by the W3C WebDriver protocol. Standard library only."""
+"""Drives a headless browser through chromedriver by the W3C WebDriver protocol, with the standard library only."""
 
 import base64
 import json
@@ -11,7 +11,7 @@ import urllib.request
 
 
 def missing():
-    """What of the two programs is not installed; None when both are."""
+    """Returns which of the two programs are not installed; None if both are."""
     programs = {"chromium": find("chromium", "chromium-browser", "google-chrome"), "chromedriver": find("chromedriver")}
     return next((name for name, path in programs.items() if path is None), None)
 
@@ -21,7 +21,7 @@ def find(*names):
 
 
 class Browser:
-    """Use it with `with`: both programs end with it."""
+    """Runs the browser and its driver as a context manager: both end with the `with` block."""
 
     def __init__(self, width=1320, height=1600):
         with socket.socket() as probe:
@@ -76,11 +76,11 @@ class Browser:
         self.call("POST", "/url", {"url": url})
 
     def run(self, script, *arguments):
-        """What the body of a JavaScript function returns."""
+        """Runs the body of a JavaScript function; returns its result."""
         return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
 
     def wait(self, script, seconds=60):
-        """The first true value of an expression."""
+        """Waits until an expression is true; returns its value."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             value = self.run(f"return {script};")
@@ -94,12 +94,12 @@ class Browser:
         self.call("POST", "/actions", {"actions": [{"type": "key", "id": "keyboard", "actions": actions}]})
 
     def move_to(self, x, y):
-        """Moves the pointer to a place in the window [CSS pixels]."""
+        """Moves the pointer to a position in the window [CSS pixels]."""
         move = {"type": "pointerMove", "duration": 0, "x": round(x), "y": round(y)}
         self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [move]}]})
 
     def messages(self):
-        """What the console got since the last time."""
+        """Returns the console messages since the last call."""
         return [entry["message"] for entry in self.call("POST", "/se/log", {"type": "browser"})]
 
     def screenshot(self, file):

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes wave.glb, from which the compressed twins beside it were made: make_wave.py FILE.
 
-A waving sheet of 13 x 9 vertices with normals, texture coordinates and vertex colours, which turns and grows in an
-animation of one second.
+It is a waving sheet of 13 x 9 vertices with normals, texture coordinates and vertex colours, which turns and grows in
+an animation of one second.
 """
 
 import json

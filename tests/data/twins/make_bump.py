@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes bump.glb, from which the sparse twin beside it was made: make_bump.py FILE.
 
-A sheet of 15 x 15 vertices, of which a morph target lifts those in the middle: most of its values are zero. A lamp shines
-on it.
+It is a sheet of 15 x 15 vertices with a morph target that lifts those in the middle: most of the target's values are
+zero. A lamp lights it.
 """
 
 import json

@@ -1,23 +1,23 @@
-// Camera moves by pointer, wheel and keys. What comes while a move is on its way is added up to one.
+// Moves the camera by pointer, wheel and keys. Moves made while a request is in flight are summed into one.
 
-/** Radians for a drag across the width of the picture, and for a key. */
+/** The camera turns by TURN_ACROSS [rad] for a drag across the picture, and by TURN_KEY [rad] for a key press. */
 const TURN_ACROSS = Math.PI;
 const TURN_KEY = Math.PI / 36;
 const PAN_KEY = 0.05;
 const DOLLY_KEY = 1.1;
 
-/** Camera moves; those that wait are added up. */
+/** Sends camera moves; sums those that wait for an earlier request. */
 class Moves {
   constructor(send) {
     this.queue = new OneAtATime(send, (a, b) => ({ orbit: sum(a.orbit, b.orbit), pan: sum(a.pan, b.pan), dolly: a.dolly * b.dolly }));
   }
 
-  /** Radians to the right and down. */
+  /** Orbits to the right and down [rad]. */
   turn(dx, dy) {
     this.queue.add({ orbit: [dx, dy], pan: [0, 0], dolly: 1 });
   }
 
-  /** Heights of the picture to the right and down. */
+  /** Pans to the right and down, in heights of the picture. */
   shift(dx, dy) {
     this.queue.add({ orbit: [0, 0], pan: [dx, dy], dolly: 1 });
   }
@@ -32,10 +32,13 @@ function sum(a, b) {
   return [a[0] + b[0], a[1] + b[1]];
 }
 
-/** Drags, the wheel and double clicks on the stage. `click(pixel)` and `focus(pixel)` are for clicks without a drag. */
+/**
+ * Binds drags, the wheel and double clicks on the stage. Clicks without a drag call `click(pixel)`, double clicks
+ * `focus(pixel)`.
+ */
 function bindPointer(stage, moves, { click, focus }) {
   const canvas = stage.canvas;
-  const nearby = 4;  // [CSS pixels] a click may move so far
+  const nearby = 4;  // [CSS pixels] a press that moves less far is a click
   let drag = null;
   canvas.addEventListener("pointerdown", (event) => {
     drag = { x: event.clientX, y: event.clientY, far: false, pans: event.button === 1 || event.button === 2 || event.shiftKey };
@@ -94,7 +97,7 @@ function bindPointer(stage, moves, { click, focus }) {
   }, { passive: false });
 }
 
-/** Keys that move the camera: false for others. */
+/** Moves the camera if the key is bound to a move; returns whether it is. */
 function moveByKey(event, moves) {
   const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
   const arrow = arrows[event.key];

@@ -1,10 +1,13 @@
-// The one connection to the server: requests and states as JSON, pixels in binary. This file alone knows their format.
+// Connects the page to the server: requests and states are JSON, pixels are binary. Only this file knows the format.
 
 const FIRST_WAIT = 250;  // [ms] before the first try to connect again
 const LONGEST_WAIT = 4000;
 
 class Connection {
-  /** `on`: state(object), tile(header, halves), found(), lost(). `base`: the path of the page, which has the token in it. */
+  /**
+   * `on` has the callbacks state(object), tile(header, halves), found() and lost(). `base` is the path of the page and
+   * contains the token.
+   */
   constructor(base, on) {
     this.base = base;
     this.on = on;
@@ -26,7 +29,7 @@ class Connection {
     this.socket.addEventListener("close", () => this.lose());
   }
 
-  /** Tells that the server is gone, and tries again, ever more rarely. */
+  /** Reports that the server is gone, and reconnects with growing delays. */
   lose() {
     for (const { reject } of this.waiting.values()) {
       reject(new Error("the server is gone"));
@@ -66,7 +69,7 @@ class Connection {
     }
   }
 
-  /** Sends a request; gives a promise of the answer, which fails with the message of the server. */
+  /** Sends a request; returns a promise of the answer, which rejects with the server's error message. */
   request(what) {
     if (this.socket.readyState !== WebSocket.OPEN) {
       return Promise.reject(new Error("the server is gone"));
@@ -76,15 +79,15 @@ class Connection {
     return new Promise((resolve, reject) => this.waiting.set(seq, { resolve, reject }));
   }
 
-  /** The address of a file that the server makes. */
+  /** Returns the address of a file that the server generates. */
   address(name, query) {
     return `${this.base}${name}?${new URLSearchParams(query)}`;
   }
 }
 
-/** Sends what is asked for one at a time; what comes meanwhile is joined to one request by `join(waiting, more)`. */
+/** Sends one request at a time; merges those that wait by `join(waiting, more)`. */
 class OneAtATime {
-  /** `send(what)` gives a promise that ends when the server has taken it. */
+  /** `send(what)` returns a promise that settles when the server has accepted the request. */
   constructor(send, join) {
     this.send = send;
     this.join = join;
@@ -92,12 +95,12 @@ class OneAtATime {
     this.onWay = false;
   }
 
-  /** Something was not taken yet. */
+  /** Returns whether a request is in flight or waits. */
   get busy() {
     return this.onWay || this.waiting !== null;
   }
 
-  /** A promise that ends when all is taken. */
+  /** Resolves when the server has accepted all requests. */
   async idle() {
     while (this.busy) {
       await new Promise((resolve) => setTimeout(resolve, 10));

@@ -1,13 +1,16 @@
-// Puts the page together.
+// Assembles the page.
 
 const data = JSON.parse(byId("view-data").textContent);
 const heat = readHeat(data.heat);
 const stage = new Stage();
 const inspector = new Inspector(stage);
 let state = null;
-/** The page's own settings: exposure [EV] and tone curve. */
+/** Display settings of the page: exposure [EV] and tone curve. */
 const look = { exposure: 0, automatic: true, curve: "filmic" };
-/** What tests and benchmarks look at: the request and the restart that A's picture shows, its grid, samples of A and B, how many pictures came. */
+/**
+ * Holds the state that tests and benchmarks read: sequence number and generation of A's picture, width of its grid,
+ * samples of A and B, and the number of updates.
+ */
 const seen = { sequence: 0, generation: 0, updates: 0, grid: 0, samples: [0, 0] };
 
 const connection = new Connection(location.pathname, {
@@ -24,7 +27,7 @@ const connection = new Connection(location.pathname, {
   },
 });
 
-/** A request whose failure is shown, but for that of a lost connection, which is shown anyway. */
+/** Sends a request and shows its error message, unless the connection is lost, which the page shows already. */
 function ask(what) {
   return connection.request(what).catch((error) => {
     announce(error.message);
@@ -42,7 +45,10 @@ function change(values) {
   settings.add(values);
 }
 
-/** Exposure and curve change at once; the server is told for the command, the job and other windows. */
+/**
+ * Applies exposure and tone curve at once, and tells the server, which needs them for the command, the job and other
+ * windows.
+ */
 function changeLook(values) {
   Object.assign(look, values);
   if (values.exposure !== undefined) {
@@ -58,7 +64,7 @@ function paintHeat(rgb, target) {
   }
 }
 
-/** `waits`: what is shown is of another layer, and stays until pixels come. */
+/** Repaints the picture. If `waits`, the shown pixels belong to another layer and stay until new ones arrive. */
 function repaint(waits = false) {
   const { exposure, curve } = look;
   const background = linearColor(state && state.background);
@@ -137,7 +143,7 @@ async function inspect(pixel, sample = 0) {
   }
 }
 
-/** Saves a file that the server makes, once it knows exposure and tone curve. */
+/** Downloads a file that the server generates, after the server knows the exposure and tone curve. */
 async function download(name, query = {}) {
   await settings.idle();
   const link = html("a", { href: connection.address(name, query), download: "" });
@@ -184,7 +190,7 @@ function automaticExposure() {
   change({ exposure: "auto" });
 }
 
-/** Keys, with what the page says about them. Those without an action are bound elsewhere. */
+/** Keys and their descriptions in the help. Those without an action are bound elsewhere. */
 const KEYS = [
   ["Drag, arrow keys", "turn around the target"],
   ["Shift + drag, middle button, Shift + arrows", "pan"],

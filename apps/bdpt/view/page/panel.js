@@ -1,7 +1,10 @@
-// Controls of the page. Each shows what the server says, unless one is just moving it.
+// Controls of the page. Each shows the server's state, except while the user moves it.
 
 class Panel {
-  /** `change(settings)` asks the server for them; `look(settings)` is the page's own: exposure, curve. */
+  /**
+   * `change(settings)` sends settings to the server; `look(settings)` sets the display settings of the page: exposure,
+   * tone curve.
+   */
   constructor(change, look) {
     this.change = change;
     this.look = look;
@@ -11,7 +14,7 @@ class Panel {
     this.bindSelect("integrator-b", (value) => change({ integrator_b: value || null }));
     this.bindSelect("environment", (value) => change({ environment: value }));
     this.bindSelect("strategy", (value) => change({ strategy: value.split(",").map(Number) }));
-    this.exposure = this.bindSlider("exposure", evText, (value) => look({ exposure: value }));
+    this.exposure = this.bindSlider("exposure", formatExposure, (value) => look({ exposure: value }));
     this.rotation = this.bindSlider("rotation", (value) => `${value}°`, (value) => change({ rotation: value }));
     this.intensity = this.bindSlider("intensity", (value) => `× ${digits(2 ** value)}`, (value) => change({ intensity: 2 ** value }));
   }
@@ -20,7 +23,7 @@ class Panel {
     byId(id).addEventListener("change", (event) => changed(event.target.value));
   }
 
-  /** `set(value)` of the result moves the slider without a request. */
+  /** Binds a slider to `changed(value)`. The result's `set(value)` moves the slider without calling it. */
   bindSlider(id, text, changed) {
     const slider = byId(id);
     const write = () => {
@@ -42,7 +45,7 @@ class Panel {
     const title = state.title || state.file;
     byId("title").textContent = title;
     document.title = `${title} – bdpt view`;
-    byId("camera-line").textContent = cameraText(state.camera);
+    byId("camera-line").textContent = formatCamera(state.camera);
     fillOptions("integrator-a", state.integrators.map((name) => [name, name]), state.integrator_a);
     fillOptions("integrator-b", [["", "none"], ...state.integrators.map((name) => [name, name])], state.integrator_b || "");
     fillOptions("environment", state.environments.map((name) => [name, name]), state.environment);
@@ -60,10 +63,10 @@ class Panel {
     }
     this.showNotes(state.warnings || []);
     byId("command").value = state.command;
-    byId("status").replaceChildren(...state.slots.flatMap((slot) => statusOf(slot, state.slots.length > 1)));
+    byId("status").replaceChildren(...state.slots.flatMap((slot) => createStatus(slot, state.slots.length > 1)));
   }
 
-  /** Warnings and notes of the scene: one as it is, more of them behind their number. */
+  /** Shows the warnings and notes of the scene: a single one directly, several behind a count. */
   showNotes(notes) {
     const box = byId("notes");
     box.hidden = notes.length === 0;
@@ -103,18 +106,18 @@ function fillOptions(id, options, value) {
   }
 }
 
-function evText(value) {
+function formatExposure(value) {
   return `${value > 0 ? "+" : ""}${Number(value.toFixed(2))} EV`;
 }
 
-function cameraText(camera) {
+function formatCamera(camera) {
   const point = (p) => p.map((x) => digits(x)).join(", ");
   return `${camera.name ? `${camera.name}: ` : ""}from ${point(camera.from)} to ${point(camera.look_at)}` +
     (camera.fov ? `, ${digits(camera.fov)}°` : "");
 }
 
-/** One line about what was rendered: "mis 48 of 256 samples, noise 2.1 %, 3.2 s". */
-function statusOf(slot, named) {
+/** Returns the elements of the status line, like "mis 48 of 256 samples, noise 2.1 %, 3.2 s". */
+function createStatus(slot, named) {
   const pair = (name, value) => html("div", null, html("dt", null, name), html("dd", null, value));
   return [
     pair(named ? `${slot.integrator}: samples` : "Samples", `${digits(slot.samples, 4)}${slot.target ? ` of ${slot.target}` : ""}`),

@@ -1,4 +1,4 @@
-// An inspected sample: its paths over the picture, its vertices and strategies in tables.
+// Shows an inspected sample: draws its paths over the picture and lists its vertices and strategies in tables.
 
 class Inspector {
   constructor(stage) {
@@ -37,13 +37,16 @@ class Inspector {
 
   vertexTable(title, key, path) {
     const rows = path.map((vertex, i) => [String(i), vertex.on, vertex.position.map((x) => digits(x)).join(", "),
-      colorText(vertex.throughput), digits(vertex.pdf), scatters(vertex)]);
+      colorText(vertex.throughput), digits(vertex.pdf), describeScattering(vertex)]);
     const result = table(title, ["", "on", "position [m]", "throughput", "density", "scatters"], rows);
     result.querySelector("caption").classList.add(key);
     return result;
   }
 
-  /** The strategies that bring light, brightest first; a row's button draws how it joins the paths. */
+  /**
+   * Lists the strategies that contribute, brightest first; the button in a row draws how its strategy connects the
+   * subpaths.
+   */
   strategyTable() {
     const brings = (one) => one.unweighted.map((x) => x * one.weight);
     const brightness = (one) => brings(one).reduce((sum, x) => sum + x, 0);
@@ -120,7 +123,7 @@ function colorText(color) {
   return color.map((x) => digits(x)).join(" ");
 }
 
-/** How the walk went on, and who can join here. */
-function scatters(vertex) {
+/** Describes how the walk continued at a vertex, and whether the vertex can be connected. */
+function describeScattering(vertex) {
   return vertex.connectible === false ? "delta" : vertex.scattered_delta ? "by a delta lobe" : "";
 }

@@ -1,6 +1,6 @@
-// Light as it comes from the server: half floats in tiles.
+// Holds radiance as the server sends it: tiles of half floats.
 
-/** The values of all half floats [IEEE 754]. */
+/** Values of all 65536 half floats [IEEE 754]. */
 const HALF_VALUES = Float32Array.from({ length: 65536 }, (_, bits) => {
   const exponent = bits >>> 10 & 31;
   const fraction = bits & 1023;
@@ -9,7 +9,7 @@ const HALF_VALUES = Float32Array.from({ length: 65536 }, (_, bits) => {
   return bits & 0x8000 ? -size : size;
 });
 
-/** Light of a colour like "#ff8000"; null for no colour. */
+/** Returns the linear colour of a code like "#ff8000"; null if there is none. */
 function linearColor(text) {
   const codes = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(text || "");
   return codes && codes.slice(1).map((code) => {
@@ -18,8 +18,10 @@ function linearColor(text) {
   });
 }
 
-/** Draws light over `background` (null: nothing, so that the pixels are transparent) into `target`, RGBA bytes, as the command
- * does. `cover`: for each pixel the share that has this light, and the share that shows the background. */
+/**
+ * Tone-maps radiance over `background` into `target` (RGBA bytes) as the command does; without a background (null) the
+ * pixels are transparent. `cover` holds two shares for each pixel: of its own light, and of the visible background.
+ */
 function toneMapOver(rgb, cover, target, { gain, curve, background }) {
   const { map } = CURVES[curve];
   const out = new Float64Array(3);
@@ -39,7 +41,10 @@ function toneMapOver(rgb, cover, target, { gain, curve, background }) {
   }
 }
 
-/** An image that grows: linear light of a grid of pixels, coarser than the image at first, and its look on the screen. */
+/**
+ * A progressive image: the linear radiance of a pixel grid, which is coarser than the image at first, and its
+ * tone-mapped canvas.
+ */
 class Radiance {
   constructor() {
     this.width = 0;
@@ -51,7 +56,7 @@ class Radiance {
     this.empty = true;
   }
 
-  /** `channels`: 3, or 5 with what covers a background. */
+  /** Allocates the grid; `channels` is 3, or 5 with the two shares of `cover`. */
   resize(width, height, channels) {
     const covers = channels === 5;
     if (width === this.width && height === this.height && covers === (this.cover !== null)) {
@@ -65,7 +70,7 @@ class Radiance {
     this.canvas.height = height;
   }
 
-  /** Takes over a tile of half floats: rows from the top. */
+  /** Stores a tile of half floats, rows from the top. */
   put(x, y, width, height, halves) {
     let h = 0;
     for (let row = 0; row < height; ++row) {
@@ -87,7 +92,7 @@ class Radiance {
     this.empty = true;
   }
 
-  /** `channels` values for each pixel of a part of `values`. */
+  /** Copies a rectangle out of `values`, which has `channels` values for each pixel. */
   part(values, channels, x, y, width, height) {
     if (!values || (width === this.width && height === this.height)) {
       return values;
@@ -100,7 +105,7 @@ class Radiance {
     return part;
   }
 
-  /** Paints a part of the canvas; `paint(rgb, target, cover)` makes RGBA bytes of light. */
+  /** Paints a rectangle of the canvas; `paint(rgb, target, cover)` converts radiance to RGBA bytes. */
   develop(paint, x = 0, y = 0, width = this.width, height = this.height) {
     if (this.width === 0 || width === 0 || height === 0) {
       return;
@@ -110,7 +115,7 @@ class Radiance {
     this.context.putImageData(image, x, y);
   }
 
-  /** Light of the pixel at a place in [0, 1]. */
+  /** Returns the radiance of the pixel at a place in [0, 1]. */
   at(place) {
     const x = Math.min(Math.max(Math.floor(place[0] * this.width), 0), this.width - 1);
     const y = Math.min(Math.max(Math.floor(place[1] * this.height), 0), this.height - 1);

@@ -1,6 +1,6 @@
-// The picture: one image, or two side by side with a wiper between them.
+// Shows the picture: one image, or two side by side with a wiper between them.
 
-/** The canvas of the page. Slot 0 is integrator A, slot 1 is B. */
+/** The canvas of the page. Slot 0 shows integrator A, slot 1 shows B. */
 class Stage extends Pane {
   constructor() {
     super(new View(), 4, 3, "Picture of the scene");
@@ -14,7 +14,7 @@ class Stage extends Pane {
     this.drawn = () => {};
   }
 
-  /** The size of the image [pixels], which is that of no coarse grid. */
+  /** Sets the size of the full image [pixels]; the received grids may be coarser. */
   setSize(width, height) {
     this.size = [width, height];
     this.canvas.style.aspectRatio = `${width}/${height}`;
@@ -22,7 +22,10 @@ class Stage extends Pane {
     this.requestDraw();
   }
 
-  /** How light becomes colours: `paint(rgb, target)`. All is painted anew, or (`waits`) what comes from now on. */
+  /**
+   * Sets how radiance is converted to colours: `paint(rgb, target)`. Repaints everything, or, if `waits`, only paints
+   * tiles that arrive from now on.
+   */
   setPaint(paint, waits = false) {
     this.paint = paint;
     if (!waits) {
@@ -48,7 +51,7 @@ class Stage extends Pane {
     this.requestDraw();
   }
 
-  /** A tile of a grid that covers the whole image. */
+  /** Stores and paints a tile of a grid that covers the whole image. */
   put(slot, grid, tile, halves, channels) {
     const radiance = this.slots[slot];
     radiance.resize(grid.width, grid.height, channels);
@@ -87,13 +90,13 @@ class Stage extends Pane {
     this.drawn();
   }
 
-  /** The pixel of the image at a pointer, or null beside it. */
+  /** Returns the image pixel under the pointer, or null outside of the image. */
   pixel(event) {
     const [x, y] = this.place(event);
     return x >= 0 && y >= 0 && x < 1 && y < 1 ? [Math.floor(x * this.size[0]), Math.floor(y * this.size[1])] : null;
   }
 
-  /** Where a place of the image [pixels] is on the page, in pixels of the box. */
+  /** Converts a position in the image [pixels] to CSS pixels of the box. */
   onScreen([px, py]) {
     const { x, y, zoom } = this.view;
     return [((px / this.size[0] - x) * zoom + 0.5) * this.canvas.clientWidth,
@@ -101,7 +104,7 @@ class Stage extends Pane {
   }
 }
 
-/** The wiper by pointer and by keys. */
+/** Moves the wiper by pointer and by keys. */
 function bindWiper(stage) {
   const wiper = byId("wiper");
   const move = (event) => {

@@ -1,4 +1,4 @@
-// Speed-up at equal error as bars on a logarithmic scale around 1; rays by what they are for.
+// Draws speed-ups at equal error as bars on a logarithmic scale around 1, and rays by their purpose.
 
 function speedUpBars(scene) {
   const rows = scene.integrators.filter((one) => one.speed_up);
@@ -31,8 +31,8 @@ function speedUpBars(scene) {
 }
 
 /**
- * A bar for each row of { name, parts, title(k), inside(k) }; parts are in the order of `kinds`, pairs of a class and what it
- * means. Null when there is nothing to show.
+ * Draws a stacked bar for each row of { name, parts, title(k), inside(k) }. `parts` follow the order of `kinds`, which
+ * are pairs of a class and its description. Returns null if there is nothing to show.
  */
 function stackedBars(scene, rows, { caption, series, kinds, format }) {
   const totals = rows.map((row) => row.parts.reduce((a, b) => a + b, 0));
@@ -66,7 +66,7 @@ function stackedBars(scene, rows, { caption, series, kinds, format }) {
 
 const RAY_KINDS = [["camera", "from the camera"], ["light", "from lights"], ["shadow", "between two points"]];
 
-/** Rays that a sample of a pixel takes, by kind. */
+/** Draws the rays per sample, by kind. */
 function rayBars(scene) {
   const pixels = scene.width * scene.height;
   const rows = scene.integrators.map((one) => {

@@ -1,6 +1,6 @@
-// Colours of errors, which C++ made evenly spaced in CIE L*a*b*.
+// False colours of errors. C++ generates them evenly spaced in CIE L*a*b*.
 
-/** 256 colours as bytes: red, green, blue, red ... */
+/** Decodes 256 colours as bytes: red, green, blue, red ... */
 function readHeat(text) {
   const result = new Uint8ClampedArray(text.length / 2);
   for (let i = 0; i < result.length; ++i) {
@@ -18,7 +18,7 @@ function setHeat(target, offset, heat, place) {
   target[offset + 3] = 255;
 }
 
-/** The colours from left to right, with what they stand for below. */
+/** Draws the colours from left to right, with tick labels below. */
 function colorBar(heat, label, ticks) {
   const count = heat.length / 3;
   const canvas = html("canvas", { width: count, height: 1, class: "colors", "aria-hidden": "true" });

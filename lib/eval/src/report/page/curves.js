@@ -1,4 +1,5 @@
-// From light to a screen, as lib/io/src/output/tone_curve.cpp has it: bdpt view and the report of bdpt bench.
+// Tone-maps radiance for the screen, like lib/io/src/output/tone_curve.cpp. bdpt view and the report of bdpt bench
+// share it.
 
 const SRGB_STEPS = 65535;
 /** sRGB codes [IEC 61966-2-1] of evenly spaced linear values in [0, 1]. */
@@ -7,20 +8,20 @@ const SRGB = Uint8Array.from({ length: SRGB_STEPS + 1 }, (_, i) => {
   return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055) + 0.5;
 });
 
-/** Far above where any curve ends; keeps its squares finite. */
+/** Far above the white point of every curve; keeps squares finite. */
 const BRIGHTEST = 1e6;
 
-function sound(x) {
+function clampRadiance(x) {
   return x > 0 ? Math.min(x, BRIGHTEST) : 0;
 }
 
-// A curve takes scene-linear red, green and blue, and writes display-linear values in [0, 1] to `out`.
+// A curve maps scene-linear red, green and blue to display-linear values in [0, 1] in `out`.
 
-/** The filmic curve [Narkowicz 2016] on the largest component: hues stay, and bright ones fade to white. */
+/** Applies the filmic curve [Narkowicz 2016] to the largest component: hues stay, and bright ones fade to white. */
 function filmic(red, green, blue, out) {
-  const r = sound(red);
-  const g = sound(green);
-  const b = sound(blue);
+  const r = clampRadiance(red);
+  const g = clampRadiance(green);
+  const b = clampRadiance(blue);
   const peak = Math.max(r, g, b);
   if (peak <= 0) {
     out[0] = out[1] = out[2] = 0;
@@ -35,14 +36,14 @@ function filmic(red, green, blue, out) {
   out[2] = b * k + white * shown;
 }
 
-/** Khronos PBR Neutral Tone Mapper [Khronos 2024]. */
+/** Applies the Khronos PBR Neutral Tone Mapper [Khronos 2024]. */
 function pbrNeutral(red, green, blue, out) {
   const fresnel = 0.04;
   const start = 0.8 - fresnel;
   const room = 1 - start;
-  let r = sound(red);
-  let g = sound(green);
-  let b = sound(blue);
+  let r = clampRadiance(red);
+  let g = clampRadiance(green);
+  let b = clampRadiance(blue);
   const least = Math.min(r, g, b);
   const taken = least < 2 * fresnel ? least - least * least / (4 * fresnel) : fresnel;
   r -= taken;
@@ -64,9 +65,9 @@ function pbrNeutral(red, green, blue, out) {
 
 const FLOAT = new Float32Array(1);
 const FLOAT_BITS = new Uint32Array(FLOAT.buffer);
-/** The first and the last float of AGX_CONTRAST, without the lower 13 bits: 2^-13 and 2^5. */
+/** First and last float of AGX_CONTRAST, without the lower 13 bits: 2^-13 and 2^5. */
 const AGX_RANGE = [114 << 10, 132 << 10];
-/** The contrast curve of AgX [Wrensch 2023] over the logarithm, for 1024 values in each octave. */
+/** Tabulates the contrast curve of AgX [Wrensch 2023] with 1024 values per octave. */
 const AGX_CONTRAST = Float64Array.from({ length: AGX_RANGE[1] - AGX_RANGE[0] + 1 }, (_, i) => {
   FLOAT_BITS[0] = (AGX_RANGE[0] + i) * 8192;
   const place = unit((Math.log2(FLOAT[0]) + 12.47393) / (4.026069 + 12.47393));
@@ -80,7 +81,7 @@ function agxContrast(x) {
 }
 
 const AGX_STEPS = 4096;
-/** Powers of 2.2 of evenly spaced values in [0, 1.5]. */
+/** Tabulates x^2.2 for evenly spaced x in [0, 1.5]. */
 const AGX_POWERS = Float64Array.from({ length: 1.5 * AGX_STEPS + 2 }, (_, i) => (i / AGX_STEPS) ** 2.2);
 
 function agxPower(x) {
@@ -93,11 +94,11 @@ function unit(x) {
   return Math.min(Math.max(x, 0), 1);
 }
 
-/** AgX [Sobotka 2022] on Rec. 2020 primaries. */
+/** Applies AgX [Sobotka 2022] with Rec. 2020 primaries. */
 function agx(red, green, blue, out) {
-  const r = sound(red);
-  const g = sound(green);
-  const b = sound(blue);
+  const r = clampRadiance(red);
+  const g = clampRadiance(green);
+  const b = clampRadiance(blue);
   const wideR = 0.6274 * r + 0.3293 * g + 0.0433 * b;
   const wideG = 0.0691 * r + 0.9195 * g + 0.0113 * b;
   const wideB = 0.0164 * r + 0.0880 * g + 0.8956 * b;
@@ -113,12 +114,12 @@ function agx(red, green, blue, out) {
 }
 
 function clamped(red, green, blue, out) {
-  out[0] = Math.min(sound(red), 1);
-  out[1] = Math.min(sound(green), 1);
-  out[2] = Math.min(sound(blue), 1);
+  out[0] = Math.min(clampRadiance(red), 1);
+  out[1] = Math.min(clampRadiance(green), 1);
+  out[2] = Math.min(clampRadiance(blue), 1);
 }
 
-/** The curves of --tone-map. */
+/** Curves of --tone-map. */
 const CURVES = {
   filmic: { name: "Filmic", map: filmic },
   "pbr-neutral": { name: "PBR Neutral", map: pbrNeutral },
@@ -126,7 +127,7 @@ const CURVES = {
   none: { name: "None (clamps)", map: clamped },
 };
 
-/** Draws light into `target` (RGBA bytes). `gamma`: a power of the brightness that the curve gives. */
+/** Tone-maps radiance into `target` (RGBA bytes). `gamma` is an exponent for the brightness of the result. */
 function toneMap(rgb, target, { gain, curve, gamma = 1 }) {
   const { map } = CURVES[curve];
   const out = new Float64Array(3);

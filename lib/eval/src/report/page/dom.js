@@ -1,4 +1,4 @@
-// Elements of the page.
+// Creates elements of the page.
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -16,12 +16,12 @@ function fillElement(element, attributes, children) {
   return element;
 }
 
-/** An HTML element; attributes that begin with "on" are listeners. */
+/** Creates an HTML element; attributes that begin with "on" are listeners. */
 function html(tag, attributes, ...children) {
   return fillElement(document.createElement(tag), attributes, children);
 }
 
-/** An element of an inline SVG. */
+/** Creates an element of an inline SVG. */
 function svg(tag, attributes, ...children) {
   return fillElement(document.createElementNS(SVG, tag), attributes, children);
 }
@@ -30,12 +30,12 @@ function byId(id) {
   return document.getElementById(id);
 }
 
-/** Tells those who do not see the page. */
+/** Announces a text to screen readers. */
 function announce(text) {
   byId("live").textContent = text;
 }
 
-/** A table from rows of cells; the first cell of each row is its header. */
+/** Creates a table from rows of cells; the first cell of each row is its header. */
 function table(caption, head, rows, attributes) {
   const headCells = head.map((cell, i) => html("th", { scope: "col", class: i ? "number" : null }, cell));
   const bodyRows = rows.map((cells) =>
@@ -46,7 +46,7 @@ function table(caption, head, rows, attributes) {
       html("thead", null, html("tr", null, headCells)), html("tbody", null, bodyRows)));
 }
 
-/** The button that chooses light or dark; else the system does. */
+/** Binds the button that chooses the light or dark theme; until it is used, the system decides. */
 function bindTheme() {
   const themes = ["system", "light", "dark"];
   const button = byId("theme");

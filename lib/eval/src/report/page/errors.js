@@ -1,6 +1,6 @@
-// Errors and variances of images, in false colours.
+// Draws errors and variances of images in false colours.
 
-/** Errors of a pixel; `place` is where on the scale of colours it is, in [0, 1]. */
+/** Error metrics of a pixel; `place` maps an error to a position in [0, 1] on the colour scale. */
 const METRICS = {
   relative: {
     name: "squared, relative",
@@ -18,7 +18,7 @@ const METRICS = {
   },
 };
 
-/** The error of pixel `i`: mean of the three channels. */
+/** Returns the error of pixel `i`: the mean over the three channels. */
 function errorAt(rgb, reference, i, metric, epsilon) {
   let sum = 0;
   for (let c = 3 * i; c < 3 * i + 3; ++c) {
@@ -35,14 +35,14 @@ function errorMap(rgb, reference, target, metric, epsilon, heat) {
   }
 }
 
-/** Variance of bytes of logarithms: 2^-24 and eighths of an octave. */
-function varianceOf(byte) {
+/** Decodes the variance from a byte, which counts eighths of an octave above 2^-24. */
+function decodeVariance(byte) {
   return byte === 0 ? 0 : 2 ** ((byte - 1) / 8 - 24);
 }
 
-/** Draws variances on the scale of the squared relative error. */
+/** Draws variances, on the colour scale of the squared relative error. */
 function varianceMap(map, target, heat) {
-  const places = Float64Array.from({ length: 256 }, (_, byte) => METRICS.relative.place(varianceOf(byte)));
+  const places = Float64Array.from({ length: 256 }, (_, byte) => METRICS.relative.place(decodeVariance(byte)));
   for (let i = 0; i < map.length; ++i) {
     setHeat(target, 4 * i, heat, places[map[i]]);
   }

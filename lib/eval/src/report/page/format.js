@@ -1,4 +1,4 @@
-// Numbers for people.
+// Formats numbers for people.
 
 const SUPERSCRIPTS = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
 
@@ -6,7 +6,7 @@ function superscript(number) {
   return String(number).split("").map((digit) => SUPERSCRIPTS[digit]).join("");
 }
 
-/** Three digits, without trailing zeros: "0.0123", "12.3", "1230". */
+/** Formats three significant digits, without trailing zeros: "0.0123", "12.3", "1230". */
 function digits(value, count = 3) {
   if (!Number.isFinite(value)) {
     return "–";
@@ -16,7 +16,7 @@ function digits(value, count = 3) {
     : String(text);
 }
 
-/** "1.2·10⁻³", and "0.12" for what is easily read */
+/** Formats "1.2·10⁻³", but "0.12" for values that are easy to read. */
 function scientific(value, decimals = 1) {
   if (Math.abs(value) >= 0.1 && Math.abs(value) < 1000) {
     return String(Number(value.toPrecision(decimals + 1)));
@@ -33,7 +33,7 @@ function scientific(value, decimals = 1) {
   return `${mantissa}·10${superscript(exponent)}`;
 }
 
-/** 1234567 as "1.23 M" */
+/** Formats 1234567 as "1.23 M". */
 function thousands(value) {
   const units = ["", " k", " M", " G", " T"];
   let unit = 0;
@@ -57,7 +57,7 @@ function percent(share) {
   return share === 0 ? "0" : share < 0.001 ? "<0.1 %" : `${Number((100 * share).toPrecision(share < 0.1 ? 2 : 3))} %`;
 }
 
-/** "12.3×", "≈ 12.3×" */
+/** Formats a speed-up: "12.3×", or "≈ 12.3×" if it is extrapolated. */
 function times(speedUp) {
   if (!speedUp) {
     return "–";

@@ -1,4 +1,4 @@
-// Puts the page together.
+// Assembles the page.
 
 const data = JSON.parse(byId("bench-data").textContent);
 const heat = readHeat(data.heat);
@@ -8,7 +8,7 @@ function refresh() {
   viewers.forEach((viewer) => viewer.invalidate());
 }
 
-/** Brings the image with number `i` to all stages. */
+/** Shows image `i` on all stages. */
 function show(i) {
   const most = Math.max(...viewers.map((viewer) => viewer.names.length));
   if (i < 0 || i >= most) {

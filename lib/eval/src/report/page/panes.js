@@ -1,8 +1,8 @@
-// Canvases that show one of a scene's images, all through the same window.
+// Defines canvases that show the images of a scene through a common view.
 
 const MOST_ZOOM = 64;
 
-/** Which part of an image is seen: the centre [0, 1] and how many times the whole is magnified. */
+/** The visible part of an image: its centre in [0, 1] and its magnification. */
 class View {
   constructor() {
     this.reset();
@@ -14,7 +14,7 @@ class View {
     this.zoom = 1;
   }
 
-  /** Magnifies by `factor`; the place (x, y) of the image stays where it is. */
+  /** Magnifies by `factor`, keeping the position (x, y) of the image in place. */
   zoomAt(factor, x, y) {
     const zoom = Math.min(Math.max(this.zoom * factor, 1), MOST_ZOOM);
     this.x = x + (this.x - x) * this.zoom / zoom;
@@ -36,17 +36,17 @@ class View {
   }
 }
 
-/** A canvas on the page that an image is seen through. */
+/** A canvas that shows an image through a View. */
 class Pane {
   constructor(view, width, height, label) {
     this.view = view;
     this.size = [width, height];
-    this.smoothBelow = 1;  // magnification below which pixels are blended
+    this.smoothBelow = 1;  // pixels are interpolated below this magnification
     this.canvas = html("canvas", { class: "pane", role: "img", "aria-label": label,
       style: `aspect-ratio:${width}/${height}` });
   }
 
-  /** Gives the canvas the pixels of the screen that it covers: [width, height]. */
+  /** Matches the canvas resolution to the screen; returns [width, height] in pixels. */
   fit() {
     const ratio = window.devicePixelRatio || 1;
     const width = Math.max(Math.round(this.canvas.clientWidth * ratio), 1);
@@ -58,7 +58,7 @@ class Pane {
     return [width, height];
   }
 
-  /** Draws the image `source`, a canvas of any resolution, and a mark at `cursor`, a place in the image. */
+  /** Draws `source`, a canvas of any resolution, and a mark at `cursor`, a position in the image. */
   draw(source, cursor) {
     const [width, height] = this.fit();
     const context = this.canvas.getContext("2d");
@@ -86,7 +86,7 @@ class Pane {
     }
   }
 
-  /** The place in [0, 1] of the image that is under the pointer. */
+  /** Returns the position in the image, in [0, 1], under the pointer. */
   place(event) {
     const box = this.canvas.getBoundingClientRect();
     const { x, y, zoom } = this.view;
@@ -94,7 +94,7 @@ class Pane {
       y + ((event.clientY - box.top) / box.height - 0.5) / zoom];
   }
 
-  /** Zoom, pan and the pixel under the pointer: `changed(cursor)` is called after each of them. */
+  /** Handles zoom, pan and pointer moves; calls `changed(cursor)` after each. */
   listen(changed) {
     const canvas = this.canvas;
     const pixel = ([x, y]) => [Math.floor(x * this.size[0]), Math.floor(y * this.size[1])];
@@ -117,7 +117,7 @@ class Pane {
       changed(pixel(this.place(event)));
     });
     canvas.addEventListener("wheel", (event) => {
-      // Without a key the wheel is for the page, unless the image has the focus.
+      // Without a modifier key the wheel scrolls the page, unless the image has the focus.
       if (event.ctrlKey || event.metaKey || document.activeElement === canvas) {
         event.preventDefault();
         this.view.zoomAt(2 ** (-event.deltaY / 240), ...this.place(event));

@@ -1,6 +1,6 @@
-// Pixels out of the page's data.
+// Decodes pixels from the page's data.
 
-/** Bytes that were compressed [RFC 1950] and written as base64. */
+/** Decodes base64 and decompresses the bytes [RFC 1950]. */
 async function unpackBytes(text) {
   const binary = atob(text);
   const compressed = new Uint8Array(binary.length);
@@ -11,7 +11,7 @@ async function unpackBytes(text) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** Red, green and blue [nit] of an image of planes of RGB9E5. */
+/** Decodes red, green and blue [nit] from planes of RGB9E5. */
 async function unpackImage(text, scale) {
   const planes = await unpackBytes(text);
   const count = planes.length / 4;

@@ -1,9 +1,9 @@
-// Convergence plots: log-log, inline SVG.
+// Draws convergence plots: log-log, as inline SVG.
 
 const PLOT = { width: 560, height: 340, left: 58, right: 74, top: 14, bottom: 44 };
 const MARKERS = ["circle", "square", "diamond", "triangle", "cross"];
 
-/** A logarithmic axis from values to pixels, with a little room at both ends. */
+/** A logarithmic axis that maps values to pixels, with a margin at both ends. */
 class LogAxis {
   constructor(values, from, to) {
     const logs = values.filter((value) => value > 0).map(Math.log10);
@@ -17,7 +17,7 @@ class LogAxis {
     return this.from + (Math.log10(value) - this.least) / (this.most - this.least) * (this.to - this.from);
   }
 
-  /** Powers of ten, and 2 and 5 between them when there are few. */
+  /** Returns ticks at powers of ten and at 2 and 5 times those; the latter have labels if there are few powers. */
   ticks() {
     const result = [];
     for (let e = Math.floor(this.least); e <= Math.ceil(this.most); ++e) {
@@ -75,7 +75,7 @@ function grid(xAxis, yAxis, xLabel, yLabel) {
   return svg("g", { class: "grid-lines" }, lines);
 }
 
-/** Lines along which the error falls with the inverse of x. */
+/** Draws lines along which the error is proportional to 1 / x. */
 function slopeGuides(xAxis, yAxis, clip) {
   const lines = [];
   const x1 = 10 ** xAxis.least;
@@ -87,7 +87,7 @@ function slopeGuides(xAxis, yAxis, clip) {
   return svg("g", { "clip-path": `url(#${clip})` }, lines);
 }
 
-/** Moves labels apart, in order of their wish. */
+/** Moves labels apart, keeping the order of their preferred positions. */
 function spreadLabels(labels, least, most) {
   labels.sort((a, b) => a.y - b.y);
   let floor = least;
@@ -102,7 +102,7 @@ function spreadLabels(labels, least, most) {
   }
 }
 
-function seriesOf(one, order, xOf, xAxis, yAxis) {
+function drawSeries(one, order, xOf, xAxis, yAxis) {
   const name = one.integrator;
   const points = one.curve.map((point) => ({ x: xAxis.at(xOf(point)), y: yAxis.at(point.relmse.median),
     low: yAxis.at(point.relmse.least), high: yAxis.at(point.relmse.greatest), point }));
@@ -116,13 +116,13 @@ function seriesOf(one, order, xOf, xAxis, yAxis) {
   label: { name, y: points[points.length - 1].y + 4, x: points[points.length - 1].x } };
 }
 
-/** Error over `xOf` of all integrators: median and band from the least to the greatest. */
+/** Plots error over `xOf` for all integrators: the median, and a band from the least to the greatest. */
 function convergencePlot(scene, title, xLabel, xOf, id) {
   const { width, height, left, right, top, bottom } = PLOT;
   const points = scene.integrators.flatMap((one) => one.curve);
   const xAxis = new LogAxis(points.map(xOf), left, width - right);
   const yAxis = new LogAxis(points.flatMap((p) => [p.relmse.least, p.relmse.greatest]), height - bottom, top);
-  const series = scene.integrators.map((one, i) => seriesOf(one, i, xOf, xAxis, yAxis));
+  const series = scene.integrators.map((one, i) => drawSeries(one, i, xOf, xAxis, yAxis));
   const labels = series.map((one) => one.label);
   spreadLabels(labels, top + 8, height - bottom);
   const texts = labels.map((label) =>
@@ -134,7 +134,7 @@ function convergencePlot(scene, title, xLabel, xOf, id) {
   return html("figure", { class: "plot-box" }, html("figcaption", null, title), image);
 }
 
-/** What the plots show, as a table. */
+/** Lists the numbers of the plots in a table. */
 function curveTable(scene) {
   const rows = scene.integrators.flatMap((one) => one.curve.map((p) => [one.integrator, thousands(p.samples),
     seconds(p.cpu_seconds), scientific(p.relmse.median, 2), scientific(p.relmse.least, 2), scientific(p.relmse.greatest, 2)]));

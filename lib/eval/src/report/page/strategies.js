@@ -1,6 +1,6 @@
-// The pyramid of strategies, and the lengths of paths.
+// Shows the pyramid of strategies and the map of path lengths.
 
-/** Draws light into a canvas of its own. */
+/** Draws radiance into a new canvas. */
 async function thumbnail(text, strategies, scale, exposure, label) {
   const rgb = await unpackImage(text, scale);
   const canvas = html("canvas", { width: strategies.width, height: strategies.height, role: "img", "aria-label": label });
@@ -28,7 +28,7 @@ async function pyramid(scene, kind, title) {
       const part = one[kind];
       const energyShare = energy > 0 ? part.energy / energy : 0;
       const varianceShare = variance > 0 ? part.variance / variance : 0;
-      // One stop more for each edge, as long paths carry little light.
+      // Brightens by one stop for each edge, because long paths carry little light.
       const canvas = await thumbnail(part.picture, strategies, scene.pictures.scale,
         scene.pictures.exposure + length - 1, `s=${one.s}, t=${one.t}: ${percent(energyShare)} of energy, ${percent(varianceShare)} of variance`);
       return html("li", null, canvas, html("span", { class: "name" }, `s${one.s} t${one.t}`),
@@ -39,7 +39,7 @@ async function pyramid(scene, kind, title) {
   return html("figure", { class: `pyramid ${kind}` }, html("figcaption", null, title), html("div", { class: "rows" }, rows));
 }
 
-/** Mean length of the paths that bring each pixel its light. */
+/** Draws the mean length of the paths that contribute to each pixel. */
 async function lengthMap(scene, heat) {
   if (!scene.strategies) {
     return null;

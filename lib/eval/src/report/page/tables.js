@@ -1,6 +1,6 @@
-// What was measured, as tables.
+// Shows measurements as tables.
 
-/** Green for faster than pt, orange for slower; as strong as the factor is far from 1. */
+/** Tints green for faster than pt, orange for slower; the strength grows with the distance of the factor from 1. */
 function tint(speedUp) {
   if (!speedUp) {
     return "";
@@ -39,7 +39,7 @@ function sceneTable(scene) {
       "Efficiency [1/s]", "Speed-up", "Samples/s", "Camera rays/s", "Light rays/s", "Shadow rays/s", "Memory"], rows);
 }
 
-/** Things that a reader should know before believing the figures. */
+/** Lists reservations that a reader should know before trusting the figures. */
 function cautions(scene) {
   const noisy = scene.integrators.filter((one) => one.equal_time.near_reference_noise || one.equal_samples.near_reference_noise);
   const broken = scene.integrators.filter((one) => one.invalid_samples > 0);

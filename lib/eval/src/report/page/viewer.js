@@ -1,9 +1,9 @@
-// The images of a scene: one large, all of them small beside each other, their values under the pointer.
+// Shows the images of a scene: one large, all as thumbnails, and their values under the pointer.
 
 const REFERENCE = "reference";
 const MODES = { picture: "Image", error: "Error", variance: "Variance", time: "Time" };
 
-/** How all images of the page are shown. */
+/** Display settings of all images on the page. */
 const display = { mode: "picture", exposure: 0, gamma: 1, curve: "filmic", metric: "relative", shown: 0 };
 
 class Viewer {
@@ -35,12 +35,12 @@ class Viewer {
     return this.rgb[this.rgb.length - 1];
   }
 
-  /** The number of the image on the stage. */
+  /** Index of the image on the stage. */
   get shown() {
     return Math.min(display.shown, this.names.length - 1);
   }
 
-  /** `more` comes beside the large image. */
+  /** Creates the elements; `more` is placed beside the large image. */
   element(more) {
     const redraw = (cursor) => {
       this.cursor = cursor && cursor[0] >= 0 && cursor[1] >= 0 && cursor[0] < this.scene.width &&
@@ -87,7 +87,7 @@ class Viewer {
     return html("figure", { class: "tile" }, this.tiles[i].canvas, html("figcaption", null, button, numbers));
   }
 
-  /** Values of all images at the pointer, which also choose what is shown. */
+  /** Creates the table of all images' values at the pointer; its buttons choose the large image. */
   readout() {
     this.rows = this.names.map((name, i) => {
       const cells = [0, 1, 2, 3].map(() => html("td", { class: "number" }, "–"));
@@ -124,7 +124,7 @@ class Viewer {
     this.requestDraw();
   }
 
-  /** All that `display` says may have changed. */
+  /** Redraws everything after a change of `display`. */
   invalidate() {
     this.stale = true;
     this.requestDraw();
@@ -156,7 +156,7 @@ class Viewer {
     this.drawReadout();
   }
 
-  /** Paints the image with number `i` as `display` says. */
+  /** Paints image `i` with the settings in `display`. */
   develop(i) {
     const context = this.sources[i].getContext("2d", { willReadFrequently: true });
     const image = context.createImageData(this.scene.width, this.scene.height);

@@ -175,7 +175,7 @@ class Trial:
         self.expect(f"waited {seconds} s for nothing", False)
         return self.states(*jobs)
 
-    def render_of(self, name, task):
+    def find_render(self, name, task):
         found = [p for p in processes() if f"--task {task} " in p.command and p.command.startswith(str(self.options.bdpt))]
         cwd = [p for p in found if pathlib.Path(f"/proc/{p.number}/cwd").resolve() == self.folder / name]
         return cwd[0].number if cwd else None
@@ -206,7 +206,7 @@ def try_mishaps(trial, cluster):
     trial.wait(60, running(job, range(4)), job)
     time.sleep(5)
     trial.say("kill -9 of the render of task 1")
-    send(trial.render_of("mishaps", 1), signal.SIGKILL)
+    send(trial.find_render("mishaps", 1), signal.SIGKILL)
     states = trial.wait(150, lambda states: not any("RUNNING" in s or "COMPLETING" in s for s in states.values()), job)
     again = [name for name, state in states.items() if state.startswith("PENDING")]
     trial.expect(f"queued again: {len(again)} tasks, 1 after the kill, others at their time limit", f"{job}_1" in again)

@@ -11,7 +11,7 @@ import sys
 sys.dont_write_bytecode = True
 
 
-def options_of(help_text):
+def list_options(help_text):
     """Returns option -> values, where the help lists them (a|b|c; X|R,G,B is no list), "" for flags, else None."""
     found = re.findall(r"^  (?:-\w,)?(--[\w-]+)(?: ([^\s]+))?", help_text, flags=re.M)
     return {name: set(values.split("|")) if re.fullmatch(r"[a-z0-9|-]+", values) and "|" in values
@@ -85,7 +85,7 @@ def main():
     from figures import BALL, FIGURES
     known = {}
     if len(sys.argv) > 2:
-        known = options_of(subprocess.run([sys.argv[2], "render", "--help-all"], check=True, capture_output=True,
+        known = list_options(subprocess.run([sys.argv[2], "render", "--help-all"], check=True, capture_output=True,
                                           text=True).stdout)
     scenes = {file.name for file in (root / "scenes").glob("*.gltf")}
     scenes |= {cell.scene for figure in FIGURES.values() for cell in figure.cells if BALL.fullmatch(cell.scene)}

@@ -40,7 +40,7 @@ def scene(name):
     return gltf_reader.read(ROOT / "scenes" / f"{name}.gltf")
 
 
-def mesh_of(described, name):
+def find_mesh(described, name):
     return next(mesh for mesh in described.meshes if mesh.name == name)
 
 
@@ -76,7 +76,7 @@ class Reader(unittest.TestCase):
 
     def test_lamp(self):
         described = scene("cornell-box")
-        lamp = mesh_of(described, "lamp")
+        lamp = find_mesh(described, "lamp")
         for value, expected in zip(area_vector(lamp), (0, -0.13 * 0.105, 0)):
             self.assertAlmostEqual(value, expected, places=6)
         for value, expected in zip(described.materials[lamp.material].emission, (17, 12, 4)):
@@ -90,9 +90,9 @@ class Reader(unittest.TestCase):
         """Tests that plates that emit downwards still do when they are mirrored."""
         described = scene("instances")
         for name in ("plain plate", "mirrored plate"):
-            vector = area_vector(mesh_of(described, name))
+            vector = area_vector(find_mesh(described, name))
             self.assertAlmostEqual(vector[1], -0.09, places=5)
-        x = [p[0] for p in mesh_of(described, "mirrored plate").positions]
+        x = [p[0] for p in find_mesh(described, "mirrored plate").positions]
         self.assertAlmostEqual(sum(x) / len(x), 1.6, places=5)
 
     def test_sphere_light(self):
@@ -102,7 +102,7 @@ class Reader(unittest.TestCase):
         light = next(item for item in file["extensions"]["KHR_lights_punctual"]["lights"] if item["name"] == lamp.name)
         for value, color in zip(lamp.emission, light["color"]):
             self.assertAlmostEqual(value, light["intensity"] * color / (math.pi * 0.09), places=3)
-        ball = mesh_of(described, lamp.name)
+        ball = find_mesh(described, lamp.name)
         center = [sum(p[i] for p in ball.positions) / len(ball.positions) for i in range(3)]
         outwards = sum(c * n for c, n in zip([p - q for p, q in zip(ball.positions[0], center)],
                                              area_vector(dataclasses.replace(ball, triangles=ball.triangles[:1]))))

@@ -11,7 +11,7 @@ import struct
 import sys
 
 import web_socket
-from served import Server, answer_of, expect, received, wait_for
+from served import Server, read_answer, expect, received, wait_for
 from web_socket import WebSocket, handshake
 
 CONNECTIONS = 10_000
@@ -53,7 +53,7 @@ def check_hosts(server):
     for origin in ("http://evil.example", "https://" + server.host, "null", f"http://127.0.0.1:{server.port}.evil.example", "http://127.0.0.1:1"):
         with server.connect() as connection:
             connection.sendall(handshake(server, server.token, {"Origin": origin}))
-            refused(answer_of(connection), f"a web socket of the origin {origin}")
+            refused(read_answer(connection), f"a web socket of the origin {origin}")
 
 
 def check_tokens(server):
@@ -66,7 +66,7 @@ def check_tokens(server):
             refused(server.request(path), f"{name or 'the page'} with the token {token if token is None else token[:6] + '...'}", (403, 404))
         with server.connect() as connection:
             connection.sendall(handshake(server, token))
-            refused(answer_of(connection), "a web socket with it", (403, 404))
+            refused(read_answer(connection), "a web socket with it", (403, 404))
     with server.connect() as connection:
         connection.sendall(handshake(server, good))
         head = connection.recv(100)
@@ -120,7 +120,7 @@ def check_bodies(server):
     expect(server.memory() < before + 64, f"memory does not grow with bodies ({before:.0f} to {server.memory():.0f} MiB)")
     with server.connect() as connection:
         connection.sendall(f"POST {server.path()} HTTP/1.1\r\nHost: {server.host}\r\nContent-Length: {gigabyte}\r\n\r\n".encode())
-        refused(answer_of(connection), "a gigabyte that has not come yet")
+        refused(read_answer(connection), "a gigabyte that has not come yet")
 
 
 def check_headers(server):
@@ -129,7 +129,7 @@ def check_headers(server):
                        ("a line that goes on", "X: 1\r\n" + " 2\r\n" * 100_000)):
         with server.connect() as connection:
             sent = send_repeatedly(connection, f"GET {server.path()} HTTP/1.1\r\nHost: {server.host}\r\n{text}\r\n".encode(), 1)
-            status, _ = answer_of(connection)
+            status, _ = read_answer(connection)
             expect(status in range(400, 500) or status == 0, f"{name} is refused ({status}, {sent} bytes sent)")
     status, _ = server.request(server.path("a" * MEBIBYTE))
     expect(status in range(400, 500) or status == 0, f"a target of a megabyte is refused ({status})")
@@ -148,7 +148,7 @@ def check_garbage(server):
                 connection.shutdown(socket.SHUT_WR)
             except OSError:
                 pass
-            status, _ = answer_of(connection)
+            status, _ = read_answer(connection)
             expect(status == 0 or 400 <= status < 500, f"{name}: refused ({status})")
     expect(server.alive, "the server is alive")
 

@@ -126,7 +126,7 @@ class Server:
         try:
             with self.connect() as connection:
                 connection.sendall(text.encode("latin-1") + body)
-                return answer_of(connection)
+                return read_answer(connection)
         except ConnectionError:
             return 0, b""
 
@@ -155,7 +155,7 @@ def received(connection):
     return b"".join(parts)
 
 
-def answer_of(connection):
+def read_answer(connection):
     """Returns status and body of the answer; status 0 means that the connection was closed without one."""
     head, _, body = received(connection).partition(b"\r\n\r\n")
     found = re.match(rb"HTTP/1\.[01] (\d{3})", head)

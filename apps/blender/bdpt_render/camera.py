@@ -29,7 +29,7 @@ def compute_size(render):
             max(1, render.resolution_y * render.resolution_percentage // 100))
 
 
-def film_of(scene, camera):
+def make_film(scene, camera):
     width, height = compute_size(scene.render)
     # Blender numbers rows from the bottom.
     left, right, bottom, top = find_border(scene.render, width, height)
@@ -67,7 +67,7 @@ def gltf_camera(scene, camera, matrix):
     there."""
     render = scene.render
     width, height = compute_size(render)
-    film = film_of(scene, camera)
+    film = make_film(scene, camera)
     if camera.type == "PANO":
         raise RuntimeError(f'camera "{camera.name}": bdpt has no panoramic cameras')
     if camera.type not in ("PERSP", "ORTHO"):
@@ -99,7 +99,7 @@ def focus_distance(camera, matrix):
     return max(1e-5, -(matrix.inverted() @ place.translation).z)
 
 
-def warnings_of(scene, camera):
+def find_warnings(scene, camera):
     if scene.render.pixel_aspect_x != scene.render.pixel_aspect_y:
         yield "pixels are square in bdpt: the pixel aspect is ignored"
     if camera.type == "ORTHO" and camera.dof.use_dof:

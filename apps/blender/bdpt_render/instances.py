@@ -16,7 +16,7 @@ class Instance:
     matrix: mathutils.Matrix
 
 
-def instances_of(depsgraph):
+def list_instances(depsgraph):
     """Yields pairs of an Instance and its evaluated object, which is valid until the next pair."""
     for item in depsgraph.object_instances:
         thing = item.object
@@ -26,17 +26,17 @@ def instances_of(depsgraph):
         yield Instance(key, thing.name, item.matrix_world.copy()), thing
 
 
-def matrices_of(depsgraph):
+def collect_matrices(depsgraph):
     """Returns the matrices of instances by key; None is the key of the camera."""
-    matrices = {instance.key: instance.matrix for instance, _ in instances_of(depsgraph)}
+    matrices = {instance.key: instance.matrix for instance, _ in list_instances(depsgraph)}
     matrices[None] = depsgraph.scene.camera.evaluated_get(depsgraph).matrix_world.copy()
     return matrices
 
 
-def shapes_of(depsgraph):
+def hash_shapes(depsgraph):
     """Returns values by key that differ when a mesh deforms."""
     shapes = {}
-    for instance, thing in instances_of(depsgraph):
+    for instance, thing in list_instances(depsgraph):
         if thing.type == "MESH":
             places = np.empty(3 * len(thing.data.vertices), np.float32)
             thing.data.vertices.foreach_get("co", places)
@@ -44,7 +44,7 @@ def shapes_of(depsgraph):
     return shapes
 
 
-def warnings_of(depsgraph):
+def find_warnings(depsgraph):
     for thing in depsgraph.objects:
         if thing.type not in (*MESHES, *NOT_SEEN, "LIGHT"):
             yield f'object "{thing.name}": bdpt renders no objects of the type {thing.type}'

@@ -6,7 +6,7 @@ import pathlib
 import bpy
 
 from .glb import Glb
-from .instances import instances_of
+from .instances import list_instances
 
 EXPORTER = "io_scene_gltf2"
 # Options that the installed exporter does not know are dropped.
@@ -27,7 +27,7 @@ class Meshes:
         with self._made:
             scene = bpy.data.scenes.new("bdpt export")
             self._made.callback(bpy.data.scenes.remove, scene)
-            for instance, thing in instances_of(depsgraph):
+            for instance, thing in list_instances(depsgraph):
                 if thing.type != "LIGHT":
                     shown = self._shown(depsgraph, scene, thing)
                     if shown:

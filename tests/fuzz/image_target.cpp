@@ -34,7 +34,8 @@ void decode(ByteView bytes)
     }
     const TexelImage image = decode_texels(bytes, fuzz::small_limits).image;
     fuzz::promise(image.channels >= 1 && image.channels <= 4, "textures have 1 to 4 channels");
-    const std::size_t texel = static_cast<std::size_t>(image.channels) * count_value_bytes(image.type);
+    const std::size_t texel =
+        static_cast<std::size_t>(image.channels) * count_value_bytes(image.type);
     fuzz::promise(image.bytes.size() % texel == 0, "textures have whole texels");
     check_size(image.width, image.height, image.bytes.size() / texel);
 }

@@ -151,7 +151,8 @@ void add_compare_options(OptionList& options, CompareRequest& request)
 {
     CompareArguments& arguments = request.arguments;
     options
-        .add("image", "FILE|DIR", "The image to evaluate (.exr, .hdr, .png, .jpg or .webp), or a folder",
+        .add("image", "FILE|DIR",
+             "The image to evaluate (.exr, .hdr, .png, .jpg or .webp), or a folder",
              arguments.image, any_text())
         .required = true;
     options.add("reference", "FILE", "The reference image", arguments.reference, any_text())

@@ -72,7 +72,7 @@ struct MergeArguments {
     std::optional<SampleSet> goal{};                    ///< goal of the plan for each image
     std::optional<double> wait{};           ///< time to wait for parts [s]; may be infinite
     std::optional<std::int64_t> samples{};  ///< requested samples per pixel of the render
-    std::optional<double> noise{};          ///< requested noise of the render, as by estimate_noise()
+    std::optional<double> noise{};          ///< requested noise, as by estimate_noise()
     Incomplete incomplete = Incomplete::refuse;
     DisplayArguments display{};
     std::optional<DenoiseArguments> denoise{};  ///< set if images are to be denoised

@@ -22,7 +22,7 @@ struct TimeSplit {
 /// Returns the time by phase in a line for people.
 [[nodiscard]] std::string profile_text(const TimeProfile& profile);
 
-/// Returns estimate_noise() a film; null if it is unknown.
+/// Returns estimate_noise() of a film; null if it is unknown.
 [[nodiscard]] nlohmann::ordered_json noise_json(double noise);
 
 /// Returns the statistics of a render, for programs.

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json to_json(const SlotState& slot)
+ordered_json describe(const SlotState& slot)
 {
     return {{"integrator", slot.integrator},
             {"samples", slot.samples},
@@ -24,7 +24,7 @@ ordered_json to_json(const SlotState& slot)
             {"done", slot.is_done}};
 }
 
-ordered_json to_json(const Scale& scale)
+ordered_json describe(const Scale& scale)
 {
     ordered_json ticks = ordered_json::array();
     for (const Tick& tick : scale.ticks) {
@@ -33,7 +33,7 @@ ordered_json to_json(const Scale& scale)
     return {{"label", scale.label}, {"ticks", std::move(ticks)}};
 }
 
-ordered_json to_json(const Strategy& strategy)
+ordered_json describe(const Strategy& strategy)
 {
     return ordered_json::array({strategy.s, strategy.t});
 }
@@ -74,16 +74,16 @@ void add_picture(ordered_json& json, const ViewState& state)
         json["layers"].push_back(layer_name(layer));
     }
     json["layer"] = layer_name(state.layer);
-    json["scale"] = state.scale ? to_json(*state.scale) : ordered_json();
+    json["scale"] = state.scale ? describe(*state.scale) : ordered_json();
     json["strategies"] = ordered_json::array();
     for (const Strategy& strategy : state.strategies) {
-        json["strategies"].push_back(to_json(strategy));
+        json["strategies"].push_back(describe(strategy));
     }
-    json["strategy"] = state.strategy ? to_json(*state.strategy) : ordered_json();
+    json["strategy"] = state.strategy ? describe(*state.strategy) : ordered_json();
     json["paused"] = state.is_paused;
     json["slots"] = ordered_json::array();
     for (const SlotState& slot : state.slots) {
-        json["slots"].push_back(to_json(slot));
+        json["slots"].push_back(describe(slot));
     }
     json["warnings"] = state.warnings;
     json["command"] = state.command;

@@ -39,7 +39,7 @@ struct Progress {
     std::int64_t samples_done = 0;   ///< per pixel
     std::int64_t samples_total = 0;  ///< per pixel
     double seconds = 0.0;            ///< time since render() was called [s]
-    /// Last measured estimate_noise() the film, at `noise_samples` samples per pixel.
+    /// Last estimate_noise() of the film, at `noise_samples` samples per pixel.
     std::optional<double> noise{};
     std::int64_t noise_samples = 0;
 };
@@ -71,11 +71,11 @@ struct RenderControl {
     Profiling profiling = Profiling::off;
     /// No pass starts that would probably end after this time [s].
     double time_limit = std::numeric_limits<double>::infinity();
-    /// The render ends once estimate_noise() its film is at most this; 0: no goal. The noise is measured
-    /// after the first 16, 24, 32, 48, ... of the requested samples (next_noise_look) and not in
-    /// between, so that threads, stops and parts change nothing. Stopping this way makes the image
-    /// slightly too dark or too bright on average: by far less than the noise, as all tiles decide
-    /// together.
+    /// The render ends once estimate_noise() of its film is at most this; 0: no goal. The noise is
+    /// measured after the first 16, 24, 32, 48, ... of the requested samples (next_noise_look) and
+    /// not in between, so that threads, stops and parts change nothing. Stopping this way makes the
+    /// image slightly too dark or too bright on average: by far less than the noise, as all tiles
+    /// decide together.
     double noise_goal = 0.0;
 };
 

@@ -61,7 +61,7 @@ public:
     [[nodiscard]] const RenderPart& part() const;
     /// Returns the samples per pixel; their mean, with rates.
     [[nodiscard]] std::int64_t samples() const;
-    /// Returns estimate_noise() the film; infinite before there are two samples.
+    /// Returns estimate_noise() of the film; infinite before there are two samples.
     [[nodiscard]] double noise() const;
     /// Returns the linear radiance [nit] of the rendered region; black before the first sample.
     [[nodiscard]] Image image() const;

@@ -16,7 +16,7 @@ inline constexpr float max_coordinate = 1e15f;
 /// down very much: Embree transforms rays to the space of such a mesh, and terminates the process
 /// if a coordinate exceeds 1.8e18 there.
 [[nodiscard]] float compute_coordinate_limit(std::span<const InstanceDesc> instances,
-                                        std::size_t mesh_count);
+                                             std::size_t mesh_count);
 
 /// Returns the largest coordinate of the corners of a mesh's bounds, in all of its poses.
 [[nodiscard]] Vec3 compute_extent(const MeshDesc& mesh);

@@ -227,7 +227,7 @@ struct EmbreeScene::State {
 
     /// Returns the BVH of `like` if it fits, else a new one.
     [[nodiscard]] std::shared_ptr<const MeshTree> find_tree(std::size_t mesh, const MeshDesc& desc,
-                                                          const State* like) const
+                                                            const State* like) const
     {
         if (like != nullptr && like->trees[mesh] && like->filtered[mesh] == filtered[mesh]) {
             return like->trees[mesh];

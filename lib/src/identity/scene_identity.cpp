@@ -48,7 +48,7 @@ bool is_known(const T& /*value*/, const T& /*before*/)
 
 template <std::size_t... i>
 SceneComponents compute_components(const SharedSceneDesc& scene, const SharedSceneDesc& before,
-                              const SceneComponents& known, std::index_sequence<i...>)
+                                   const SceneComponents& known, std::index_sequence<i...>)
 {
     const auto values = scene.members();
     const auto values_before = before.members();
@@ -72,7 +72,7 @@ SceneComponents scene_components(const SharedSceneDesc& scene, const SharedScene
                                  const SceneComponents& known)
 {
     return compute_components(scene, before, known,
-                         std::make_index_sequence<std::tuple_size_v<SceneComponents>>());
+                              std::make_index_sequence<std::tuple_size_v<SceneComponents>>());
 }
 
 std::vector<IdentityComponent> joined(const SceneComponents& components)

@@ -62,14 +62,15 @@ std::optional<SegmentTransmission> joining_transmission(const SampleContext& sam
                : sample.world.transmission(z.end, y.end, segment);
 }
 
-/// Connects the ends of a light and a camera subpath unless the segment is blocked: `compute_value()` is
-/// the unattenuated value, `densities()` are those of the connection, excluding the transmission
-/// between its ends.
+/// Connects the ends of a light and a camera subpath unless the segment is blocked:
+/// `compute_value()` is the unattenuated value, `densities()` are those of the connection,
+/// excluding the transmission between its ends.
 template <typename Value, typename Densities>
 std::optional<Contribution> join_if_open(const SampleContext& sample,
                                          std::span<const PathVertex> light,
-                                         std::span<const PathVertex> camera, const Value& compute_value,
-                                         PathWeigher& weigher, const Densities& densities)
+                                         std::span<const PathVertex> camera,
+                                         const Value& compute_value, PathWeigher& weigher,
+                                         const Densities& densities)
 {
     const auto transmission = joining_transmission(sample, light, camera);
     if (!transmission) {

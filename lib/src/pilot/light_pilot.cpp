@@ -73,7 +73,8 @@ bool can_learn_groups(const World& world, const RenderOptions& options)
 }
 
 /// Returns the visibility of the environment; nullopt if that does not help.
-std::optional<EnvironmentVisibility> make_visibility(std::vector<EnvironmentVisibility::Trial> trials)
+std::optional<EnvironmentVisibility> make_visibility(
+    std::vector<EnvironmentVisibility::Trial> trials)
 {
     const auto visible = std::count_if(trials.begin(), trials.end(),
                                        [](const auto& trial) { return trial.visible; });
@@ -85,7 +86,8 @@ std::optional<EnvironmentVisibility> make_visibility(std::vector<EnvironmentVisi
 }
 
 /// Returns the shares of the groups; nullopt if no sample carried light.
-std::optional<GroupShares> make_shares(std::vector<GroupShares::Finding> findings, const World& world)
+std::optional<GroupShares> make_shares(std::vector<GroupShares::Finding> findings,
+                                       const World& world)
 {
     if (std::none_of(findings.begin(), findings.end(),
                      [](const auto& finding) { return finding.value > 0.0f; })) {

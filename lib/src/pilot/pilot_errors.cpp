@@ -22,8 +22,8 @@ void add(const PerCandidate<double>& errors, double times, PerCandidate<double>&
 
 /// Returns the errors of a row of the grid.
 PerCandidate<double> compute_errors(const PilotRow& row, std::size_t first_cell,
-                               const PilotContributions& contributions,
-                               const PilotBrightness& brightness)
+                                    const PilotContributions& contributions,
+                                    const PilotBrightness& brightness)
 {
     PerCandidate<double> errors{};
     for (const PilotContribution& contribution : row.joined()) {
@@ -43,8 +43,9 @@ PerCandidate<double> compute_errors(const PilotRow& row, std::size_t first_cell,
     return errors;
 }
 
-PerCandidate<double> compute_errors(const PilotSplats& part, const PilotContributions& contributions,
-                               const PilotBrightness& brightness)
+PerCandidate<double> compute_errors(const PilotSplats& part,
+                                    const PilotContributions& contributions,
+                                    const PilotBrightness& brightness)
 {
     PerCandidate<double> errors{};
     for (const PilotContribution& splat : part.contributions()) {
@@ -56,16 +57,17 @@ PerCandidate<double> compute_errors(const PilotSplats& part, const PilotContribu
 
 /// Sums in the same order for any number of threads, so that sums are bit-identical.
 PerCandidate<double> compute_errors(const PilotContributions& contributions,
-                               const PilotBrightness& brightness)
+                                    const PilotBrightness& brightness)
 {
     const std::size_t rows = contributions.rows.size();
     std::vector<PerCandidate<double>> errors(rows + contributions.parts.size());
     tbb::parallel_for(std::size_t{0}, errors.size(), [&](std::size_t i) {
         const FlushDenormals flush;
-        errors[i] = i < rows ? compute_errors(contributions.rows[i],
+        errors[i] = i < rows
+                        ? compute_errors(contributions.rows[i],
                                          contributions.grid.index(0, static_cast<int>(i)),
                                          contributions, brightness)
-                             : compute_errors(contributions.parts[i - rows], contributions, brightness);
+                        : compute_errors(contributions.parts[i - rows], contributions, brightness);
     });
     PerCandidate<double> sum = merged_errors(contributions, brightness);
     for (const PerCandidate<double>& part : errors) {

@@ -11,7 +11,7 @@ namespace bdpt {
 /// Computes the profile of samples from the times on the sheets. `clock_ticks` is the duration of
 /// reading the clock; a tick takes `tick_seconds`. Excludes the times of pixels.
 [[nodiscard]] TimeProfile compute_profile(const SampleTicks& samples, double clock_ticks,
-                                     double tick_seconds);
+                                          double tick_seconds);
 
 /// Collects the times of all threads of a render.
 class TimeRecorder {

@@ -15,7 +15,7 @@ namespace bdpt {
 namespace {
 
 Bounds compute_bounds(std::span<const PlacedMesh> placed, std::span<const Sphere> spheres,
-                 std::span<const VolumeDesc> volumes)
+                      std::span<const VolumeDesc> volumes)
 {
     Bounds bounds{.min = Vec3(std::numeric_limits<float>::infinity()),
                   .max = Vec3(-std::numeric_limits<float>::infinity())};

@@ -78,7 +78,8 @@ void store_texel(std::uint8_t* to, Vec4 value, const float* table)
         store<type>(to + static_cast<std::size_t>(c) * count_value_bytes(type), value[c], table);
     }
     if constexpr (channels == 2 || channels == 4) {
-        store<type>(to + static_cast<std::size_t>(colors) * count_value_bytes(type), value.w, nullptr);
+        store<type>(to + static_cast<std::size_t>(colors) * count_value_bytes(type), value.w,
+                    nullptr);
     }
 }
 
@@ -91,7 +92,8 @@ TexelImage half_size(const TexelImage& image, Encoding encoding, const ForRows& 
                     .bytes = {},
                     .channels = image.channels,
                     .type = image.type};
-    const std::size_t texel_bytes = static_cast<std::size_t>(image.channels) * count_value_bytes(image.type);
+    const std::size_t texel_bytes =
+        static_cast<std::size_t>(image.channels) * count_value_bytes(image.type);
     const auto row_length = static_cast<std::size_t>(copy.width);
     resize_in_huge_pages(copy.bytes,
                          row_length * static_cast<std::size_t>(copy.height) * texel_bytes);

@@ -89,7 +89,8 @@ TEST_CASE("a film without noise is clean, and one that tells nothing is not", "[
 {
     const double unknown = std::numeric_limits<double>::infinity();
     CHECK(estimate_noise(noisy_film([](int) { return Grey{.deviation = 0.0}; })) == 0.0);
-    CHECK(estimate_noise(noisy_film([](int) { return Grey{.mean = 0.0, .deviation = 0.0}; })) == unknown);
+    CHECK(estimate_noise(noisy_film([](int) { return Grey{.mean = 0.0, .deviation = 0.0}; })) ==
+          unknown);
     Film film({.width = 3, .height = 2, .region = {.x0 = 0, .y0 = 0, .x1 = 3, .y1 = 2}});
     CHECK(estimate_noise(film) == unknown);
     film.add_sample(1, 1, 0, Rgb(1.0f));

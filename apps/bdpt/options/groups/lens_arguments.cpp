@@ -47,7 +47,8 @@ float compute_radius(const LensChoice& lens, const CameraDesc& camera)
     if (!lens.f_stop) {
         return camera.lens_radius;
     }
-    const double radius = compute_lens_radius(*lens.f_stop, static_cast<double>(camera.vertical_fov));
+    const double radius =
+        compute_lens_radius(*lens.f_stop, static_cast<double>(camera.vertical_fov));
     if (!is_finite(radius)) {
         reject("--f-stop", fmt::format("{}", *lens.f_stop), "a greater number for this view");
     }

@@ -10,13 +10,14 @@
 namespace bdpt::eval {
 namespace {
 
-TrialSetup make_trial_setup(const BenchScene& scene, const RenderOptions& options, std::uint64_t seed,
-                    const BenchControl& control)
+TrialSetup make_trial_setup(const BenchScene& scene, const RenderOptions& options,
+                            std::uint64_t seed, const BenchControl& control)
 {
     return make_setup(scene, options, options.integrator, seed, control);
 }
 
-Score compute_score(const std::vector<Checkpoint>& ends, double noise, std::optional<double> seconds)
+Score compute_score(const std::vector<Checkpoint>& ends, double noise,
+                    std::optional<double> seconds)
 {
     std::vector<double> errors;
     std::vector<double> times;
@@ -57,16 +58,17 @@ std::vector<Score> compare_at_equal_time(const BenchScene& scene, const Referenc
     const BenchControl control;
     std::vector<std::int64_t> samples;
     for (const Variant& variant : variants) {
-        samples.push_back(options.samples ? *options.samples
-                                          : samples_in(make_trial_setup(scene, variant.options, 0, control),
-                                                       options.seconds)
-                                                .value());
+        samples.push_back(
+            options.samples
+                ? *options.samples
+                : samples_in(make_trial_setup(scene, variant.options, 0, control), options.seconds)
+                      .value());
     }
     std::vector<std::vector<Checkpoint>> ends(variants.size());
     for (int round = 0; round < options.rounds; ++round) {
         for (std::size_t v = 0; v < variants.size(); ++v) {
-            const TrialSetup setup =
-                make_trial_setup(scene, variants[v].options, static_cast<std::uint64_t>(round), control);
+            const TrialSetup setup = make_trial_setup(scene, variants[v].options,
+                                                      static_cast<std::uint64_t>(round), control);
             ends[v].push_back(measure_once(setup, samples[v], reference).value());
         }
     }

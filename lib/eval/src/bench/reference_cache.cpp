@@ -80,7 +80,7 @@ std::optional<HalvedRender> render_halves(const BenchScene& scene, const BenchOp
 }
 
 std::string describe_origin(const CombinedReference& combined, const HalvedRender& bdpt,
-                      const HalvedRender& mis)
+                            const HalvedRender& mis)
 {
     char text[160];
     if (combined.share == 1.0) {

@@ -11,7 +11,8 @@ namespace bdpt::eval {
 namespace {
 
 /// Returns a seed per integrator and batch, as otherwise all would trace the same camera paths.
-std::uint64_t derive_seed(const VerifyOptions& options, IntegratorKind integrator, std::int64_t number)
+std::uint64_t derive_seed(const VerifyOptions& options, IntegratorKind integrator,
+                          std::int64_t number)
 {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // spreads consecutive numbers
     constexpr std::uint64_t integrators = 8;
@@ -164,7 +165,8 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
         int shortest = 1;
         while (shortest <= longest) {
             int last = shortest;
-            while (last < longest && count_samples(kind, last + 1) == count_samples(kind, shortest)) {
+            while (last < longest &&
+                   count_samples(kind, last + 1) == count_samples(kind, shortest)) {
                 ++last;
             }
             const RenderResult other = render(

@@ -232,8 +232,8 @@ VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)
         }
     }
     for (VerifyReport& channel : channels) {
-        for_each_whole(channel, [&](const MeanComparison& test, const auto& make_finding) {
-            make_finding(report).channels.push_back(test);
+        for_each_whole(channel, [&](const MeanComparison& test, const auto& select) {
+            select(report).channels.push_back(test);
         });
     }
     report.verdict = has_failed(report)          ? Verdict::fail

@@ -243,7 +243,8 @@ void EnvironmentTiles::add_tile(std::size_t tile, std::span<const float> bright,
     bright_in_tile_[tile] = rest > 0.0 ? static_cast<float>(light / (light + rest)) : 1.0f;
     grid_of_tile_[tile] = grids_++;
     cells_.add(bright, count_columns(tile));
-    parts_.add(sums_of_parts(dim, count_columns(tile), count_rows(tile)), count_parts(count_columns(tile)));
+    parts_.add(sums_of_parts(dim, count_columns(tile), count_rows(tile)),
+               count_parts(count_columns(tile)));
 }
 
 void EnvironmentTiles::Worth::sum_up() noexcept

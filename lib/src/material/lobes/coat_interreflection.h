@@ -64,7 +64,7 @@ public:
         const float below_metal = part.below - part.below_f0 - part.below_f90;
         const float below = part.below - base_.f0 * part.below_f0 - base_.f90 * part.below_f90;
         return weight_ * compute_loss(part, from.unreflected * scattered_again(below_metal),
-                                 from.transmitted * below);
+                                      from.transmitted * below);
     }
 
     /// Returns the lobe between directions with these losses.

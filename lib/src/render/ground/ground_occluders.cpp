@@ -234,7 +234,7 @@ double row_at(double distance, double height)
 void add(const Block& block, const Rectangle& place, GroundOccluders::Skyline& skyline)
 {
     const Sector sector = find_sector({block.base.x0 - place.x1, block.base.z0 - place.z1,
-                                     block.base.x1 - place.x0, block.base.z1 - place.z0});
+                                       block.base.x1 - place.x0, block.base.z1 - place.z0});
     constexpr double rows = GroundOccluders::rows;
     constexpr auto strips = static_cast<std::int64_t>(GroundOccluders::strips);
     const auto first_row = static_cast<std::uint8_t>(

@@ -89,7 +89,8 @@ std::vector<FileContent> gltf_file_contents(const std::filesystem::path& file,
     return with_named_errors(file, [&] {
         LoadContext context{.folder = file.parent_path(), .limits = limits};
         const Bytes bytes = read_named(file, limits.file_bytes);
-        std::vector<FileContent> result{{.name = file.filename().string(), .hash = hash_bytes(bytes)}};
+        std::vector<FileContent> result{
+            {.name = file.filename().string(), .hash = hash_bytes(bytes)}};
         for (const std::string& uri : read_uris(bytes, context)) {
             result.push_back({.name = uri, .hash = hash_if_readable(uri, context)});
         }

@@ -263,7 +263,7 @@ Bytes read_source(const tinygltf::Model& model, const std::string& uri, int buff
 }
 
 const tinygltf::Value& find_light(const tinygltf::Model& model, const char* extension,
-                                std::size_t index)
+                                  std::size_t index)
 {
     // tinygltf's own index is signed in some versions.
     return model.extensions.at(extension).Get("lights").Get<tinygltf::Value::Array>().at(index);

@@ -18,7 +18,7 @@ inline constexpr const char* indices_attribute = "INDICES";
 
 /// Returns light `index` of an extension of the document, which must have it.
 [[nodiscard]] const tinygltf::Value& find_light(const tinygltf::Model& model, const char* extension,
-                                              std::size_t index);
+                                                std::size_t index);
 
 /// Reads the bytes of a file or a data URI or, if `uri` is empty, of a view (-1: none). Throws
 /// `Error`: not_found for a missing file, invalid_input if it is larger than `limit` bytes, or

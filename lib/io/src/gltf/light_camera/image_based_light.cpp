@@ -81,7 +81,8 @@ Image decode_rgbd(const TexelImage& texels, const std::string& place, LoadContex
             return srgb_table[read_code(texels, i, is_grey ? 0 : channel)];
         };
         const float divisor =
-            has_alpha ? static_cast<float>(read_code(texels, i, texels.channels - 1)) / 255.0f : 1.0f;
+            has_alpha ? static_cast<float>(read_code(texels, i, texels.channels - 1)) / 255.0f
+                      : 1.0f;
         is_divided_by_zero = is_divided_by_zero || divisor == 0.0f;
         const Rgb color(read_color(0), read_color(1), read_color(2));
         image.pixels.push_back(divisor > 0.0f ? color / divisor : Rgb(0.0f));

@@ -66,7 +66,8 @@ Lens read_lens(const tinygltf::Camera& camera, const CameraDesc& desc, const std
         return lens;
     }
     if (f_stop) {
-        const double from_stop = compute_lens_radius(*f_stop, static_cast<double>(desc.vertical_fov));
+        const double from_stop =
+            compute_lens_radius(*f_stop, static_cast<double>(desc.vertical_fov));
         if (is_length(from_stop)) {
             lens.radius = static_cast<float>(from_stop);
         } else {

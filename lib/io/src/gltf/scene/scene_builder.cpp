@@ -138,14 +138,15 @@ private:
                 continue;
             }
             for (const glm::dmat4& place : places) {
-                add_instance(node, {mesh, i}, shown->mesh, compute_worlds(node, place, shown->mesh));
+                add_instance(node, {mesh, i}, shown->mesh,
+                             compute_worlds(node, place, shown->mesh));
             }
         }
     }
 
     /// Returns the node's transforms of the mesh at each time, or a single one for all times.
     [[nodiscard]] std::vector<glm::dmat4> compute_worlds(std::size_t node, const glm::dmat4& place,
-                                                    MeshId mesh)
+                                                         MeshId mesh)
     {
         const std::span<const glm::dmat4> moving = motion_.world(node);
         if (moving.empty()) {

@@ -8,7 +8,8 @@
 /// {
 ///     const bdpt::eval::HalvedImage render = {
 ///         .image = film.develop(), .first = film.develop_half(0), .second = film.develop_half(1)};
-///     std::cout << "relMSE of its noise: " << bdpt::eval::estimate_noise(render, render.image) << '\n';
+///     const double noise = bdpt::eval::estimate_noise(render, render.image);
+///     std::cout << "relMSE of its noise: " << noise << '\n';
 /// }
 /// @endcode
 

@@ -4,7 +4,7 @@
 /// Fixes the scale of errors for all images that are compared with a reference.
 ///
 /// @code{.cpp}
-/// bdpt::eval::MetricScale make_scale(const bdpt::Image& reference)
+/// bdpt::eval::MetricScale make_relative_scale(const bdpt::Image& reference)
 /// {
 ///     bdpt::eval::MetricOptions options;
 ///     options.epsilon_unit = bdpt::eval::EpsilonUnit::reference_mean;

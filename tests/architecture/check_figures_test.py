@@ -49,7 +49,7 @@ README = "| `mean` | a number |\n\n## The figures\n\n| `box` | a box |\n"
 
 def findings(cells, readme=README, columns=2):
     figures = {"box": Figure("A box", columns, cells)}
-    return check_figures.figure_errors(figures, readme, {"box.gltf"}, check_figures.options_of(HELP))
+    return check_figures.figure_errors(figures, readme, {"box.gltf"}, check_figures.list_options(HELP))
 
 
 class Check(unittest.TestCase):

@@ -199,7 +199,7 @@ use_add_subdirectory() {
   build_consumer "$folder" programs -DBDPT_SOURCE="$SOURCE" -DBDPT_BUILD_IO=ON -DBDPT_BUILD_EVAL=ON \
     -DBDPT_BUILD_APPS=ON -DBDPT_BUILD_FUZZERS=ON \
     -DBDPT_SANITIZE=address,undefined -DCMAKE_EXE_LINKER_FLAGS=-fsanitize=address,undefined \
-    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O0 -g1" \
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
     -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 "${unneeded[@]}"
   expect_version "$folder/render_box"
   write_tiff >"$folder/sky.tif"
@@ -232,7 +232,8 @@ make_wheel() {
   for name in CMakeLists.txt pyproject.toml LICENSE README.md CHANGELOG.md apps cmake docs lib; do
     cp -r "$SOURCE/$name" "$folder/source/"
   done
-  TMPDIR=$folder/tmp CMAKE_BUILD_PARALLEL_LEVEL=2 "${pip[@]}" wheel "$folder/source" --no-deps -w "$folder" \
+  # clang++ takes two thirds of the time of g++ without optimization.
+  CXX=${FUZZER_CXX:-$CXX} TMPDIR=$folder/tmp CMAKE_BUILD_PARALLEL_LEVEL=2 "${pip[@]}" wheel "$folder/source" --no-deps -w "$folder" \
     --config-settings=cmake.build-type=Debug --config-settings=cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0 \
     --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER"
   rm -rf "$folder/source" "$folder/tmp"

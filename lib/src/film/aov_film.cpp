@@ -67,7 +67,7 @@ void AovFilm::add(int x, int y, const PrimaryHit& hit) noexcept
             const std::size_t channels = aov_layers[k].channels.size();
             const Vec3& value = hit[aov_layers[k].aov];
             for (std::size_t c = 0; c < channels; ++c) {
-                surface_[k][i * channels + c].add(std::clamp(
+                surface_[k][i * channels + c].add_alone(std::clamp(
                     value[static_cast<int>(c)], -ExactSum::max_value, ExactSum::max_value));
             }
         }
@@ -78,13 +78,13 @@ void AovFilm::add_ground(int x, int y, const GroundLight& light) noexcept
 {
     const std::size_t i = index(x, y);
     ++ground_hits_[i];
-    unshadowed_[i].add(std::min(light.unshadowed, ExactSum::max_value));
-    shadowed_[i].add(std::min(light.shadowed, ExactSum::max_value));
+    unshadowed_[i].add_alone(std::min(light.unshadowed, ExactSum::max_value));
+    shadowed_[i].add_alone(std::min(light.shadowed, ExactSum::max_value));
 }
 
 void AovFilm::add_opacity(int x, int y, float opacity) noexcept
 {
-    opacity_[index(x, y)].add(opacity);
+    opacity_[index(x, y)].add_alone(opacity);
 }
 
 void AovFilm::count_samples(int x, int y, std::int64_t count) noexcept

@@ -103,7 +103,7 @@ TEST_CASE("everything is within reach of rays", "[validate]")
     };
     CHECK(refusal(scale(1e-17f, 1)).empty());
     check_refused(
-        "is the most, as a mesh that is used more than once or moves is scaled down very much",
+        "is the most, because an instanced or moving mesh is scaled down very much",
         scale(1e-18f, 2));
     CHECK(refusal(scale(1e-6f, 2)).empty());
 }

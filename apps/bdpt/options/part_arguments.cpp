@@ -37,26 +37,26 @@ render, or overlaps another one, 6 output cannot be written, 7 out of memory.)";
 void add_part_options(OptionList& options, PartChoice& part)
 {
     options.add("--part", "FILE",
-                "Keep the render in this .exr file while it runs, and go on with it if it is "
-                "there: after a crash, with more --spp, or for bdpt merge. Without -o only this "
-                "file is written",
+                "Checkpoint file (.exr): written while rendering; if it exists, the render resumes "
+                "from it (after a crash, or with more --spp). bdpt merge reads it, too. Without -o "
+                "only this file is written",
                 part.file,
                 file_named({".exr"}, "a file name that ends in .exr, best in .part.exr"));
     const Choices<ExistingPart> existing{
         {{"true", ExistingPart::restart}, {"false", ExistingPart::go_on}}};
     options
-        .add_flag("--restart", "Do not go on with the file of --part, but replace it",
+        .add_flag("--restart", "Replace the file of --part instead of resuming from it",
                   part.existing, existing.type())
         .uses.job = false;
     options
         .add("--plan", "FILE",
-             "Render one task of this plan (bdpt plan), which says all but --threads, "
+             "Render one task of this plan (bdpt plan), which sets all but --threads, "
              "--max-memory, --stats, --ktx-library, --restart, --quiet and --json",
              part.plan, any_text())
         .uses.job = false;
     options
         .add("--task", "N|env:NAME",
-             "The task of --plan, from 0, or the environment variable that has its number",
+             "Task of --plan, counted from 0, or the environment variable that holds its number",
              part.task, any_text())
         .uses.job = false;
 }

@@ -142,7 +142,7 @@ struct CommandLineParser {
         : app(program.summary, program.name)
     {
         app.set_version_flag("--version", program.version,
-                             "Print the version, that of libraries, and the instruction set");
+                             "Print the versions of bdpt and libraries, and the instruction set");
         app.require_subcommand(1);
         app.footer(program.footer);
         app.formatter(std::make_shared<HelpFormatter>());

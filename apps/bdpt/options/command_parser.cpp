@@ -278,7 +278,7 @@ ParsedLine parse(Program& program, const std::vector<std::string>& words)
             return {.command = &command};
         }
     }
-    throw Error(ErrorCode::internal, "the parser found a command that there is not");
+    throw Error(ErrorCode::internal, "the parser found an unknown command");
 }
 
 void parse(OptionList& options, const std::vector<std::string>& words)

@@ -200,9 +200,9 @@ TEST_CASE("lights and images", "[validate]")
     check_refused("volume 0 \"smoke\": albedo is 2", volume([](VolumeDesc& v) { v.albedo.g = 2; }));
     check_refused("volume 0 \"smoke\": anisotropy is 1",
                   volume([](VolumeDesc& v) { v.anisotropy = 1; }));
-    check_refused("volume 0 \"smoke\": its greatest extinction",
+    check_refused("volume 0 \"smoke\": its maximum extinction",
                   volume([](VolumeDesc& v) { v.extinction.g = 1e38f; }));
-    check_refused("volume 0 \"smoke\": its greatest extinction",
+    check_refused("volume 0 \"smoke\": its maximum extinction",
                   volume([](VolumeDesc& v) { v.density[0] = 1e6f; }));
     check_refused("volume 0 \"smoke\": reaches",
                   volume([](VolumeDesc& v) { v.world_from_grid[3].x = 1e30f; }));

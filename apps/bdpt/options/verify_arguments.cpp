@@ -53,8 +53,8 @@ const char* const verify_footer = R"(Examples:
   bdpt verify scene.gltf --integrator vcm --merge-radius 0.01
 
 Renders the scene with pt, nee, mis, lt, bdpt and every strategy of bdpt, at low resolution and with
-many independent samples, and tests whether they agree: for each path length, in the whole image and in
-tiles. docs/verify.md explains the method and the numbers.
+many independent samples, and tests whether they agree: for each path length, in the whole image and
+in tiles. docs/verify.md explains the method and the numbers.
 
 Exit codes: 0 pass, 10 fail: something disagrees, 11 inconclusive: nothing disagrees, but the noise
 could hide it (use more --time); 1 internal error, 2 wrong usage, 3 input not found, 4 invalid

@@ -91,7 +91,7 @@ CommandInfo describe_program(const app::Program& program)
     const OptionInfo version{.names = {"--version"},
                              .value = "",
                              .text =
-                                 "Print the version, that of libraries, and the instruction "
+                                 "Print the versions of bdpt and libraries, and the instruction "
                                  "set",
                              .group = "Options",
                              .choices = {}};

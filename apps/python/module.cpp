@@ -43,7 +43,7 @@ NB_MODULE(_bdpt, module)
     module.attr("__version__") = BDPT_VERSION;
     error_type = new nb::object(nb::steal(PyErr_NewExceptionWithDoc(
         "bdpt.Error",
-        "Bad input, or a failing library; `code` is the exit code that the command would have.",
+        "Invalid input, or a failure of a library; `code` is the exit code of the command.",
         PyExc_RuntimeError, nullptr)));
     module.attr("Error") = *error_type;
     nb::register_exception_translator(translate);

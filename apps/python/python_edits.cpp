@@ -57,7 +57,7 @@ std::size_t find_number(const PythonScene& scene, const std::string& name)
     }
     if (std::any_of(found + 1, materials.end(), is_it)) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("several materials \"{}\": take their numbers", name));
+                    fmt::format("several materials \"{}\": use their numbers", name));
     }
     return static_cast<std::size_t>(found - materials.begin());
 }
@@ -142,16 +142,15 @@ void bind_edits(nb::module_& module)
         .def_prop_ro("materials", &material_names,
                      "Names of all materials, by number; '' where the file has none.")
         .def("material", &make_array_material, nb::arg("material"),
-             "A copy of the material of that name or number. It keeps the textures of the scene "
+             "A copy of the material with this name or number. It keeps the textures of the scene "
              "where its own are None.")
         .def("with_material", &with_material, nb::arg("material"), nb::arg("changed"),
-             "The scene with another material in place of that of this name or number. Edits "
-             "share what stays the same: they take milliseconds, and the image is that of a new "
-             "scene, to the bit.")
+             "The scene with the material of this name or number replaced. Edits share unchanged "
+             "data: they take milliseconds, and the image is bit-identical to that of a new scene.")
         .def("with_lights", &with_lights, nb::arg("lights"),
-             "The scene with these lights in place of all that are no surfaces.")
+             "The scene with these lights instead of all that are not surfaces.")
         .def("with_environment", &with_environment, nb::arg("environment").none(),
-             "The scene in another environment, or in none.");
+             "The scene with another environment, or with none.");
 }
 
 }  // namespace bdpt::python

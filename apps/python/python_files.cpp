@@ -47,7 +47,7 @@ std::optional<nb::bytes> read_contents(nb::handle value)
     if (nb::hasattr(value, "read")) {
         contents = value.attr("read")();
         if (PyUnicode_Check(contents.ptr()) != 0) {
-            throw nb::type_error("read() gives a text: open the file with mode \"rb\"");
+            throw nb::type_error("read() returns text: open the file in mode \"rb\"");
         }
     }
     if (PyObject_CheckBuffer(contents.ptr()) == 0) {

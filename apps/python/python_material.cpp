@@ -48,16 +48,16 @@ std::string attribute_name(std::string_view field)
 std::string_view note_on(std::string_view attribute)
 {
     static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> notes{{
-        {"name", "For layers of ids"},
+        {"name", "Name in id layers"},
         {"base_color", "Linear RGB or RGBA"},
         {"alpha_mode", "'opaque', 'mask' or 'blend'"},
-        {"unlit", "Shines with its base colour [nit]"},
-        {"roughness", "Perceptual: its square is GGX alpha"},
+        {"unlit", "Emits its base colour [nit]"},
+        {"roughness", "Perceptual roughness: its square is the GGX alpha"},
         {"emission", "Radiance [nit]"},
         {"double_sided", "Emits from both sides"},
         {"thickness", "Above 0: the mesh bounds a solid body; 0: a thin sheet"},
         {"attenuation_distance", "[m]"},
-        {"attenuation_color", "What is left of white after attenuation_distance"},
+        {"attenuation_color", "Colour of white light after attenuation_distance"},
         {"dispersion", "20 / Abbe number"},
         {"anisotropy_rotation", "[rad] from the tangent to the bitangent"},
         {"iridescence_thickness_minimum", "[nm] where the texture is 0"},
@@ -149,8 +149,8 @@ void def_texture(nb::class_<ArrayMaterial>& type, const std::string& name)
         },
         nb::for_getter(nb::sig(getter.c_str())), nb::for_setter(nb::sig(setter.c_str())),
         nb::for_setter(nb::arg("value").none()),
-        "An array (height, width, channels) of uint8, uint16 or float32, or what NumPy makes one "
-        "of, such as an image of PIL; None: no texture.");
+        "An array (height, width, channels) of uint8, uint16 or float32, or what NumPy converts to "
+        "one, such as a PIL image; None: no texture.");
 }
 
 template <typename Access>

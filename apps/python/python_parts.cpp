@@ -185,16 +185,14 @@ void bind_mesh_and_camera(nb::module_& module)
             nb::arg("material").none() = nb::none(), nb::arg("transforms") = nb::none(),
             nb::arg("name") = "",
             "positions, normals: float32 (n, 3); triangles: integers (m, 3), counter-clockwise "
-            "from "
-            "the "
-            "front; uvs: float32 (n, 2), v grows downwards; transforms: float32 (k, 4, 4), one for "
-            "each place where it stands.");
+            "from the front; uvs: float32 (n, 2), v points down; transforms: float32 (k, 4, 4), "
+            "one per instance.");
     nb::class_<CameraDesc>(module, "Camera", "A camera; +y is up.")
         .def(
             nb::new_(&make_camera), nb::arg("from_"), nb::arg("look_at"), nb::arg("fov") = 45.0f,
             nb::arg("lens_radius") = 0.0f, nb::arg("focus_distance") = nb::none(),
             "Position and target [m], vertical field of view [degrees], radius of a thin lens [m], "
-            "distance of what is sharp [m] (default: that of the target).");
+            "focus distance [m] (default: that of the target).");
 }
 
 }  // namespace
@@ -208,7 +206,8 @@ void bind_parts_of_scenes(nb::module_& module)
     nb::cast<nb::class_<PythonScene>>(scene).def(
         "__init__", &make_scene, nb::arg("meshes"), nb::arg("lights") = std::vector<ArrayLight>(),
         nb::arg("camera") = nb::none(), nb::arg("size") = std::pair(1280, 720),
-        "Of meshes, lights and a camera; without one all of it is framed. Arrays are copied.");
+        "Scene of meshes, lights and a camera; without a camera, the whole scene is framed. Arrays "
+        "are copied.");
 }
 
 }  // namespace bdpt::python

@@ -84,7 +84,7 @@ app::SequenceView only_view(const app::RenderArguments& arguments)
     const std::vector<app::SequenceView> views = make_views(arguments, {});
     if (views.size() != 1) {
         throw Error(ErrorCode::usage,
-                    fmt::format("orbit: render() renders one of the {} views, which frames says, "
+                    fmt::format("orbit: render() renders one of the {} views, chosen by frames, "
                                 "like frames=1; bdpt.orbit() renders all",
                                 views.size()));
     }
@@ -209,7 +209,7 @@ void with_file_options(const Render& render, SaveArguments asked, std::span<cons
     if (!asked.display.backdrop) {
         asked.display.backdrop = render.backdrop;
     } else if (!render.backdrop) {
-        throw Error(ErrorCode::usage, "background: render() needs it, too");
+        throw Error(ErrorCode::usage, "background: pass it to render(), too");
     }
     app::check_transparency(asked.display, files);
     app::check_metered(asked.display.exposure, render.notes.metadata, "the render");
@@ -312,7 +312,7 @@ void save(const Render& render, const nb::object& file, const nb::kwargs& option
     if (!is_writable_object(file)) {
         if (format) {
             throw Error(ErrorCode::usage,
-                        "format is for objects that are written into; the name of a file tells its "
+                        "format is for file objects only; the name of a file determines its "
                         "format");
         }
         save_file(render, to_path(file), asked);
@@ -320,8 +320,8 @@ void save(const Render& render, const nb::object& file, const nb::kwargs& option
     }
     if (!format) {
         throw Error(ErrorCode::usage,
-                    "an object that is written into has no name that tells the format: give "
-                    "format=\"png\" or another one");
+                    "a file object has no name that determines the format: give format=\"png\" or "
+                    "another one");
     }
     file.attr("write")(to_bytes(render, *format == "part" ? "part.exr" : *format, asked));
 }
@@ -335,19 +335,18 @@ void bind_render(nb::module_& module)
 {
     const std::string saving = declaration(saving_head, Call::save, "None");
     const std::string text_of_saving = documentation(
-        "Writes a file, or in the given format into an object with write(): an image, .exr (linear "
-        "radiance and layers), .hdr (linear radiance), .png, .jpg or "
-        ".webp (tone-mapped), or a part, "
-        ".part.exr, that bdpt merge and bdpt render --part understand.",
+        "Writes a file, or in the given format to an object with write(): an image, .exr (linear "
+        "radiance and layers), .hdr (linear radiance), .png, .jpg or .webp (tone-mapped), or a "
+        "part, .part.exr, for bdpt merge and bdpt render --part.",
         Call::save);
     const std::string showing =
         declaration("def to_srgb(self, *", Call::save, "numpy.typing.NDArray[numpy.uint8]");
     const std::string text_of_showing = documentation(
-        "What save() writes into a PNG file, as an array of uint8, or uint16 with png_bits=16, "
+        "What save() writes to a PNG file, as an array of uint8, or uint16 with png_bits=16, "
         "(height, width, 3), or 4 with a transparent background.",
         Call::save);
     nb::class_<Render>(module, "Render",
-                       "What a render brought: sums of samples, which add up exactly.")
+                       "Result of a render: sums of samples, which add up exactly.")
         .def_prop_ro(
             "image", [](const Render& render) { return to_array(render.part.film.develop()); },
             nb::rv_policy::reference,
@@ -356,18 +355,18 @@ void bind_render(nb::module_& module)
         .def_prop_ro("layers", &collect_layers, nb::rv_policy::reference,
                      "Layers of aov=..., by name: arrays of float32 (height, width, channels).")
         .def_prop_ro("ids", &collect_ids,
-                     "What the ids in layers of aov='object' and aov='material' stand for, such as "
-                     "ids['CryptoObject']['lamp']: numbers whose bits are those of floats in "
+                     "Ids by name in the layers of aov='object' and aov='material', such as "
+                     "ids['CryptoObject']['lamp']: integers with the bits of the floats in "
                      "layers['CryptoObject00'].")
         .def_prop_ro(
             "samples", [](const Render& render) { return render.part.samples.text(); },
-            "Which samples of each pixel it has, like '0:64'.")
+            "Indices of its samples of each pixel, like '0:64'.")
         .def_prop_ro(
             "spp", [](const Render& render) { return render.part.samples.count(); },
-            "How many samples of each pixel it has.")
+            "Its number of samples per pixel.")
         .def_prop_ro(
             "noise", [](const Render& render) { return estimate_noise(render.part.film); },
-            "Relative standard error that 95 % of all tiles of 16 x 16 pixels are not above.")
+            "Relative standard error that 95 % of all tiles of 16 x 16 pixels do not exceed.")
         .def_prop_ro(
             "settings", [](const Render& render) { return render.notes.metadata.settings; },
             "All options of the render, as JSON.")
@@ -380,7 +379,8 @@ void bind_render(nb::module_& module)
                 return render;
             },
             nb::arg("other"), nb::rv_policy::reference,
-            "Adds other samples of the same render, to the bit as if one render had made all.")
+            "Adds other samples of the same render; the result is bit-identical to one render of "
+            "all.")
         .def("save", &save, nb::arg("file"), nb::arg("options"), nb::sig(saving.c_str()),
              text_of_saving.c_str())
         .def("to_srgb", &to_srgb, nb::arg("options"), nb::sig(showing.c_str()),
@@ -413,15 +413,15 @@ void bind_render(nb::module_& module)
         Call::render, "Render");
     const std::string text_of_rendering = documentation(
         "Renders the scene. Options are those of bdpt render, with the same defaults: the image is "
-        "that of the command, to the bit. progress(done, total, seconds) is called between passes; "
-        "what it raises, or Ctrl-C, ends the render. Other Python threads run meanwhile.",
+        "bit-identical to the command's. progress(done, total, seconds) is called between passes; "
+        "an exception from it, or Ctrl-C, ends the render. Other Python threads run meanwhile.",
         Call::render);
     module.def("render", &render_scene, nb::arg("scene"), nb::kw_only(),
                nb::arg("progress").none() = nb::none(), nb::arg("options"),
                nb::sig(rendering.c_str()), text_of_rendering.c_str());
     bind_renderer(module);
     module.def("read_part", &read_part, nb::arg("file"),
-               "Reads a part: what save('x.part.exr') or bdpt render --part wrote.");
+               "Reads a part written by save('x.part.exr') or bdpt render --part.");
 }
 
 }  // namespace bdpt::python

@@ -95,8 +95,8 @@ void bind_renderer(nb::module_& module)
         documentation("As Render.save(), of the samples so far.", Call::save);
     nb::class_<PythonRenderer>(
         module, "Renderer",
-        "A render that one holds: it chooses an integrator once, renders on, and shows its image "
-        "in between. All samples together have the bits of one render() of them.")
+        "A progressive render: it chooses an integrator once, continues on demand, and has its "
+        "image in between. The image is bit-identical to one render() of all samples.")
         .def(
             "__init__",
             [](PythonRenderer* self, PythonScene& scene, const nb::kwargs& options) {
@@ -106,10 +106,10 @@ void bind_renderer(nb::module_& module)
             text_of_making.c_str())
         .def("render", &PythonRenderer::render, nb::arg("samples"),
              nb::arg("progress").none() = nb::none(),
-             "Adds that many samples to each pixel. progress is that of render(); what was "
-             "rendered before it raised, or before Ctrl-C, stays.")
+             "Adds that many samples to each pixel. progress is as in render(); samples rendered "
+             "before its exception, or before Ctrl-C, are kept.")
         .def("finish", &PythonRenderer::finish, nb::arg("progress").none() = nb::none(),
-             "Renders what is missing of spp, up to the limits of time and noise.")
+             "Renders the samples missing from spp, up to the limits of time and noise.")
         .def(
             "__iadd__",
             [](PythonRenderer& self, const Render& other) -> PythonRenderer& {
@@ -117,21 +117,21 @@ void bind_renderer(nb::module_& module)
                 return self;
             },
             nb::arg("other"), nb::rv_policy::reference,
-            "Adds samples of the same render that were made elsewhere.")
+            "Adds samples of the same render that were rendered elsewhere.")
         .def_prop_ro(
             "image", [](const PythonRenderer& self) { return to_array(self.renderer().image()); },
             nb::rv_policy::reference, "As Render.image, of the samples so far.")
         .def_prop_ro(
             "noise", [](const PythonRenderer& self) { return self.renderer().noise(); },
-            "As Render.noise; infinite before there are two samples.")
+            "As Render.noise; infinite with fewer than two samples.")
         .def_prop_ro(
             "spp", [](const PythonRenderer& self) { return self.renderer().samples(); },
-            "How many samples of each pixel it has.")
+            "Its number of samples per pixel.")
         .def_prop_ro(
             "seconds", [](const PythonRenderer& self) { return self.renderer().seconds(); },
-            "How long it has rendered.")
+            "Render time so far.")
         .def("take", &PythonRenderer::take,
-             "All samples as a Render; this then has none, and += gives them back.")
+             "All samples as a Render; the Renderer is then empty, and += restores them.")
         .def(
             "save",
             [](PythonRenderer& self, const nb::object& file, const nb::kwargs& options) {

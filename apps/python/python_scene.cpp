@@ -79,9 +79,7 @@ std::tuple<std::string, Words> get_state(const PythonScene& scene)
 {
     if (!scene.origin) {
         throw nb::type_error(
-            "only scenes that load() made of a file can be pickled, and no edited ones: pickle "
-            "what this one "
-            "is made of");
+            "only unedited scenes from load() can be pickled: pickle what this one is made of");
     }
     return {scene.origin->string(), scene.words};
 }
@@ -104,17 +102,17 @@ void bind_scene(nb::module_& module)
             "Names of the cameras of the file, or their indices.")
         .def_prop_ro(
             "warnings", [](const PythonScene& scene) { return scene.stage.warnings; },
-            "What the command would warn of, one line each.")
+            "Warnings of the command for this scene, one line each.")
         .def_prop_ro(
             "triangles",
             [](const PythonScene& scene) { return scene.stage.scene.counts().instanced_triangles; },
-            "Triangles of all instances.")
+            "Number of triangles of all instances.")
         .def_prop_ro(
             "lights", [](const PythonScene& scene) { return scene.stage.scene.counts().lights; },
-            "Lights, emitting triangles among them.")
+            "Number of lights, including emissive triangles.")
         .def_prop_ro(
             "isa", [](const PythonScene& scene) { return isa_name(scene.stage.scene.isa()); },
-            "Instruction set that its rays are traced with.")
+            "Instruction set of its ray tracing.")
         .def("__getstate__", &get_state)
         .def("__setstate__",
              [](PythonScene& scene, const std::tuple<std::string, Words>& state) {
@@ -128,8 +126,8 @@ void bind_scene(nb::module_& module)
     const std::string signature = declaration(
         "def load(file: str | os.PathLike[str] | bytes | typing.BinaryIO, *", Call::load, "Scene");
     const std::string text = documentation(
-        "Loads a .gltf or .glb file, or what is in one: bytes, or an open file. What it lacks (a "
-        "camera, light) is filled in as bdpt render does.",
+        "Loads a .gltf or .glb file, its bytes, or an open file. A missing camera or light is "
+        "added as bdpt render does.",
         Call::load);
     module.def("load", &load, nb::arg("file"), nb::arg("options"), nb::sig(signature.c_str()),
                text.c_str());

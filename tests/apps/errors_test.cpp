@@ -155,7 +155,7 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--look-at", "1,2"}, "--look-at \"1,2\"");
     rejects({"--from", "1,2,x"}, "--from \"1,2,x\"");
     rejects({"--from", "1,2,nan"}, "--from");
-    rejects({"--from", "1,2,3", "--look-at", "1,2,3"}, "cannot look at its own place");
+    rejects({"--from", "1,2,3", "--look-at", "1,2,3"}, "cannot look at its own position");
     rejects({"--seed", "-1"}, "--seed \"-1\"");
     rejects({"--seed", "18446744073709551616"}, "--seed");
     rejects({"--threads", "-1"}, "--threads");

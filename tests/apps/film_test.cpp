@@ -139,7 +139,8 @@ TEST_CASE("option --clamp limits contributions and says what it took")
     const Outcome outcome = cube.render(words);
     CAPTURE(outcome.err);
     REQUIRE(outcome.exit_code == 0);
-    CHECK(outcome.err.find("clamping at 0.25 nit took 75.00 % of the light") != std::string::npos);
+    CHECK(outcome.err.find("clamping at 0.25 nit removed 75.00 % of the light") !=
+          std::string::npos);
     const ExrFile file = read_exr(cube.folder() / "out.exr");
     CHECK(file.image.at(16, 8) == Rgb(0.25f));
     CHECK(settings_of(file)["clamp"] == 0.25);

@@ -165,7 +165,7 @@ TEST_CASE("options of framing that contradict others are refused", "[framing]")
     folder.check_refused({"--fov", "30", "--focal-length", "50"},
                          "--focal-length cannot be combined with --fov");
     folder.check_refused({"--view", "front", "--camera", "side"},
-                         "--view frames all of the scene and cannot be combined with --camera "
+                         "--view frames the whole scene and cannot be combined with --camera "
                          "\"side\"");
     folder.check_refused({"--view", "frnt"}, "--view \"frnt\": expected front, right");
     folder.check_refused({"--view", "0,91"}, "--view \"0,91\"");

@@ -71,7 +71,7 @@ std::filesystem::path token_emitter(const ScratchFolder& folder)
     return scene;
 }
 
-const std::string glows = "no light but what glows: lit by the default environment";
+const std::string glows = "no light but emissive materials: lit by the default environment";
 
 TEST_CASE("a scene without light but for a token emitter is lit by the sky, and it is said")
 {
@@ -97,7 +97,7 @@ TEST_CASE("a closed room that its emitters light gets no lamp and no sky")
     const std::string words = said(folder, room, {"--json", "--env-rotation", "90"});
     CAPTURE(words);
     CHECK(contains(words, R"("environment":"none")"));
-    CHECK(contains(words, "no environment: --env-rotation and --env-intensity do nothing"));
+    CHECK(contains(words, "no environment: --env-rotation and --env-intensity have no effect"));
     CHECK_FALSE(contains(words, "lamp was added"));
 }
 

@@ -176,7 +176,7 @@ TEST_CASE("wrong words for images of strategies are refused before anything is r
     rejects({"--strategies", file, "--strategy-depth", "0"}, 2, "--strategy-depth");
     rejects({"--strategies", file, "--strategy-depth", "101"}, 2, "--strategy-depth");
     rejects({"--strategies", file, "--strategy-depth", "2", "--only", "indirect"}, 2,
-            "no strategy that is used makes paths of up to 2 edges (--strategy-depth)");
+            "no enabled strategy samples paths of up to 2 edges (--strategy-depth)");
     rejects({"--strategies", room.path("none/all.exr")}, 6, "none/all.exr");
     rejects({"--strategies", room.path("out.exr")}, 2, "it is an input or another output");
     rejects({"--strategies", room.path("taken.exr"), "-o", room.path("taken.png")}, 2,
@@ -261,7 +261,7 @@ TEST_CASE("merge refuses to write images of strategies that are not there, or no
         CHECK(outcome.err.find(text) != std::string::npos);
         CHECK_FALSE(room.folder().names().contains("m.exr"));
     };
-    refused(room.path("all.exr"), 4, "a.part.exr has no images of strategies");
+    refused(room.path("all.exr"), 4, "a.part.exr has no strategy images");
     refused(room.path("all.png"), 2, "expected a file name that ends in .exr");
     refused(part, 2, "it is an input or another output");
     refused(room.path("none/all.exr"), 6, "none/all.exr");

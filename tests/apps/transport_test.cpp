@@ -116,15 +116,15 @@ TEST_CASE("an image says how much light a limit of the length of paths leaves ou
     // Of what is reflected, once and more: 0.5^3
     const Words four{"--integrator", "mis", "--max-depth", "4"};
     CHECK(left_out(four) == Approx(0.125).margin(0.02));
-    CHECK(room.said(four).find("% of the light is left out: it comes by paths of more than 4 "
-                               "edges (--max-depth)") != std::string::npos);
+    CHECK(room.said(four).find("% of the light is missing: its paths have more than 4 edges "
+                               "(--max-depth)") != std::string::npos);
     const std::string events = room.said({"--max-depth", "4", "--json"});
     CHECK(events.find("\"light_beyond_max_depth\":0.1") != std::string::npos);
     for (const Words& words : {Words{}, Words{"--max-depth", "20"}, Words{"--only", "direct"},
                                Words{"--max-depth", "2"}}) {
         CAPTURE(words);
         CHECK(left_out(words) == 0.0);
-        CHECK(room.said(words).find("left out") == std::string::npos);
+        CHECK(room.said(words).find("its paths have more than") == std::string::npos);
     }
 }
 

@@ -104,7 +104,7 @@ TEST_CASE("options about volumes that make no sense are refused", "[volume]")
            {"--ground cannot be combined with --volume"});
     room.refuse({"--volume", "-"}, 2, {"--volume \"-\""});
     room.refuse({"--volume", room.path("none.vdb")}, 3, {"none.vdb: no such file"});
-    room.refuse({"--volume", scene}, 5, {"room-spot.gltf: no OpenVDB file"});
+    room.refuse({"--volume", scene}, 5, {"room-spot.gltf: not an OpenVDB file"});
 }
 
 #ifdef BDPT_HAS_OPENVDB
@@ -224,7 +224,7 @@ TEST_CASE("without OpenVDB a volume is refused by name", "[volume]")
 {
     const Room room;
     room.refuse({"--volume", smoke}, 5,
-                {smoke + ": OpenVDB files are read by a program of its own"});
+                {smoke + ": OpenVDB files are read by a separate program"});
 }
 
 #endif

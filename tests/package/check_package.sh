@@ -105,14 +105,14 @@ run_without_module() {
   said=$("$slim/bin/bdpt" "${words[@]}" --env "$sky" 2>&1) || code=$?
   printf '%s\n' "$said"
   [[ $code == 5 && $(wc -l <<<"$said") == 1 ]] || fail "exit code $code"
-  [[ $said == "bdpt: error: $sky: TIFF images are read by OpenImageIO: libbdpt_oiio.so is not there (tried "*
+  [[ $said == "bdpt: error: $sky: TIFF images are read by OpenImageIO: libbdpt_oiio.so not found (tried "*
   ]] || fail "another error"
   [[ ! -e $slim/out.png ]] || fail "an image without its environment"
   code=0
   said=$("$slim/bin/bdpt" "${words[@]}" --volume "$SOURCE/scenes/smoke.vdb" 2>&1) || code=$?
   printf '%s\n' "$said"
   [[ $code == 5 && $(wc -l <<<"$said") == 1 ]] || fail "exit code $code"
-  [[ $said == "bdpt: error: "*"smoke.vdb: OpenVDB files are read by a program of its own: bdpt-read-vdb is not there (tried "*
+  [[ $said == "bdpt: error: "*"smoke.vdb: OpenVDB files are read by a separate program: bdpt-read-vdb not found (tried "*
   ]] || fail "another error"
   [[ ! -e $slim/out.png ]] || fail "an image without its volume"
 }

@@ -67,7 +67,7 @@ def check_without_companions(folder):
         try:
             bdpt.load(folder / "scenes/cornell-box.gltf", **options)
         except bdpt.Error as error:
-            where = f"{name} is not there (tried {PACKAGE / name}, {PACKAGE / 'bdpt' / name})"
+            where = f"{name} not found (tried {PACKAGE / name}, {PACKAGE / 'bdpt' / name})"
             assert error.code == 5 and where in str(error), error
         else:
             raise AssertionError(f"{name} was found elsewhere")

@@ -186,7 +186,7 @@ int run_bench(const BenchArguments& arguments, const std::vector<std::string>& c
     }
     Console console(arguments.printed.format, arguments.printed.verbosity);
     Interrupt interrupt(temporary_paths(files), [&console] {
-        console.note("stopping after the pass in flight; interrupt again to end at once");
+        console.note("stopping after the current pass; interrupt again to quit at once");
     });
     eval::BenchRecord record{.options = arguments.options,
                              .machine = eval::machine_facts(),

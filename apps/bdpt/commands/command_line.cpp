@@ -109,17 +109,17 @@ CommandLine::CommandLine()
     add("render", "Render a scene to an image", render_footer, add_render_options, render);
     program.commands.back().essentials = render_essentials();
     program.commands.back().short_footer = render_short_footer;
-    add("view", "Show a scene in the browser, to find view, light and look", view_footer,
+    add("view", "Preview a scene in the browser, to choose view, light and look", view_footer,
         add_view_command_options, view);
     program.commands.back().essentials = {
         {"file"},       {"--spp"},        {"--size"},       {"--camera"}, {"--view"}, {"--env"},
         {"--exposure"}, {"--integrator"}, {"--background"}, {"--listen"}, {"--open"}};
     program.commands.back().short_footer = view_short_footer;
-    add("plan", "Share a render among many processes or machines", plan_footer, add_plan_options,
+    add("plan", "Distribute a render over processes or machines", plan_footer, add_plan_options,
         plan);
-    add("merge", "Add parts of a render that were rendered apart", merge_footer, add_merge_options,
+    add("merge", "Merge separately rendered parts of a render", merge_footer, add_merge_options,
         merge);
-    add("develop", "Make another picture of an .exr file, without rendering", develop_footer,
+    add("develop", "Convert an .exr file to pictures, without rendering", develop_footer,
         add_develop_options, develop);
     add("info", "Print what a scene contains", info_footer, add_info_options, info);
     add("compare", "Measure the error of images against a reference", compare_footer,
@@ -128,12 +128,12 @@ CommandLine::CommandLine()
         add_bench_options, bench);
     add("verify", "Test that all integrators and strategies agree on a scene", verify_footer,
         add_verify_options, verify);
-    add("inspect", "Tell what one sample of a pixel does", inspect_footer, add_inspect_options,
+    add("inspect", "Print the paths of one sample of a pixel", inspect_footer, add_inspect_options,
         inspect);
     add("help", "Print the help of a command", "", [this](OptionList& options) {
         options.add("command", "COMMAND", "The command. Default: all", topic, any_text());
     });
-    add("version", "Print the version, that of libraries, and the instruction set", "",
+    add("version", "Print the versions of bdpt and libraries, and the instruction set", "",
         [](OptionList& /*options*/) {});
 }
 

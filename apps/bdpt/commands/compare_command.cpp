@@ -60,7 +60,7 @@ int run_compare(const CompareArguments& arguments)
     std::error_code missing;
     if (fs::is_directory(arguments.reference, missing)) {
         throw Error(ErrorCode::usage,
-                    fmt::format("{}: the reference is a folder; it comes second and is one file",
+                    fmt::format("{}: the reference is a folder; it must be one file, given second",
                                 arguments.reference.string()));
     }
     const std::vector<fs::path> files = eval::seed_files(arguments.image, arguments.reference);

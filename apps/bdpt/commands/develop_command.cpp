@@ -44,7 +44,7 @@ DisplayArguments choose_display(DisplayArguments display, const LayeredImage& im
 {
     if (display.backdrop && !image.backdrop) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("--background \"{}\": {} shows the environment; render it with "
+                    fmt::format("--background \"{}\": {} contains the environment; render it with "
                                 "--background, too",
                                 backdrop_text(*display.backdrop), file.string()));
     }

@@ -228,7 +228,7 @@ MergedImage merge_image(const MergeArguments& arguments, const MergeSession& ses
                        .missing = collection.missing(),
                        .has_parts = !collection.parts.empty()};
     if (!result.has_parts) {
-        result.message = "none of the parts is there";
+        result.message = "no part was found";
     } else if (!result.missing.empty() && arguments.incomplete == Incomplete::refuse) {
         result.message = message_of_missing(collection);
     } else {

@@ -273,7 +273,7 @@ void identify(Plan& plan, const fs::path& file, const FirstImage& first,
         identity_of_tasks(plan, file, stage, first.arguments.options, console);
     if (const auto what = difference(first.identity, of_tasks)) {
         throw Error(ErrorCode::internal,
-                    fmt::format("{}: the words of the plan give another render: {}",
+                    fmt::format("{}: the options of the plan give another render: {}",
                                 asked.file.string(), *what));
     }
     plan.identity = asked.sequence ? common_identity(of_tasks, asked) : of_tasks;

@@ -83,7 +83,8 @@ Assignment planned_assignment(const RenderArguments& asked, const Plan& plan)
     std::vector<SequenceView> views = make_views(asked, collect_cameras(plan));
     if (views.size() != plan.images.size()) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("{}: is no plan of bdpt plan: it has {} images, and its words {}",
+                    fmt::format("{}: is not a plan of bdpt plan: it has {} images, but its options "
+                                "give {}",
                                 asked.part->plan->string(), plan.images.size(), views.size()));
     }
     const auto begin = views.begin() + static_cast<std::ptrdiff_t>(task.first_image);
@@ -113,7 +114,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
     check_patterns(asked);
     Console console(asked.printed.format, asked.printed.verbosity);
     Interrupt interrupt({}, [&console] {
-        console.note("stopping after the pass in flight; interrupt again to end at once");
+        console.note("stopping after the current pass; interrupt again to quit at once");
     });
     if (const std::optional<std::string> warning =
             warning_of_flicker(asked, FramesBy::one_process)) {

@@ -38,7 +38,7 @@ void check_scenes(const std::vector<fs::path>& scenes, const OptionList& options
     for (const fs::path& scene : scenes) {
         if (scene == "-" || is_job(scene)) {
             throw OptionError(
-                fmt::format("{}: only files of scenes can be among several", scene.string()));
+                fmt::format("{}: only scene files can be rendered together", scene.string()));
         }
     }
 }

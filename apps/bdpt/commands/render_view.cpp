@@ -254,8 +254,8 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
     } else if (goal && noise > *goal) {
         const std::int64_t samples = samples_for_noise(noise, result.film.sample_count(), *goal);
         console.note(
-            fmt::format("the noise is {}, more than {} (--noise): about {} samples per "
-                        "pixel would do",
+            fmt::format("the noise is {}, more than {} (--noise): about {} samples per pixel are "
+                        "needed",
                         noise_text(noise), noise_text(*goal), samples));
     }
     fields["exposure"] = images.exposure ? ordered_json(*images.exposure) : ordered_json();
@@ -300,7 +300,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     const bool is_first = !is_one_of_many(arguments) || arguments.sequence_view->index == 0;
     if (light_beyond > 0.0 && is_first) {  // about the same for all images
         console.note(fmt::format(
-            "about {:.2g} % of the light is left out: it comes by paths of more than {} edges "
+            "about {:.2g} % of the light is missing: its paths have more than {} edges "
             "(--max-depth)",
             100.0 * light_beyond, arguments.options.transport.max_depth));
     }
@@ -343,8 +343,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     const std::chrono::duration<double> writing = std::chrono::steady_clock::now() - writing_start;
     if (images.clamped_pixels > 0) {
         console.warning(
-            fmt::format("{} pixels were beyond 65504 and are stored as that; --float "
-                        "keeps them",
+            fmt::format("{} pixels exceed 65504 and are clamped to it; --float keeps them",
                         images.clamped_pixels));
     }
     const std::optional<int> signal = interrupt.signal();

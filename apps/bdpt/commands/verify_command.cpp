@@ -60,7 +60,7 @@ int run_verify(const VerifyArguments& arguments)
     // stdout has the report alone, so all else goes to stderr in both formats.
     Console console(Format::text, what.printed.verbosity);
     Interrupt interrupt({}, [&console] {
-        console.note("stopping after the batches in flight; interrupt again to end at once");
+        console.note("stopping after the current batches; interrupt again to quit at once");
     });
     const PreparedScene stage = prepare_scene(what);
     interrupt.allow_stop();

@@ -76,8 +76,8 @@ void add_effort(OptionList& options, BenchRequest& request)
     options.add("--time", "TIME", "CPU time of each run at equal time, like 5s. Default: 5s",
                 request.render.seconds, time);
     options.add("--spp", "N",
-                "Samples per pixel of each run at equal samples. Default: the greatest power of "
-                "two for which every integrator stays within --time",
+                "Samples per pixel of each run at equal samples. Default: the largest power of two "
+                "for which every integrator stays within --time",
                 bench.samples, whole_number(1, std::int64_t{1} << 20));
     options.add("--seeds", "N", "Runs of each integrator. Default: 5", bench.seeds,
                 whole_number(1, 10000));
@@ -86,17 +86,16 @@ void add_effort(OptionList& options, BenchRequest& request)
                 parsed_by(parse_integrators,
                           "a comma-separated list of pt, nee, mis, lt, bdpt, vcm and auto"));
     options.add("--reference-time", "TIME",
-                "CPU time of each of the two renders that make the reference. Default: 12 times "
-                "--time",
+                "CPU time of each of the two renders of the reference. Default: 12 times --time",
                 request.reference_seconds, time);
     options.add("--reference", "FILE|DIR",
                 "Reference image to use instead of rendering one, or a folder with SCENE.exr",
                 bench.reference, any_text());
     options.add("--strategy-depth", "N",
-                "Longest paths, in edges, in the pyramid of strategies; 0 for none. Default: 5",
+                "Maximum path length, in edges, in the pyramid of strategies; 0: none. Default: 5",
                 bench.strategy_depth, whole_number(0, 32));
     options.add_flag("--quick",
-                     "Small images and 0.5s a run, for a quick look or CI; --size and --time "
+                     "Small images and 0.5s per run, for a quick look or CI; --size and --time "
                      "override it",
                      request.quick);
 }
@@ -113,7 +112,7 @@ images, and the references. Ctrl-C stops after the current pass; the same comman
 CPU time of all threads. docs/bench.md explains the figures.
 
 Exit codes: 0 done, 2 wrong usage (also: the folder holds runs with other options), 3 input not found,
-4 invalid input (also: a file in the folder that is broken), 5 unsupported feature, 6 output cannot be
+4 invalid input (also: a broken file in the folder), 5 unsupported feature, 6 output cannot be
 written (finished runs are kept), 7 out of memory or threads, 129 stopped by SIGHUP,
 130 by SIGINT, 143 by SIGTERM.)";
 

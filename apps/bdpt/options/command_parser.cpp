@@ -142,7 +142,7 @@ struct CommandLineParser {
         : app(program.summary, program.name)
     {
         app.set_version_flag("--version", program.version,
-                             "Print the version, that of libraries, and the instruction set");
+                             "Print the versions of bdpt and libraries, and the instruction set");
         app.require_subcommand(1);
         app.footer(program.footer);
         app.formatter(std::make_shared<HelpFormatter>());
@@ -278,7 +278,7 @@ ParsedLine parse(Program& program, const std::vector<std::string>& words)
             return {.command = &command};
         }
     }
-    throw Error(ErrorCode::internal, "the parser found a command that there is not");
+    throw Error(ErrorCode::internal, "the parser found an unknown command");
 }
 
 void parse(OptionList& options, const std::vector<std::string>& words)

@@ -83,7 +83,7 @@ void add_measures(OptionList& options, CompareRequest& request)
                      "Multiply epsilon by the reference's mean (for relmse: by its square). Then "
                      "relmse, mape and smape do not depend on the unit of light",
                      scale.epsilon_unit, units.type());
-    options.add("--peak", "PEAK", "Peak of psnr. Default: the reference's greatest component",
+    options.add("--peak", "PEAK", "Peak value of psnr. Default: the reference's maximum",
                 scale.peak, positive());
     options.add("--ppd", "N",
                 "Pixels per degree of flip. Default: 67, a 4K screen 0.7 m wide at 0.7 m",
@@ -92,8 +92,8 @@ void add_measures(OptionList& options, CompareRequest& request)
                 "Range of exposures of flip [EV] and their number. Default: from the reference",
                 scale.exposures,
                 parsed_by(parse_exposures,
-                          "START,STOP,COUNT: EV from -100 to 100 that rise, and 2 "
-                          "to 100 of them"));
+                          "START,STOP,COUNT: START below STOP, EV from -100 to 100, and a COUNT "
+                          "from 2 to 100"));
     options.add("--exposure", "EV",
                 "Exposure of flip_ldr, as of bdpt render. Default: from the reference",
                 scale.exposure, number(-100.0, 100.0, "EV from -100 to 100"));
@@ -104,8 +104,8 @@ void add_output(OptionList& options, CompareArguments& arguments)
     options.section("Output");
     options.add_repeated(
         "--threshold", "NAME=NUMBER",
-        "Exit with code 10 if the metric (or bias, the greatest of any channel) is "
-        "greater, or psnr (or p, the lowest of any tile) is less. May be repeated",
+        "Exit with code 10 if the metric (or bias, the largest of any channel) is above, or psnr "
+        "(or p, the lowest of any tile) below this. May be repeated",
         arguments.thresholds,
         parsed_by([](const std::string& text) { return eval::parse_threshold(text); },
                   "NAME=NUMBER, where NAME is a metric, bias or p"));
@@ -118,7 +118,7 @@ void add_output(OptionList& options, CompareArguments& arguments)
                 parsed_by(parse_map_metric,
                           "relmse, relmse_scales, mse, rmse, mape, smape, flip or flip_ldr"));
     options.add("--scale", "MAX",
-                "Error of the last colour. Default: 1, so that error images are comparable",
+                "Error shown as the last colour. Default: 1, so that error images are comparable",
                 arguments.scale, positive());
     options.add("--tile", "N", "Side of a tile [pixels]. Default: 32", arguments.options.tile_size,
                 whole_number(1, 65535));
@@ -139,9 +139,9 @@ The first image is compared with the second, the reference: relative errors divi
 first is a folder, each .exr and .hdr file in it is a render of the same scene with another seed,
 and the tiles are tested for bias.
 
-Metrics: relmse, relmse_scales (also of averages over squares of pixels, where blotches show), mse,
-rmse, mape, smape, psnr, flip (of high dynamic range), flip_ldr (of the images as .png files show
-them). docs/compare.md has their formulas.
+Metrics: relmse, relmse_scales (also of averages over pixel blocks, which shows blotches), mse,
+rmse, mape, smape, psnr, flip (HDR-FLIP), flip_ldr (LDR-FLIP of the images as in .png files).
+docs/compare.md has their formulas.
 
 Exit codes: 0 done, 10 a threshold was exceeded (all output has been written), 2 wrong usage, 3 input
 not found, 4 invalid input (also: sizes that differ, NaN, infinity), 5 unsupported file, 6 output

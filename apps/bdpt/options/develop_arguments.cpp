@@ -16,8 +16,8 @@ const char* const develop_footer = R"(Examples:
   bdpt develop chair.exr -o chair.jpg --background white
   bdpt develop room.exr -o clean.png --denoise
 
-Pictures are those that bdpt render would have written with the same options. A background needs an
-.exr that was rendered with --background, and --denoise is best with --aov albedo,normal.)";
+Writes the pictures that bdpt render would write with the same options. --background needs an .exr
+that was rendered with --background; --denoise works best with --aov albedo,normal.)";
 
 void add_develop_options(OptionList& options, DevelopRequest& request)
 {
@@ -28,9 +28,9 @@ void add_develop_options(OptionList& options, DevelopRequest& request)
         .required = true;
     options.section("Output");
     options.add_repeated("-o,--output", "FILE",
-                         "A picture, .png, .jpg or .webp; png:- and the like are the standard "
-                         "output. May be repeated. Default: the name of the image with .png, in "
-                         "the working directory",
+                         "A picture, .png, .jpg or .webp; png:- etc. write to standard output. May "
+                         "be repeated. Default: the image's name with .png, in the working "
+                         "directory",
                          arguments.outputs, file_path(standard_output_names()));
     add_display_options(options, arguments.display);
     add_denoise_options(options, request.denoise);
@@ -50,7 +50,7 @@ DevelopArguments checked(const DevelopRequest& request, const OptionList& option
         const std::optional<ImageType> type = find_type(output);
         if (type && !is_for_screens(*type)) {
             throw OptionError(
-                fmt::format("{}: develop writes pictures for screens: name it .png, .jpg or .webp",
+                fmt::format("{}: develop writes display images: name it .png, .jpg or .webp",
                             output.string()));
         }
     }

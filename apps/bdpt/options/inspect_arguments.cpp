@@ -46,7 +46,7 @@ void add_what(OptionList& options, InspectArguments& arguments)
     options.add("--sample", "I", "Index of its sample. Default: 0", sample.index,
                 whole_number(0, (std::int64_t{1} << 32) - 2));
     options.add("-o,--output", "FILE",
-                "Image of the directions at a vertex: .png, or .exr with the numbers",
+                "Image of the directions at a vertex: .png, or .exr with the values",
                 arguments.directions,
                 file_named({".png", ".exr"}, "a file name that ends in .png or .exr"));
     options.add("--vertex", "K",
@@ -64,10 +64,10 @@ const char* const inspect_footer = R"(Examples:
   bdpt inspect room.glb --pixel 12,30 --size 64x64 --integrator bdpt --sample 7 --json
   bdpt inspect room.glb --pixel 640,360 -o directions.png
 
-Tells what one sample of a pixel does: the vertices of its camera path and of its light path, and
-what each strategy (s, t) brings, with its weight and, of bdpt and lt, the shares of all strategies
-that could have made the same path. -o draws what is to be sampled at a vertex, and by what
-densities: docs/inspect.md.
+Prints one sample of a pixel: the vertices of its camera path and its light path, and the
+contribution of each strategy (s, t), with its MIS weight and, for bdpt and lt, the shares of all
+strategies that could have sampled the same path. -o draws the integrand at a vertex and the pdfs
+that sample it: docs/inspect.md.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage (also: no such pixel or vertex), 3 input not
 found, 4 invalid input, 5 unsupported feature, 6 output cannot be written, 7 out of memory.)";

@@ -115,7 +115,7 @@ Option* find_option(OptionList& options, const std::string& key)
         }
     }
     const std::optional<std::string> meant = closest(key, keys);
-    value.fail("is no option of a job" +
+    value.fail("is not an option of a job" +
                (meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
 }
 
@@ -127,7 +127,7 @@ void check_format(const JsonValue& job)
     const auto format = job.at(format_key).number<std::int64_t>();
     if (format != job_format) {
         job.at(format_key)
-            .fail(fmt::format("is format {}, where this program knows {}", format, job_format));
+            .fail(fmt::format("has format {}, but this program reads {}", format, job_format));
     }
 }
 

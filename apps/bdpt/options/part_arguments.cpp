@@ -26,37 +26,37 @@ const char* const merge_footer = R"(Examples:
   bdpt merge job/0-*.part.exr -o job-0.part.exr
   bdpt merge --plan job/plan.json --wait
 
-Parts come from bdpt render --part. They may be in any order, and the image is that of one render of
-all their samples, to the bit. A part that lies within another one is left out with a note. Layers
-(AOVs) of the parts are written to .exr files.
+Parts come from bdpt render --part, in any order; the image is bit-identical to one render of all
+their samples. A part contained in another one is skipped with a note. AOV layers of the parts are
+written to .exr files.
 
-Exit codes: 0 done, 12 samples are missing (the message says which, and what renders them; nothing
-is written without --partial), 2 wrong usage, 3 part not found, 4 a part is broken, of another
-render, or overlaps another one, 6 output cannot be written, 7 out of memory.)";
+Exit codes: 0 done, 12 samples are missing (the message says which, and the command that renders
+them; nothing is written without --partial), 2 wrong usage, 3 part not found, 4 a part is broken,
+of another render, or overlaps another one, 6 output cannot be written, 7 out of memory.)";
 
 void add_part_options(OptionList& options, PartChoice& part)
 {
     options.add("--part", "FILE",
-                "Keep the render in this .exr file while it runs, and go on with it if it is "
-                "there: after a crash, with more --spp, or for bdpt merge. Without -o only this "
-                "file is written",
+                "Checkpoint file (.exr): written while rendering; if it exists, the render resumes "
+                "from it (after a crash, or with more --spp). bdpt merge reads it, too. Without -o "
+                "only this file is written",
                 part.file,
                 file_named({".exr"}, "a file name that ends in .exr, best in .part.exr"));
     const Choices<ExistingPart> existing{
         {{"true", ExistingPart::restart}, {"false", ExistingPart::go_on}}};
     options
-        .add_flag("--restart", "Do not go on with the file of --part, but replace it",
+        .add_flag("--restart", "Replace the file of --part instead of resuming from it",
                   part.existing, existing.type())
         .uses.job = false;
     options
         .add("--plan", "FILE",
-             "Render one task of this plan (bdpt plan), which says all but --threads, "
+             "Render one task of this plan (bdpt plan), which sets all but --threads, "
              "--max-memory, --stats, --ktx-library, --restart, --quiet and --json",
              part.plan, any_text())
         .uses.job = false;
     options
         .add("--task", "N|env:NAME",
-             "The task of --plan, from 0, or the environment variable that has its number",
+             "Task of --plan, counted from 0, or the environment variable that holds its number",
              part.task, any_text())
         .uses.job = false;
 }
@@ -115,37 +115,36 @@ void add_merge_options(OptionList& options, MergeRequest& request)
     options
         .add_repeated(
             "-o,--output", "FILE",
-            "Required: .part.exr (a part again), .exr or .hdr (linear radiance), .png, .jpg "
-            "or .webp (tone-mapped); exr:-, png:- and the like are the standard output. "
-            "May be repeated",
+            "Required: .part.exr (a part again), .exr or .hdr (linear radiance), .png, .jpg or "
+            ".webp (tone-mapped); exr:-, png:- etc. write to standard output. May be repeated",
             arguments.outputs, any_text())
         .required = true;
     options.section("Parts");
     options.add("--plan", "FILE",
-                "Merge the parts of this plan (bdpt plan); without -o, to the files that it names. "
+                "Merge the parts of this plan (bdpt plan); without -o, into the plan's outputs. "
                 "Parts need not be given",
                 arguments.plan, any_text());
     options.add_flag("--wait",
-                     "Wait for parts that are not there or not complete, until there are all "
-                     "samples; as --wait=90s, 30m or 2h no longer than that",
+                     "Wait for missing or incomplete parts until all samples are there; "
+                     "--wait=90s, 30m or 2h limits the wait",
                      arguments.wait, parsed_by(parse_wait, "a time like 90s, 30m or 2h"));
     options.section("Output");
     const Choices<Incomplete> incomplete{
         {{"true", Incomplete::write}, {"false", Incomplete::refuse}}};
     options.add_flag("--partial",
-                     "Write what there is when samples are missing: the image has more noise, but "
-                     "is right otherwise",
+                     "Write the image even if samples are missing: it has more noise, but is "
+                     "otherwise correct",
                      arguments.incomplete, incomplete.type());
     options.add("--spp", "N",
-                "Samples per pixel that the render was to have. Default: what the parts say",
+                "Samples per pixel of the complete render. Default: as stored in the parts",
                 arguments.samples, whole_number(1, std::int64_t{1} << 31));
     options.add("--noise", "N%",
-                "Say how many more samples would bring the noise down to this, like 2%, and what "
-                "renders them",
+                "Print how many more samples reduce the noise to this, like 2%, and the command "
+                "that renders them",
                 arguments.noise, noise_level());
     add_strategy_file_option(options, request.strategies,
-                             "Write the images of strategies that the parts have, and their "
-                             "contact sheet, as bdpt render --strategies does");
+                             "Write the strategy images stored in the parts, and their contact "
+                             "sheet, as bdpt render --strategies does");
     add_display_options(options, arguments.display);
     add_denoise_options(options, request.denoise);
     add_half_option(options, arguments.exr);
@@ -159,7 +158,7 @@ void add_merge_options(OptionList& options, MergeRequest& request)
 MergeArguments checked(const MergeRequest& request, const OptionList& options)
 {
     static constexpr std::array conflicts{
-        Conflict{"--spp", "--plan", "the plan says how many samples there are"}};
+        Conflict{"--spp", "--plan", "the plan sets the number of samples"}};
     MergeArguments result = request.arguments;
     if (!result.plan && result.parts.empty()) {
         throw OptionError("part is required");

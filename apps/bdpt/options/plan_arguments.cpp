@@ -55,12 +55,11 @@ const char* const plan_footer = R"(Examples:
   bdpt plan walk.glb -o out.####.exr --frames 1:48 --fps 24 --parts 12 --for make -d job
   make -C job -j4 -k
 
-The folder of -d gets plan.json and the files of the engine that starts the tasks; their first lines
-say how. A task is bdpt render --plan job/plan.json --task 3, and bdpt merge --plan job/plan.json
-makes the images. What --integrator auto chooses and the instruction set of this machine are part of
-the plan, and so is what --adaptive finds out (rates.exr); each task makes sure that it finds the
-scene that was planned. Paths that are given as
-relative ones are kept relative to the plan, for machines that have the same folders elsewhere.
+The folder of -d gets plan.json and the files of the system that starts the tasks; their first lines
+say how. A task is bdpt render --plan job/plan.json --task 3; bdpt merge --plan job/plan.json writes
+the images. The plan fixes the choice of --integrator auto, the instruction set of this machine and
+the rates of --adaptive (rates.exr); each task checks that its scene is the planned one. Relative
+paths stay relative to the plan, for machines that have the same folders elsewhere.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
 5 unsupported feature, 6 output cannot be written (also: the folder has another plan), 7 out of
@@ -90,28 +89,28 @@ void add_plan_options(OptionList& options, PlanRequest& request)
     PlanArguments& arguments = request.arguments;
     options.section("Plan");
     options.add("--parts", "N",
-                "Number of tasks in all. Each makes a part of the samples of all pixels; of fewer "
-                "tasks than frames each makes some frames",
+                "Total number of tasks. Each renders some of the samples of all pixels; with fewer "
+                "tasks than frames, each renders some frames",
                 arguments.parts, whole_number(1, max_parts));
     options.add("--minutes", "M",
-                "In place of --parts: as many tasks as take about so long on a machine like this "
-                "one (--threads). Renders for some seconds to find out",
+                "Instead of --parts: tasks of about this length on a machine like this one "
+                "(--threads), by a test render of some seconds",
                 arguments.minutes,
                 number_above(0.0, max_minutes, "a number above 0 and up to 1000000"));
     options
-        .add("--for", choice_text(engines().words()), "What starts the tasks", arguments.engine,
-             engines().type())
+        .add("--for", choice_text(engines().words()), "System that starts the tasks",
+             arguments.engine, engines().type())
         .required = true;
     options
         .add("-d,--directory", "FOLDER",
-             "Folder of the plan, and of the parts. It is made if it is not there",
+             "Folder of the plan and its parts, created if missing",
              arguments.folder, any_text())
         .required = true;
     const Choices<ExistingPlan> existing{
         {{"true", ExistingPlan::replace}, {"false", ExistingPlan::must_be_equal}}};
     options.add_flag(
         "--restart",
-        "Replace the plan that is there, and remove the parts that its tasks have made",
+        "Replace an existing plan, and remove the parts of its tasks",
         arguments.existing, existing.type());
     add_plannable_options(options, request.render);
     add_sequence_options(options, request.render.sequence);
@@ -134,12 +133,11 @@ PlanArguments checked(const PlanRequest& request, const OptionList& options)
     }
     if (render.rates && render.sequence) {
         throw OptionError(
-            "--adaptive: a plan of several images has no rates: each would need its own");
+            "--adaptive: a plan of several images cannot have rates: each image needs its own");
     }
     if (options.given("--denoiser-library")) {
         throw OptionError(
-            "--denoiser-library belongs to bdpt merge --plan: a plan does not say what code is "
-            "loaded");
+            "--denoiser-library belongs to bdpt merge --plan: a plan cannot choose code to load");
     }
     result.render_options = kept_words(options, &OptionUses::plan_render);
     if (render.environment && !is_file_of_environment(*render.environment)) {

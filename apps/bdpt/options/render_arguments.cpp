@@ -40,15 +40,14 @@ void add_how(OptionList& options, RenderRequest& request)
                     "1280x720");
     options
         .add_flag("--adaptive",
-                  "Adaptive sampling: more samples where the image is noisy, fewer where it is "
-                  "not, from a quarter of --spp to four times as many; --spp is their mean, a "
-                  "multiple of 8. A test render of 8 samples per pixel finds out where. "
-                  "Unbiased. Not for lt and vcm",
+                  "Adaptive sampling: 1/4 to 4 times --spp samples, by the noise in a test render "
+                  "of 8 samples per pixel; --spp is the mean, a multiple of 8. Unbiased. Not for "
+                  "lt and vcm",
                   request.adaptive)
         .uses.plan_render = false;  // plans store rates in a file
     options
         .add("--rates", "FILE",
-             "The same by an .exr that --save-rates has written, without a test render",
+             "Adaptive sampling by an .exr of --save-rates, without a test render",
              request.rates.file, file_path())
         .uses.plan_render = false;
     add_fields(options, render.sampling);
@@ -58,14 +57,14 @@ void add_how(OptionList& options, RenderRequest& request)
     const auto isas = make_choices(all_isas, isa_name);
     options
         .add("--isa", "sse2|sse4.2|avx|avx2|avx512|native",
-             "Instruction set of Embree. Images are equal to the bit only for equal sets: on a "
-             "render farm, choose one that all machines have. Default: the best of this CPU",
+             "Instruction set of Embree. Images are bit-identical only for equal sets: on a render "
+             "farm, choose one that all machines have. Default: the best of this CPU",
              arguments.isa, isas.type())
         .uses = of_load;
     options
         .add("--samples", "A:B",
-             "Render the samples A to B - 1 of each pixel, in place of --spp: a part of a "
-             "render that other machines share",
+             "Render samples A to B - 1 of each pixel instead of --spp: one part of a distributed "
+             "render",
              request.samples, sample_range())
         .uses.plan_render = false;
 }
@@ -77,10 +76,9 @@ void add_image_output(OptionList& options, RenderRequest& request)
     options
         .add_repeated(
             "-o,--output", "FILE",
-            "An image: .exr or .hdr (linear radiance), .png, .jpg or .webp (tone-mapped); "
-            "exr:-, png:- and the like are the standard output. May be repeated. Default of bdpt "
-            "render without "
-            "--part: the name of the scene with .png, in the working directory",
+            "An image: .exr or .hdr (linear radiance), .png, .jpg or .webp (tone-mapped); exr:-, "
+            "png:- etc. write to standard output. May be repeated. Default of bdpt render without "
+            "--part: the scene's name with .png, in the working directory",
             arguments.outputs, file_path(standard_output_names()))
         .uses = {};
     add_display_options(options, arguments.display);
@@ -96,7 +94,7 @@ void add_image_output(OptionList& options, RenderRequest& request)
     const Choices<PathNames> names{{{"true", PathNames::paths}, {"false", PathNames::files}}};
     options
         .add_flag("--full-paths",
-                  "Metadata of images name the scene and other files with their folders",
+                  "Store full paths of the scene and other files in image metadata",
                   arguments.path_names, names.type())
         .uses = {.plan_render = true};
     add_quiet_option(options, arguments.printed);
@@ -111,15 +109,15 @@ void add_process_options(OptionList& options, RenderRequest& request)
     RenderArguments& arguments = request.arguments;
     options.section("How to render", {.python_render = true});
     add_time_option(options, request,
-                    "Time to render for, like 90s, 2m or 1.5h; without --spp no other limit");
+                    "Render time, like 90s, 2m or 1.5h; without --spp the only limit");
     options.add("--noise", "N%",
-                "Stop when the noise is that low, like 2%: the relative standard error that 95 % "
-                "of all tiles of 16 x 16 pixels are not above. Looked at after 16, 24, 32, 48, 64, "
-                "... samples per pixel. Of --spp (with this: 65536, if not given), --time and this "
-                "what comes first counts",
+                "Stop at this noise, like 2%: the relative standard error that 95 % of all tiles "
+                "of 16 x 16 pixels do not exceed. Checked after 16, 24, 32, 48, 64, ... samples "
+                "per pixel. The render ends at the first limit of --noise, --spp (here 65536 by "
+                "default) and --time",
                 arguments.goal.noise, noise_level());
     options.section("Output");
-    options.add("--stats", "FILE", "Write counts of rays and paths, and times, to this .json file",
+    options.add("--stats", "FILE", "Write ray and path counts and timings to this .json file",
                 arguments.stats, file_path({"-"}));
     const Choices<Profiling> profiling{{{"true", Profiling::on}, {"false", Profiling::off}}};
     options.add_flag("--profile",
@@ -127,7 +125,7 @@ void add_process_options(OptionList& options, RenderRequest& request)
                      "layer time.Y (microseconds per sample). Does not change the image",
                      arguments.profiling, profiling.type());
     options.add("--save-rates", "FILE",
-                "Write how many samples pixels take, in units of --spp: .exr for --rates, or .png "
+                "Write the samples of each pixel as multiples of --spp: .exr for --rates, or .png "
                 "in false colours",
                 request.rates.saved,
                 file_named({".exr", ".png"}, "a file name that ends in .exr or .png"));
@@ -135,14 +133,14 @@ void add_process_options(OptionList& options, RenderRequest& request)
     add_part_options(options, request.part);
     options
         .add("--display", "HOST[:PORT]",
-             "Show the render while it runs in the image viewer tev, which listens there. Default "
-             "port: 14158",
+             "Show the render in progress in the image viewer tev at this address. Default port: "
+             "14158",
              arguments.viewer, parsed_by(parse_address, "HOST or HOST:PORT, like localhost:14158"))
         .uses.job = false;
     options
         .add("--save-job", "FILE",
-             "Write what these options say to this .json file, a job, and render nothing. bdpt "
-             "render takes a job in place of a scene; options beside it override the job's",
+             "Write these options to this .json file, a job, instead of rendering. bdpt render "
+             "takes a job in place of a scene; further options override the job's",
              request.saved_job, file_named({".json"}, "a file name that ends in .json"))
         .uses.job = false;
 }
@@ -207,10 +205,10 @@ const char* const render_footer = R"(Examples:
   bdpt render hall.glb -o out.png --volume smoke.vdb --volume-extinction 20
   bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
 
-A file without a camera is framed as a whole, one without light gets a soft sky (and a lamp, if it
-is a closed room); a note says so. Ctrl-C, or closing the terminal, finishes the current pass and
-writes the image; a second Ctrl-C quits at once. With --part, SIGUSR1 writes a checkpoint, and what
-was killed goes on when the same command runs again.
+Without a camera in the file, the whole scene is framed; without light, a soft sky is added (and a
+lamp in a closed room); a note says so. Ctrl-C, or closing the terminal, finishes the current pass
+and writes the image; a second Ctrl-C quits at once. With --part, SIGUSR1 writes a checkpoint, and a
+killed render resumes when the same command runs again.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
 5 unsupported feature, 6 output cannot be written, 7 out of memory or threads, 129 stopped by
@@ -228,24 +226,24 @@ std::vector<Essential> render_essentials()
 {
     return {
         {"file"},
-        {"others", "More scenes; {name} in names of outputs is the name of the scene"},
+        {"others", "More scenes; {name} in output names becomes the scene's name"},
         {"--output",
          "An image: .png, .jpg or .webp (tone-mapped), .exr or .hdr (linear). May be repeated. "
-         "Default: the name of the scene with .png"},
+         "Default: the scene's name with .png"},
         {"--exposure",
-         "Exposure: by the image (auto), by the light that falls in (light), or fixed"},
+         "Exposure: metered from the image (auto), from the incident light (light), or fixed"},
         {"--background",
-         "Seen in place of the environment, which still lights the scene: nothing, a colour or a "
-         "photograph"},
-        {"--denoise", "Denoise the image by Open Image Denoise 2"},
+         "Shown instead of the environment, which still lights the scene: transparent, a colour or "
+         "a photograph"},
+        {"--denoise", "Denoise the image with Open Image Denoise 2"},
         {"--spp"},
         {"--size", "Image size. Default: the largest within 1280x720"},
-        {"--time", "Time to render for, like 90s, 2m or 1.5h"},
-        {"--noise", "Stop when the noise is that low, like 2%"},
-        {"--ground", "shadow: catch the shadow of the scene below it; needs --background"},
+        {"--time", "Render time, like 90s, 2m or 1.5h"},
+        {"--noise", "Stop at this noise, like 2%"},
+        {"--ground", "shadow: shadow catcher below the scene; needs --background"},
         {"--camera"},
         {"--view",
-         "Frame all of the scene: front, right, back, left, top, bottom, three-quarter, or angles "
+         "Frame the whole scene: front, right, back, left, top, bottom, three-quarter, or angles "
          "[degrees]"},
         {"--from"},
         {"--look-at"},
@@ -289,7 +287,7 @@ void add_view_options(OptionList& options, RenderRequest& request)
         .add("--env", "FILE|none|default|studio",
              "Environment map: an equirectangular .exr, .hdr, .tif, .png or .jpg, none, default "
              "(the sky that scenes without light get), or studio (soft boxes, for products). "
-             "Replaces that of the file",
+             "Replaces the file's",
              arguments.environment, file_path({"none", "default", "studio", "-"}))
         .uses.plan_render = false;  // plans store files separately
     add_environment_options(options, arguments.environment_change);
@@ -298,8 +296,8 @@ void add_view_options(OptionList& options, RenderRequest& request)
     const Choices<TextureFilter> filters{
         {{"bilinear", TextureFilter::bilinear}, {"mip", TextureFilter::mip_mapped}}};
     options.add("--texture-filter", choice_text(filters.words()),
-                "Texture filter: bilinear (default) or mip (mip maps: faster for large textures, "
-                "but blurs what mirrors and lenses magnify)",
+                "Texture filter: bilinear (default) or mip (mip mapping: faster for large "
+                "textures, but blurs them in magnifying mirrors and lenses)",
                 arguments.texture_filter, filters.type());
     options.section("What to render", of_view);
     add_lens_options(options, arguments.lens);
@@ -325,8 +323,8 @@ void add_render_options(OptionList& options, RenderRequest& request)
     options
         .add_repeated(
             "others", "FILE",
-            "More scenes, rendered one after the other; {name} in names of outputs is the "
-            "name of the scene",
+            "More scenes, rendered one after the other; {name} in output names becomes the scene's "
+            "name",
             request.others, file_path())
         .uses.job = false;
     add_process_options(options, request);

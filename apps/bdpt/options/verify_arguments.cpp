@@ -15,10 +15,10 @@ void add_how(OptionList& options, VerifyRequest& request)
     RenderOptions& render_options = render.arguments.options;
     options.section("How to verify");
     add_time_option(options, render,
-                    "Longest time to render, like 90s, 2m or 1.5h; verify stops earlier if that "
-                    "suffices. Default: 2m");
+                    "Maximum render time, like 90s, 2m or 1.5h; verify stops earlier if possible. "
+                    "Default: 2m");
     add_size_option(options, render, "Image size. Default: 32x32");
-    options.add("--max-depth", "N", "Longest paths that are tested, in edges. Default: 5",
+    options.add("--max-depth", "N", "Maximum path length tested, in edges. Default: 5",
                 request.options.max_depth, whole_number(1, 64));
     options.add("--grid", "N", "Tiles along each side of the image. Default: 4",
                 request.options.grid, whole_number(1, 64));
@@ -33,9 +33,9 @@ void add_how(OptionList& options, VerifyRequest& request)
                                                {"auto", IntegratorKind::automatic},
                                                {"vcm", IntegratorKind::vcm}}};
     options.add("--integrator", choice_text(integrators.words()),
-                "What is verified: bdpt (default), or auto: bdpt with the light paths and "
-                "connections that auto chooses for the scene, or vcm: beside bdpt its image, which "
-                "is right if --merge-radius is small enough",
+                "What is verified: bdpt (default); auto: bdpt with the light paths and connections "
+                "that auto chooses; or vcm: bdpt and the image of vcm, which is correct if "
+                "--merge-radius is small enough",
                 render_options.integrator, integrators.type());
     add_fields(options, render_options,
                std::array<std::string_view, 6>{"seed", "threads", "light_paths", "connections",
@@ -52,12 +52,12 @@ const char* const verify_footer = R"(Examples:
   bdpt verify scene.gltf --light-samples 4
   bdpt verify scene.gltf --integrator vcm --merge-radius 0.01
 
-Renders the scene by pt, nee, mis, lt, bdpt and every strategy of bdpt, at low resolution with many
-independent samples, and tests whether they agree: for each path length, in the whole image and in
-tiles. docs/verify.md explains the method and the numbers.
+Renders the scene with pt, nee, mis, lt, bdpt and every strategy of bdpt, at low resolution and with
+many independent samples, and tests whether they agree: for each path length, in the whole image and
+in tiles. docs/verify.md explains the method and the numbers.
 
 Exit codes: 0 pass, 10 fail: something disagrees, 11 inconclusive: nothing disagrees, but the noise
-could hide it (give it more --time); 1 internal error, 2 wrong usage, 3 input not found, 4 invalid
+could hide it (use more --time); 1 internal error, 2 wrong usage, 3 input not found, 4 invalid
 input, 5 unsupported feature, 6 output cannot be written, 7 out of memory or threads, 129 stopped by
 SIGHUP, 130 by SIGINT, 143 by SIGTERM.)";
 

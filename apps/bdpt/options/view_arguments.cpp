@@ -35,9 +35,9 @@ const char* const view_footer = R"(Examples:
   bdpt view room.glb --listen 127.0.0.1:8080
   bdpt view room.json                          (a job that the page saved)
 
-Prints an address on this machine. Its page shows the picture while it grows: drag to turn, click to
-inspect a pixel; docs/view.md has the rest. The files of the scene are read again when they change.
-Who does not know the address is refused. On a server, reach it through ssh:
+Prints the address of a page that shows the render in progress: drag to orbit, click to inspect a
+pixel; docs/view.md has the rest. The scene is reloaded when its files change. The address contains
+a secret; requests without it are refused. For a remote server, use an ssh tunnel:
 ssh -L 8080:127.0.0.1:8080 SERVER. Ctrl-C ends it.
 
 Exit codes: 0 done (Ctrl-C), 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
@@ -78,18 +78,17 @@ void add_view_command_options(OptionList& options, ViewRequest& request)
     for (Option& option : all) {
         option.uses = {.job = option.uses.job};
         if (option.name() == "--spp") {
-            option.help = "Samples per pixel after which the picture is done. Default: " +
+            option.help = "Samples per pixel of the finished image. Default: " +
                           std::to_string(view_samples);
         } else if (option.name() == "file") {
             option.help = "The scene: .gltf or .glb, or a job: .json";
         } else if (option.name() == "--noise") {
-            option.help = "The picture is done when the noise is that low, like 2%";
+            option.help = "Stop at this noise, like 2%";
         }
     }
     options.section("Server", {.job = false});
     options.add("--listen", "HOST[:PORT]",
-                "Listen there. Default: 127.0.0.1, which only this machine reaches, and any free "
-                "port",
+                "Address to listen on. Default: 127.0.0.1 (this machine only) and any free port",
                 request.arguments.listen,
                 parsed_by(parse_listen_address, "HOST or HOST:PORT, like 127.0.0.1:8080"));
     options.add_flag("--open", "Show the page in the browser (xdg-open)",

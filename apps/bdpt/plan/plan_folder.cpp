@@ -73,7 +73,7 @@ void check_plan_folder(const fs::path& folder)
     std::error_code ignored;
     if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) {
         throw Error(ErrorCode::output,
-                    fmt::format("{}: cannot write: this is no folder", folder.string()));
+                    fmt::format("{}: cannot write: this is not a folder", folder.string()));
     }
     // A missing folder is created beside existing ones.
     io::check_writable(fs::exists(folder, ignored)

@@ -112,7 +112,7 @@ void read_images_and_tasks(const JsonValue& json, Plan& plan)
         plan.tasks.push_back(read_task(task, plan.images.size()));
         parts += plan.tasks.back().images;
         if (parts > max_planned_parts) {
-            task.fail(fmt::format("has the part after {}, which is the most", max_planned_parts));
+            task.fail(fmt::format("has more than {} parts, the maximum", max_planned_parts));
         }
     }
     if (plan.tasks.empty()) {  // each task names existing images
@@ -123,11 +123,11 @@ void read_images_and_tasks(const JsonValue& json, Plan& plan)
 Plan read(const JsonValue& json)
 {
     if (!json.is_object() || !json.has("format") || !json.has("tasks")) {
-        json.fail("is no plan of bdpt plan");
+        json.fail("is not a plan of bdpt plan");
     }
     if (const std::string format = json.at("format").scalar_text();
         format != std::to_string(plan_format)) {
-        json.fail(fmt::format("is no plan of bdpt plan: format {}, where this program knows {}",
+        json.fail(fmt::format("is not a plan of bdpt plan: format {}, but this program reads {}",
                               format, plan_format));
     }
     const PlannableOptions allowed = plannable_options();

@@ -99,14 +99,14 @@ std::string to_text(const Plan& plan)
         std::string text = json.dump(2) + "\n";
         if (parts > max_planned_parts || text.size() > io::JsonValue::max_bytes) {
             throw Error(ErrorCode::usage,
-                        fmt::format("a plan of {} parts is too large: the most are {}, and {} "
-                                    "bytes of text",
+                        fmt::format("a plan of {} parts is too large: the limits are {} parts and "
+                                    "{} bytes of text",
                                     parts, max_planned_parts, io::JsonValue::max_bytes));
         }
         return text;
     } catch (const ordered_json::type_error&) {
         throw Error(ErrorCode::usage,
-                    "a plan holds UTF-8 only: the name of a file or a value of an option is not");
+                    "a plan must be UTF-8: the name of a file or a value of an option is not");
     }
 }
 

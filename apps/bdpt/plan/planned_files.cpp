@@ -61,7 +61,7 @@ fs::path file_of_plan(const fs::path& name, const fs::path& folder)
     std::error_code ignored;
     if (fs::is_symlink(file, ignored)) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("{}: is a symbolic link; the files of a plan are in its folder",
+                    fmt::format("{}: is a symbolic link; the files of a plan must be in its folder",
                                 file.string()));
     }
     return file;

@@ -14,7 +14,7 @@ void warn_of_defects(Console& console, const FilmDefects& defects)
                         defects.invalid, place.x, place.y, place.sample_index));
     }
     if (defects.saturated > 0) {
-        console.warning(fmt::format("{} contributions were above {:.3g} nit and count as that",
+        console.warning(fmt::format("{} contributions were above {:.3g} nit and were clamped to it",
                                     defects.saturated, ExactSum::max_value));
     }
 }
@@ -31,7 +31,7 @@ void report_clamp(Console& console, const Film& film, const Image& image)
         left += sum(pixel) / static_cast<double>(image.pixels.size());
     }
     const double taken = sum(loss.radiance);
-    console.note(fmt::format("clamping at {:g} nit took {:.2f} % of the light: {} contributions",
+    console.note(fmt::format("clamping at {:g} nit removed {:.2f} % of the light: {} contributions",
                              film.layout().clamp, 100.0 * taken / (left + taken),
                              loss.contributions));
 }

@@ -115,7 +115,7 @@ std::string inspect_text(const InspectedSample& sample, const PixelSample& which
                             color_text(found.unweighted), found.weight,
                             color_text(found.weight * found.unweighted), shares_text(found));
     }
-    return text + (sorted.empty() ? "none brings light\n" : "");
+    return text + (sorted.empty() ? "no contributions\n" : "");
 }
 
 ordered_json inspect_json(const InspectedSample& sample, const PixelSample& which)

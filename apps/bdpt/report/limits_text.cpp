@@ -33,13 +33,13 @@ std::vector<Limit> list(const io::ReadLimits& limits)
         {"instances", instances, "meshes placed in a scene"},
         {"mesh_bytes", mesh_bytes, "bytes of vertices, key frames and instances, decoded"},
         {"triangles", triangles, "triangles, each mesh once"},
-        {"image_side", static_cast<std::uint64_t>(image_side), "pixels a side of an image"},
+        {"image_side", static_cast<std::uint64_t>(image_side), "pixels per side of an image"},
         {"image_bytes", image_bytes, "bytes of one image, decoded"},
         {"texture_bytes", texture_bytes, "bytes of all images, decoded"},
         {"volume_bytes", volume_bytes, "bytes of the densities of a volume"},
-        {"volume_seconds", volume_seconds, "seconds of a processor to read a volume"},
+        {"volume_seconds", volume_seconds, "CPU seconds to read a volume"},
         {"compression_ratio", compression_ratio, "decoded over encoded size of compressed meshes"},
-        {"memory_bytes", memory_bytes, "bytes of all that a scene takes, as estimated"}};
+        {"memory_bytes", memory_bytes, "bytes of a scene in memory, as estimated"}};
 }
 
 }  // namespace

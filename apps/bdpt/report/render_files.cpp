@@ -30,8 +30,8 @@ void check_part_file(const std::filesystem::path& file)
     if (std::filesystem::exists(file, missing) &&
         !std::filesystem::is_regular_file(file, missing)) {
         throw Error(ErrorCode::output,
-                    fmt::format("--part \"{}\": cannot write: a part is read again, and this is no "
-                                "regular file",
+                    fmt::format("--part \"{}\": cannot write: a part is read again, and this is "
+                                "not a regular file",
                                 file.string()));
     }
 }

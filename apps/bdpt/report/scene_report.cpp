@@ -162,7 +162,8 @@ std::vector<std::string> default_lines(const Defaults& defaults)
         lines.emplace_back("no camera: a render frames the whole scene");
     }
     if (defaults.sky) {
-        lines.emplace_back(defaults.glows ? "no light but what glows: a render adds a soft sky"
+        lines.emplace_back(defaults.glows ? "no light but emissive materials: a render adds a soft "
+                                            "sky"
                                           : "no light: a render adds a soft sky");
     }
     if (defaults.lamp) {

@@ -74,7 +74,7 @@ ordered_json profile_json(const TimeProfile& profile)
 std::string profile_text(const TimeProfile& profile)
 {
     if (profile.clocked_samples == 0) {
-        return "time of samples: too few to tell where it goes";
+        return "time of samples: too few for a breakdown";
     }
     std::string text = fmt::format("time of a sample: {:.3g} us;",
                                    1e6 * profile.total() / static_cast<double>(profile.samples));

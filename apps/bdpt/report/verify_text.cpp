@@ -160,7 +160,7 @@ std::vector<std::string> failures(const VerifyReport& report)
                 place->sample_index));
         }
         if (image.defects.saturated > 0) {
-            lines.push_back(fmt::format("{}: {} contributions were too great for the film",
+            lines.push_back(fmt::format("{}: {} contributions were too large for the film",
                                         to_name(image.integrator), image.defects.saturated));
         }
         if (loses_light(image)) {
@@ -170,8 +170,8 @@ std::vector<std::string> failures(const VerifyReport& report)
     }
     if (report.weights.wrong > 0) {
         lines.push_back(fmt::format(
-            "weights: {} of {} paths have one that differs from its definition, by up to {:.3g}: "
-            "those of all strategies do not sum to one",
+            "weights: {} of {} paths have a weight that differs from its definition, by up to "
+            "{:.3g}: the weights of all strategies do not sum to one",
             report.weights.wrong, report.weights.paths, report.weights.worst));
     }
     for (const StrategyFinding& finding : report.strategies) {
@@ -217,37 +217,37 @@ std::string verdict_text(const VerifyReport& report, const eval::VerifyOptions& 
         return "\nINCONCLUSIVE: no light reaches the camera\n";
     }
     if (report.verdict == eval::Verdict::inconclusive && !std::isfinite(report.detectable)) {
-        return "\nINCONCLUSIVE: nothing disagrees, but there are too few samples to tell what "
-               "would "
-               "have been found. Give it more --time\n";
+        return "\nINCONCLUSIVE: nothing disagrees, but there are too few samples to tell which "
+               "error would be found. Use more --time\n";
     }
     const std::string found = fmt::format(
         "errors of a strategy that change the image, or a channel of it, by {} would have been "
-        "found, by 90 %",
+        "found with 90 % probability",
         percent(report.detectable));
     if (!report.merges.empty() && report.verdict == eval::Verdict::inconclusive &&
         report.detectable <= options.detectable_bias) {
         return fmt::format(
-            "\nINCONCLUSIVE: nothing disagrees, but {}; {} is needed. Give it more --time, or "
-            "a greater --merge-radius\n",
+            "\nINCONCLUSIVE: nothing disagrees, but {}; {} is needed. Use more --time, or a larger "
+            "--merge-radius\n",
             std::isfinite(report.detectable_of_merging)
                 ? fmt::format(
-                      "of merging only an error by {} of what it brings would have been found",
+                      "of merging only an error by {} of its contribution would have been found",
                       percent(report.detectable_of_merging))
-                : "nothing else finds what is merged here",
+                : "no other strategy finds the light that is merged here",
             percent(eval::max_error_of_merging));
     }
     if (report.verdict == eval::Verdict::inconclusive) {
         return fmt::format(
-            "\nINCONCLUSIVE: nothing disagrees, but only {}; {} was asked for. The "
-            "noisiest is {}. Give it more --time\n",
+            "\nINCONCLUSIVE: nothing disagrees, but only {}; {} was asked for. The noisiest is {}. "
+            "Use more --time\n",
             found, percent(options.detectable_bias), noisiest(report));
     }
     const std::string merging =
         report.merges.empty()
             ? ""
             : fmt::format(
-                  "; merging brings {} of the image, and an error by {} of that would have been",
+                  "; merging contributes {} of the image, and an error by {} of that would have "
+                  "been",
                   percent(merged_light(report), report.radiance),
                   percent(report.detectable_of_merging));
     return fmt::format("\nPASS: all agree; {}{}\n", found, merging);
@@ -266,8 +266,8 @@ std::string verify_text(const VerifyReport& report, const eval::VerifyOptions& o
               integrators_text(report) + merges_text(report);
     if (report.unchecked > 1e-6) {
         result += fmt::format(
-            "\n{} of the light can be made by one strategy of bdpt only, and not by pt, nee or "
-            "mis: nothing checks it\n",
+            "\n{} of the light is found by one strategy of bdpt only, and not by pt, nee or mis: "
+            "nothing checks it\n",
             percent(report.unchecked));
     }
     return result + verdict_text(report, options);

@@ -55,7 +55,7 @@ void change_environment(LitScene& lit, const RenderArguments& arguments)
     }
     if (lit.sky == Sky::none) {
         lit.warnings.push_back(
-            fmt::format("{}: no environment: --env-rotation and --env-intensity do nothing",
+            fmt::format("{}: no environment: --env-rotation and --env-intensity have no effect",
                         arguments.file.string()));
     }
     for (LightDesc& light : lit.desc.lights) {
@@ -124,8 +124,8 @@ void add_lights(LitScene& lit, DefaultLights missing, const FramedView& framed,
     if (lit.sky == Sky::if_wanted) {
         lit.notes.push_back(
             has_light(lit.desc)
-                ? fmt::format("{}: no light but what glows: lit by the default environment, a soft "
-                              "sky (--env none leaves it out)",
+                ? fmt::format("{}: no light but emissive materials: lit by the default "
+                              "environment, a soft sky (--env none disables it)",
                               file)
                 : fmt::format("{}: no light: lit by the default environment, a soft sky (--env "
                               "chooses another)",
@@ -137,7 +137,7 @@ void add_lights(LitScene& lit, DefaultLights missing, const FramedView& framed,
     if (missing == DefaultLights::sky_and_lamp) {
         lit.notes.push_back(fmt::format(
             "{}: a closed room without light: a lamp was added at {:.3g},{:.3g},{:.3g} (--env none "
-            "takes it away)",
+            "removes it)",
             file, framed.lamp_position.x, framed.lamp_position.y, framed.lamp_position.z));
         lit.desc.lights.emplace_back(default_lamp(framed));
         ++lit.added;
@@ -239,7 +239,7 @@ PreparedScene prepare_scene(const RenderArguments& asked)
     std::vector<std::string> warnings;
     if (threads.allowed < threads.wanted) {
         warnings.push_back(
-            fmt::format("{} of {} threads work: the system limits how many this user or container "
+            fmt::format("using {} of {} threads: the system limits how many this user or container "
                         "may have",
                         threads.allowed, threads.wanted));
     }

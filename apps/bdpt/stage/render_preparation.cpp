@@ -76,7 +76,7 @@ std::shared_ptr<const SampleRates> prepare_rates(const RenderArguments& argument
             sample_rates(stage.scene, stage.camera, arguments.options));
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
         console.note(fmt::format(
-            "adaptive: {} to {} samples per pixel and round, {:.3f} in the mean, by a test render "
+            "adaptive: {} to {} samples per pixel and round, {:.3f} on average, by a test render "
             "of {} samples in {:.1f} s",
             rates->least(), rates->greatest(), rates->mean(), rate_pilot_samples, passed.count()));
         return rates;
@@ -153,8 +153,8 @@ RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stag
     constexpr double worth_telling = 0.01;
     if (choice.unseen_light >= worth_telling) {
         console.warning(fmt::format(
-            "about {:.2g} % of the light is missing: only --integrator vcm finds it "
-            "(caustics of the sun or of point lights, seen in mirrors or through glass)",
+            "about {:.2g} % of the light is missing: only --integrator vcm can sample it (caustics "
+            "of the sun or of point lights, seen in mirrors or through glass)",
             100.0 * choice.unseen_light));
     }
     arguments.options = choice.options;

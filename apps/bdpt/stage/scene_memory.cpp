@@ -67,13 +67,13 @@ std::uint64_t emissive_triangles(const SceneDesc& scene)
 void spend_building(io::MemoryBudget& memory, const SceneDesc& scene, Copies copies)
 {
     memory.spend(
-        "what lights are chosen by",
+        "the tables of light sampling",
         scene.lights.size() * light_bytes + emissive_triangles(scene) * emissive_triangle_bytes);
     if (scene.texture_filter == TextureFilter::mip_mapped) {
-        memory.spend("smaller copies of images", count_bytes(scene.images) / 3);
+        memory.spend("the mip maps of images", count_bytes(scene.images) / 3);
     }
     if (copies == Copies::two) {
-        memory.spend("a copy of the scene, to find out how it should be lit",
+        memory.spend("a copy of the scene, to choose its lighting",
                      count_bytes(scene.images) + count_bytes(scene.meshes) +
                          count_bytes(scene.volumes) + compute_size(scene.instances));
     }

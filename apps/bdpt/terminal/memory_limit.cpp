@@ -44,7 +44,7 @@ std::optional<std::uint64_t> address_space(const fs::path& root)
 io::MemoryLimit machine_memory(const fs::path& root)
 {
     io::MemoryLimit least{.bytes = std::numeric_limits<std::uint64_t>::max(),
-                          .source = "all that 64 bits can count",
+                          .source = "maximum of 64 bits",
                           .code = ErrorCode::out_of_memory};
     const auto add = [&](std::optional<std::uint64_t> bytes, const char* source) {
         if (bytes && *bytes < least.bytes) {

@@ -147,7 +147,7 @@ ViewSettings parse_settings(const Json& value)
             const auto [s, t] = pair_of_wholes(member, key);
             settings.strategy = Strategy{.s = s, .t = t};
         } else {
-            throw Error(ErrorCode::usage, fmt::format("\"{}\": is no setting", key));
+            throw Error(ErrorCode::usage, fmt::format("\"{}\": is not a setting", key));
         }
     }
     return settings;
@@ -196,7 +196,7 @@ PageRequest parse_request(std::string_view message)
     constexpr std::int64_t max_index = (std::int64_t{1} << 32) - 2;
     const Json value = Json::parse(message, nullptr, false);
     if (!value.is_object()) {
-        throw Error(ErrorCode::usage, "a request is a JSON object");
+        throw Error(ErrorCode::usage, "a request must be a JSON object");
     }
     PageRequest request;
     std::int64_t sample = 0;
@@ -218,7 +218,7 @@ PageRequest parse_request(std::string_view message)
         } else if (key == "sample") {
             sample = whole(member, key, max_index);
         } else {
-            throw Error(ErrorCode::usage, fmt::format("\"{}\": is no request", key));
+            throw Error(ErrorCode::usage, fmt::format("\"{}\": is not a request", key));
         }
     }
     if (request.inspect) {

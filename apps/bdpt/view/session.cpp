@@ -206,7 +206,7 @@ void Session::change_camera(const PageRequest& request)
     const RenderArguments& arguments = scene_.arguments();
     if (arguments.view.projection == Projection::orthographic) {
         throw Error(ErrorCode::usage,
-                    "--ortho frames all of the scene, so that it cannot be moved");
+                    "--ortho frames the whole scene; its camera cannot be moved");
     }
     const CameraDesc& camera = scene_.stage().camera;
     Pose pose = pose_ ? *pose_ : scene_.pose();
@@ -214,7 +214,7 @@ void Session::change_camera(const PageRequest& request)
         const auto [x, y] = *request.focus;
         const std::optional<Vec3> target = scene_.picked(x, y);
         if (!target) {
-            throw Error(ErrorCode::usage, "there is nothing but sky");
+            throw Error(ErrorCode::usage, "there is no surface here");
         }
         pose.look_at = *target;
         if (words_.has("--focus-distance")) {
@@ -250,7 +250,7 @@ void Session::check(const ViewSettings& settings) const
     }
     if (settings.layer == ViewLayer::rates && !scene_.arguments().rates) {
         throw Error(ErrorCode::usage,
-                    "\"layer\": rates of samples are there with --adaptive or --rates only");
+                    "\"layer\": rates of samples need --adaptive or --rates");
     }
     const std::vector<Strategy> there = known_strategies();
     if (settings.strategy &&

@@ -28,15 +28,15 @@ public:
             return;
         }
         if (ended_ || words.high <= last_) {
-            fail("has ids of a pixel that are not in order, or that come twice");
+            fail("has ids of a pixel that are not in ascending order");
         }
         const NameId id{static_cast<std::uint32_t>(words.high)};
         if (words.high > std::numeric_limits<std::uint32_t>::max() ||
             !std::binary_search(known_.begin(), known_.end(), id)) {
-            fail("has an id that no name has");
+            fail("has an id without a name");
         }
         if (words.low == 0 || words.low > left_) {
-            fail("has more rays that met an id than samples, or none");
+            fail("has an id without hits, or with more than samples");
         }
         last_ = words.high;
         left_ -= words.low;

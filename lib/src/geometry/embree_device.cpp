@@ -66,7 +66,8 @@ EmbreeDevice::EmbreeDevice(Isa isa) : isa_(isa)
         device_.reset(best.device);
         isa_ = best.isa;
         if (!device_) {
-            throw Error(ErrorCode::internal, "this CPU lacks what Embree was built for");
+            throw Error(ErrorCode::internal, "this CPU lacks the instruction set that Embree was "
+                                             "built for");
         }
         return;
     }

@@ -89,8 +89,7 @@ const PathVertex& checked_vertex(const Subpath& path, int vertex)
     if (!scatters(result.kind) || !result.connectible) {
         throw Error(ErrorCode::usage,
                     "vertex " + std::to_string(vertex) +
-                        " has no density of directions: it does not scatter, or by delta "
-                        "lobes alone");
+                        " has no directional pdf: it does not scatter, or only by delta lobes");
     }
     return result;
 }

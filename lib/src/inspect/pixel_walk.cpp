@@ -56,7 +56,7 @@ RenderOptions inspected_options(const Scene& scene, const CameraDesc& camera, Re
     if (options.integrator == IntegratorKind::vcm) {
         throw Error(
             ErrorCode::usage,
-            "vcm cannot be inspected: a path that it merges is not that of a strategy (s, t)");
+            "vcm cannot be inspected: its merged paths belong to no strategy (s, t)");
     }
     return options;
 }

@@ -68,8 +68,8 @@ constexpr std::array table{
         &make<BidirectionalIntegrator>},
     Row{{.kind = IntegratorKind::automatic,
          .name = to_name(IntegratorKind::automatic),
-         .summary = "mis, or bdpt with numbers of light paths and connections that suit the image, "
-                    "by a short test render",
+         .summary = "mis, or bdpt with suitable numbers of light paths and connections, chosen by "
+                    "a short test render",
          .traces_light_paths = true,
          .has_strategies = true},
         nullptr},  // `chosen_options` replaces it

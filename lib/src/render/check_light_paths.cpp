@@ -24,10 +24,10 @@ void check_merging(const RenderOptions& options)
 {
     const Heuristic heuristic = options.transport.heuristic;
     if (options.bidirectional.light_paths == 0.0) {
-        throw Error(ErrorCode::usage, "light_paths is 0, but vcm merges with them");
+        throw Error(ErrorCode::usage, "light_paths is 0, but vcm needs light paths");
     }
     if (heuristic != Heuristic::power && heuristic != Heuristic::balance) {
-        throw Error(ErrorCode::usage, "vcm weighs by the heuristic power or balance, not others");
+        throw Error(ErrorCode::usage, "vcm needs the heuristic power or balance");
     }
 }
 
@@ -38,7 +38,7 @@ void check_light_paths(const RenderOptions& options)
     const double light_paths = options.bidirectional.light_paths;
     const double connections = options.bidirectional.connections.value_or(0.0);
     if (light_paths == 0.0 && options.integrator == IntegratorKind::lt) {
-        throw Error(ErrorCode::usage, "light_paths is 0, but lt has no others");
+        throw Error(ErrorCode::usage, "light_paths is 0, but lt needs light paths");
     }
     if (options.integrator == IntegratorKind::vcm) {
         check_merging(options);
@@ -59,7 +59,7 @@ void check_light_paths(const RenderOptions& options)
                         "may take " + megabytes(bytes) +
                         ", more than the limit (light_path_memory) of " +
                         megabytes(options.bidirectional.light_path_memory) +
-                        ": fewer of them, or a smaller image, take less");
+                        ": use fewer, or a smaller image");
     }
 }
 

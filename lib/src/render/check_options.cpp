@@ -158,7 +158,8 @@ void check_motion(const std::string& item, const CameraDesc& camera)
         check_pose(step, camera.motion[i]);
         if (!can_move(i == 0 ? camera.world_from_camera : camera.motion[i - 1], camera.motion[i])) {
             throw Error(ErrorCode::invalid_input,
-                        step + ": on the way to it some transform has no inverse; give more steps");
+                        step + ": an interpolated transform before it has no inverse; use more "
+                               "steps");
         }
     }
 }
@@ -195,7 +196,7 @@ void check_options(const RenderOptions& options)
 void check_takes_rates(IntegratorKind integrator)
 {
     if (integrator == IntegratorKind::lt || integrator == IntegratorKind::vcm) {
-        throw Error(ErrorCode::usage, "rates of samples do not go with the integrator " +
+        throw Error(ErrorCode::usage, "rates of samples cannot be combined with the integrator " +
                                           std::string(info(integrator).name));
     }
 }
@@ -234,9 +235,8 @@ void check_camera_distance(const CameraDesc& camera, float farthest)
         if (!(distance <= farthest)) {
             std::ostringstream text;
             text << label(camera) << ": is " << distance << " m from the origin, but " << farthest
-                 << " m is the most in this scene, as a mesh that is used more than once or moves "
-                    "is "
-                    "scaled down very much";
+                 << " m is the most in this scene, because an instanced or moving mesh is scaled "
+                    "down very much";
             throw Error(ErrorCode::invalid_input, text.str());
         }
     };

@@ -198,7 +198,7 @@ EnclosingVolumes::Set EnclosingVolumes::containing(Vec3 p, Set bodies) const
     if (result.size() > max_depth) {
         throw Error(ErrorCode::invalid_input,
                     std::to_string(result.size()) +
-                        " bodies that light passes through lie one in the other at (" +
+                        " transmissive bodies are nested at (" +
                         std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
                         std::to_string(p.z) + "), but the limit is " + std::to_string(max_depth));
     }

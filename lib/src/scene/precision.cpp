@@ -74,7 +74,7 @@ std::optional<Vec3> find_position(const LightDesc& light)
 std::string known_to(const Placed& placed)
 {
     std::ostringstream text;
-    text << "points on it are known to " << placed.error << " m only, as it reaches "
+    text << "its points have a precision of " << placed.error << " m only, because it extends "
          << placed.distance << " m from the origin";
     return text.str();
 }
@@ -119,7 +119,7 @@ std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
             const std::string lamp = std::visit(
                 [i](const auto& light) { return light_label(light, i); }, desc.lights[i]);
             warnings.push_back(name(*coarsest) + ": " + known_to(*coarsest) + ", but " + lamp +
-                               " is nearer to it than that: its light may get lost");
+                               " is nearer to it than that: its light may be lost");
             break;
         }
     }

@@ -101,7 +101,7 @@ CameraDesc look_at(Vec3 from, Vec3 to, float vertical_fov)
     constexpr float vertical = 0.9999f;
     const Vec3 forward = to - from;
     if (!(glm::dot(forward, forward) > 0.0f)) {
-        throw Error(ErrorCode::usage, "a camera cannot look at where it stands");
+        throw Error(ErrorCode::usage, "a camera cannot look at its own position");
     }
     const Vec3 back = -glm::normalize(forward);
     const Vec3 up = std::abs(back.y) < vertical ? Vec3(0.0f, 1.0f, 0.0f) : Vec3(0.0f, 0.0f, -1.0f);

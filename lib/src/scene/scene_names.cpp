@@ -92,7 +92,7 @@ IdNames SceneNames::names(AovSet aovs) const
     if (text > max_text_bytes) {
         throw Error(ErrorCode::invalid_input, "the names of objects and materials have " +
                                                   std::to_string(text) +
-                                                  " bytes, but images of ids (Cryptomatte) hold " +
+                                                  " bytes, but Cryptomatte layers hold at most " +
                                                   std::to_string(max_text_bytes));
     }
     return result;

@@ -31,8 +31,8 @@ void WorldBuilder::find_enclosing_volumes()
     std::vector<std::uint32_t> instances = body_instances();
     if (instances.size() > EnclosingVolumes::most) {
         w.warnings_.push_back(std::to_string(instances.size()) +
-                              " bodies that light passes through are too many to find out which of "
-                              "them lies in which: all have air around them");
+                              " transmissive bodies are too many to find out which of them are "
+                              "nested: all are treated as surrounded by air");
     } else if (!instances.empty()) {
         w.bodies_ = find_bodies(std::move(instances));
         give_surroundings(w.bodies_->around);
@@ -107,8 +107,8 @@ void WorldBuilder::warn_of_open_volumes()
             world_.warnings_.push_back(
                 label("mesh", mesh, desc.meshes[mesh].name) + ": " + std::to_string(open) +
                 (open == 1 ? " edge is" : " edges are") +
-                " open, but its material has a thickness, which needs a closed "
-                "body: light may pass from its inside to its outside unrefracted");
+                " open, but its material has a thickness, which needs a closed mesh: light may "
+                "leave it without refraction");
         }
     }
 }

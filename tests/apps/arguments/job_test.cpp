@@ -176,7 +176,7 @@ TEST_CASE("mistakes in a job are told with their place", "[job]")
         CAPTURE(members, message);
         CHECK(message.find("jobs/a.json: " + text) != std::string::npos);
     };
-    told(R"("sppp": 3)", R"(/"sppp": is no option of a job (did you mean "spp"?))");
+    told(R"("sppp": 3)", R"(/"sppp": is not an option of a job (did you mean "spp"?))");
     told(R"("spp": 0)", "/spp: must be a whole number from 1 to 2147483648, but is 0");
     told(R"("spp": "64")", "/spp: must be a whole number");
     told(R"("spp": 1.5)", "/spp: must be a whole number");
@@ -187,10 +187,10 @@ TEST_CASE("mistakes in a job are told with their place", "[job]")
     told(R"("look_at": [0, 1])", "/look_at: must be three numbers x,y,z");
     told(R"("size": [640, "x"])", "/size: must be WIDTHxHEIGHT");
     told(R"("denoise": true, "denoiser_library": "evil.so")",
-         "/\"denoiser_library\": is no option");
-    told(R"("ktx_library": "evil.so")", "/\"ktx_library\": is no option");
-    told(R"("plan": "plan.json", "task": 0)", "/\"plan\": is no option of a job");
-    told(R"("quiet": true)", "/\"quiet\": is no option of a job");
+         "/\"denoiser_library\": is not an option");
+    told(R"("ktx_library": "evil.so")", "/\"ktx_library\": is not an option");
+    told(R"("plan": "plan.json", "task": 0)", "/\"plan\": is not an option of a job");
+    told(R"("quiet": true)", "/\"quiet\": is not an option of a job");
     const auto refused = [&](const std::string& text, const std::string& message, int code = 4) {
         CHECK(studio.refused(text, code).find(message) != std::string::npos);
     };
@@ -198,7 +198,7 @@ TEST_CASE("mistakes in a job are told with their place", "[job]")
             "/output/1: must be a text");
     refused("[]", "is not a job");
     refused("{}", "has no \"bdpt_job\"");
-    refused(R"({"bdpt_job": 2, "file": "x.gltf"})", "/bdpt_job: is format 2");
+    refused(R"({"bdpt_job": 2, "file": "x.gltf"})", "/bdpt_job: has format 2");
     refused(R"({"bdpt_job": "1"})", "/bdpt_job: must be an integer");
     refused(R"({"bdpt_job": 1})", "has no \"file\"");
     refused(R"({"bdpt_job": 1, "file": "a.json", "output": "o.exr"})", "/file: must be a scene");

@@ -51,7 +51,7 @@ TEST_CASE("a file of somebody else is not replaced by an image without a name", 
         CAPTURE(outcome.err);
         CHECK(outcome.exit_code == 6);
         CHECK(outcome.err ==
-              "bdpt: error: cube.png: is there already and was not written by bdpt: -o cube.png "
+              "bdpt: error: cube.png: exists and was not written by bdpt: -o cube.png "
               "replaces it, -o with another name keeps it\n");
         CHECK(read_text(desk.image) == contents);
     };

@@ -76,7 +76,7 @@ TEST_CASE("a render goes on with its part, and has the pixels of one without", "
           std::set<std::string>{"cube.bin", "cube.gltf", "whole.exr", "a.part.exr"});
     const Outcome second = render(
         folder, {"--part", part, "--spp", "12", "-o", path(folder, "a.exr"), "--aov", "albedo"});
-    CHECK(second.err.find("going on with " + part + ": it has the samples 0:5") !=
+    CHECK(second.err.find("resuming " + part + ": it has the samples 0:5") !=
           std::string::npos);
     CHECK(second.err.find("wrote " + part + ": samples 0:12") != std::string::npos);
     CHECK(pixels(folder, "a.exr") == pixels(folder, "whole.exr"));
@@ -154,8 +154,8 @@ TEST_CASE("parts of machines merge to the pixels of one render", "[part]")
     const Outcome step = run({"merge", b, a, a, e, "-o", ab});
     CAPTURE(step.err);
     CHECK(step.exit_code == 0);
-    CHECK(step.err.find(a + ": left out") != std::string::npos);
-    CHECK(step.err.find(e + ": left out") != std::string::npos);
+    CHECK(step.err.find(a + ": skipped") != std::string::npos);
+    CHECK(step.err.find(e + ": skipped") != std::string::npos);
     CHECK(run({"merge", d, ab, c, "-o", out, "-o", path(folder, "out.png")}).exit_code == 0);
     CHECK(pixels(folder, "out.exr") == pixels(folder, "whole.exr"));
     CHECK(read_exr(out).integer("bdpt.spp") == 12);
@@ -245,7 +245,7 @@ TEST_CASE("a second SIGTERM does not keep the part from being written", "[part]"
                              "2000000000", "--threads", "1", "--part", part}});
     command.wait_for("camera auto");
     command.send(SIGTERM);
-    command.wait_for("stopping after the pass in flight");
+    command.wait_for("stopping after the current pass");
     command.send(SIGTERM);
     const Outcome outcome = command.finish();
     CAPTURE(outcome.err);

@@ -105,8 +105,8 @@ TEST_CASE("what two scenes would write is refused before anything is rendered", 
             "a.gltf: cannot be both an input and an output");
     refused({"a.gltf", "b.gltf", "--stats", "s.json"}, "s.json: several scenes would write it");
     refused({"a.gltf", "b.gltf", "-o", "-"}, "-: several scenes would write it");
-    refused({"a.gltf", "-", "-o", "out/{name}.png"}, "-: only files of scenes");
-    refused({"a.gltf", "job.json", "-o", "out/{name}.png"}, "job.json: only files of scenes");
+    refused({"a.gltf", "-", "-o", "out/{name}.png"}, "-: only scene files");
+    refused({"a.gltf", "job.json", "-o", "out/{name}.png"}, "job.json: only scene files");
     refused({"a.gltf", "b.gltf", "--part", "{name}.part.exr"}, "--part is for one scene");
     refused({"a.gltf", "b.gltf", "--save-job", "j.json"}, "--save-job is for one scene");
 }

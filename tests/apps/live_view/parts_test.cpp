@@ -241,9 +241,9 @@ TEST_CASE("requests of pages are checked", "[live_view]")
     CHECK(set.settings->layer == ViewLayer::noise);
     CHECK(parse_request(R"({"inspect": [3, 4], "sample": 9})").inspect->index == 9);
 
-    CHECK(message_of("") == "a request is a JSON object");
-    CHECK(message_of("[1]") == "a request is a JSON object");
-    CHECK(message_of(R"({"sew": 1})") == "\"sew\": is no request");
+    CHECK(message_of("") == "a request must be a JSON object");
+    CHECK(message_of("[1]") == "a request must be a JSON object");
+    CHECK(message_of(R"({"sew": 1})") == "\"sew\": is not a request");
     for (const char* wrong :
          {R"({"seq": -1})", R"({"seq": 4294967296})", R"({"move": 3})",
           R"({"move": {"orbit": [1]}})", R"({"move": {"orbit": [1, "2"]}})",

@@ -273,7 +273,7 @@ TEST_CASE("words about plans of frames that make no sense are refused", "[plan]"
             {"broken.json: /tasks/1/images: must be a range of the 1 images, but is \"1:2\""});
     json images = plan_of(folder)["images"];
     images.push_back(images.back());
-    checked(broken({{"images", images}}), 4, {"it has 4 images, and its words 3"});
+    checked(broken({{"images", images}}), 4, {"it has 4 images, but its options give 3"});
 }
 
 TEST_CASE("tasks share all images and samples out, and take about one time")

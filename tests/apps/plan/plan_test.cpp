@@ -310,7 +310,7 @@ TEST_CASE("merge waits for the parts that are named, without a plan, too", "[pla
     };
     render("0:4", a);
     check_refused(run({"merge", a, b, "-o", out}), 3, {"b.part.exr"});
-    check_refused(run({"merge", b, "-o", out, "--wait=1s"}), 12, {"none of the parts is there"});
+    check_refused(run({"merge", b, "-o", out, "--wait=1s"}), 12, {"no part was found"});
     // a is complete as far as it knows, but b was named, too.
     Subprocess waiting(Launch{.arguments = {"merge", a, b, "-o", out, "--wait"}});
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -366,7 +366,7 @@ TEST_CASE("words about plans that make no sense are refused, and nothing is writ
             6, {"no"});
     refused({"-d", path(folder, "cube.bin"), "-o", path(folder, "out.exr"), "--for", "make",
              "--parts", "2"},
-            6, {"cube.bin: cannot write: this is no folder"});
+            6, {"cube.bin: cannot write: this is not a folder"});
 
     checked(plan(folder, {}));
     const std::string file = path(folder, "job/plan.json");
@@ -379,16 +379,16 @@ TEST_CASE("words about plans that make no sense are refused, and nothing is writ
     check_refused(run({"render", "--plan", path(folder, "x.json"), "--task", "0"}), 3,
                   {"x.json: no such file"});
     check_refused(run({"render", "--plan", path(folder, "cube.gltf"), "--task", "0"}), 4,
-                  {"cube.gltf: is no plan of bdpt plan"});
+                  {"cube.gltf: is not a plan of bdpt plan"});
     json other = json::parse(read_text(file));
     for (const json& format : {json(99), json("new"), json(2.5)}) {
         other["format"] = format;
         write_text(folder / "job" / "plan.json", other.dump());
         check_refused(render_task(folder, "0"), 4,
-                      {"plan.json: is no plan of bdpt plan: format ", "this program knows 2"});
+                      {"plan.json: is not a plan of bdpt plan: format ", "this program reads 2"});
     }
     write_text(folder / "job" / "plan.json", "{}");
-    check_refused(render_task(folder, "0"), 4, {"plan.json: is no plan of bdpt plan"});
+    check_refused(render_task(folder, "0"), 4, {"plan.json: is not a plan of bdpt plan"});
     write_text(folder / "job" / "plan.json", "");
     check_refused(render_task(folder, "0"), 4,
                   {"plan.json: JSON: byte 1: line 1, column 1: unexpected end of input"});

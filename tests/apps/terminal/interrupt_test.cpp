@@ -61,7 +61,7 @@ TEST_CASE("a second signal ends the render at once, with nothing half-written")
     Subprocess command(Launch{.arguments = words});
     command.wait_for("camera auto");
     command.send(SIGINT);
-    command.wait_for("stopping after the pass in flight");
+    command.wait_for("stopping after the current pass");
     command.send(SIGTERM);
     const Outcome outcome = command.finish();
     CAPTURE(outcome.out, outcome.err);
@@ -77,7 +77,7 @@ TEST_CASE("a terminal that is closed sends SIGHUP more than once, and the image 
     Subprocess command(Launch{.arguments = words});
     command.wait_for("camera auto");
     command.send(SIGHUP);
-    command.wait_for("stopping after the pass in flight");
+    command.wait_for("stopping after the current pass");
     command.send(SIGHUP);
     command.send(SIGTERM);
     const Outcome outcome = command.finish();

@@ -286,8 +286,8 @@ TEST_CASE("what cannot be developed is refused", "[develop]")
         CHECK(said.find(message) != std::string::npos);
     };
     refused({"image.exr", "-o", "a.png", "--background", "white"}, 4,
-            "--background \"#ffffff\": image.exr shows the environment");
-    refused({"image.exr", "-o", "a.exr"}, 2, "a.exr: develop writes pictures for screens");
+            "--background \"#ffffff\": image.exr contains the environment");
+    refused({"image.exr", "-o", "a.exr"}, 2, "a.exr: develop writes display images");
     refused({"image.exr", "-o", "a.png", "-o", "a.png"}, 2, "named twice");
     refused({"clear.exr", "-o", "a.jpg"}, 2, "a.jpg: JPEG has no alpha");
     refused({"image.exr", "-o", "a.png", "--denoise=layer"}, 2, "--denoise \"layer\"");

@@ -216,7 +216,7 @@ TEST_CASE("options --env-rotation and --env-intensity change the environment")
     const Outcome none =
         cube.render({"--env", "none", "--env-rotation", "90", "-o", cube.path("out.exr")});
     CHECK(none.exit_code == 0);
-    CHECK(none.err.find("--env-rotation and --env-intensity do nothing") != std::string::npos);
+    CHECK(none.err.find("--env-rotation and --env-intensity have no effect") != std::string::npos);
 }
 
 TEST_CASE("options --fog fill the scene")

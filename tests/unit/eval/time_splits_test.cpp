@@ -85,7 +85,7 @@ TEST_CASE("a benchmark measures once where the time of each integrator goes")
             FAIL("it was taken");
         } catch (const Error& error) {
             CHECK(error.code() == ErrorCode::invalid_input);
-            CHECK(std::string(error.what()).find("bdpt-time.json: is of another integrator") !=
+            CHECK(std::string(error.what()).find("bdpt-time.json: is of a different integrator") !=
                   std::string::npos);
         }
     }

@@ -214,15 +214,15 @@ TEST_CASE("planes that no film has are refused", "[ids]")
     };
     // Pixel 0 of the ranks 0, 1 and 2 is at 0, 3 and 6.
     CHECK(message([](auto&) {}) == "none");
-    CHECK(message([](auto&) {}, 8).find("more rays") != std::string::npos);
-    CHECK(message([](auto& p) { p[6].low = 0; }).find("or none") != std::string::npos);
-    CHECK(message([](auto& p) { p[6].low = ~std::uint64_t{0}; }).find("more rays") !=
+    CHECK(message([](auto&) {}, 8).find("with more than") != std::string::npos);
+    CHECK(message([](auto& p) { p[6].low = 0; }).find("without hits") != std::string::npos);
+    CHECK(message([](auto& p) { p[6].low = ~std::uint64_t{0}; }).find("with more than") !=
           std::string::npos);
     CHECK(message([](auto& p) { std::swap(p[0], p[3]); }).find("order") != std::string::npos);
-    CHECK(message([](auto& p) { p[3] = p[0]; }).find("twice") != std::string::npos);
+    CHECK(message([](auto& p) { p[3] = p[0]; }).find("ascending order") != std::string::npos);
     CHECK(message([](auto& p) { p[3] = {}; }).find("order") != std::string::npos);
-    CHECK(message([](auto& p) { p[6].high += 1; }).find("no name") != std::string::npos);
-    CHECK(message([](auto& p) { p[6].high += std::uint64_t{1} << 32; }).find("no name") !=
+    CHECK(message([](auto& p) { p[6].high += 1; }).find("without a name") != std::string::npos);
+    CHECK(message([](auto& p) { p[6].high += std::uint64_t{1} << 32; }).find("without a name") !=
           std::string::npos);
     CHECK(message([](auto& p) { p[6].high = 0; }) != "none");
 }

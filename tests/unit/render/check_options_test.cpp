@@ -125,10 +125,10 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
               }).find("merge_alpha is ") == 0);
     }
     CHECK(vcm_refusal([](auto& o) { o.bidirectional.light_paths = 0.0; }) ==
-          "light_paths is 0, but vcm merges with them");
+          "light_paths is 0, but vcm needs light paths");
     for (const Heuristic heuristic : {Heuristic::cutoff, Heuristic::maximum, Heuristic::uniform}) {
         CHECK(vcm_refusal([&](auto& o) { o.transport.heuristic = heuristic; }) ==
-              "vcm weighs by the heuristic power or balance, not others");
+              "vcm needs the heuristic power or balance");
     }
     CHECK(vcm_refusal([](auto& o) {
               o.bidirectional.light_path_memory = 1'000'000;

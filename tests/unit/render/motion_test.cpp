@@ -242,14 +242,14 @@ TEST_CASE("motions that make no sense are refused by name", "[motion][validate]"
     const auto last = [](SceneDesc& d) -> InstanceDesc& { return d.instances.back(); };
     check_refused("motion, step 1: transform is not finite",
                   [&](SceneDesc& d) { last(d).motion[1][3].x = nan; });
-    check_refused("motion, step 0: on the way to it some transform has no inverse",
+    check_refused("motion, step 0: an interpolated transform before it has no inverse",
                   [&](SceneDesc& d) { last(d).motion[0] *= -1.0f; });
     check_refused("motion of 129 steps, but 128 is the most",
                   [](SceneDesc& d) { d.instances[0].motion.assign(129, Mat4(1.0f)); });
     check_refused("motion of 3 steps, but its mesh has 2",
                   [&](SceneDesc& d) { last(d).motion.push_back(last(d).motion.back()); });
     check_refused(": reaches 2e+15 m", [&](SceneDesc& d) { last(d).motion[0][3].y = 2e15f; });
-    check_refused("as a mesh that is used more than once or moves is scaled down very much",
+    check_refused("because an instanced or moving mesh is scaled down very much",
                   [](SceneDesc& d) {
                       d.instances[0].motion.assign(1, glm::scale(Mat4(1.0f), Vec3(1e-16f, 1, 1)));
                       d.instances[0].world_from_object = d.instances[0].motion[0];

@@ -253,7 +253,8 @@ TEST_CASE("what rates do not go with is refused", "[rates]")
     for (const IntegratorKind kind : {IntegratorKind::lt, IntegratorKind::vcm}) {
         other = o;
         other.integrator = kind;
-        CHECK(refusal(scene, other).find("do not go with the integrator") != std::string::npos);
+        CHECK(refusal(scene, other).find("cannot be combined with the integrator") !=
+              std::string::npos);
         other.sampling.rates.reset();
         CHECK_THROWS_AS(sample_rates(scene, room_camera(), other), Error);
     }

@@ -107,8 +107,8 @@ TEST_CASE("what is small for its distance is named", "[precision]")
         glm::translate(Mat4(1.0f), Vec3(1e8f, 0.0f, 0.0f));
     const std::vector<std::string> warnings = warnings_of(builder.desc);
     REQUIRE(warnings.size() == 1);
-    CHECK(warnings[0].find("instance 0 \"house\": is 2 m large, but points on it are known to 7") ==
-          0);
+    CHECK(warnings[0].find("instance 0 \"house\": is 2 m large, but its points have a precision of "
+                           "7") == 0);
     CHECK(warnings[0].find("1e+08 m from the origin") != std::string::npos);
     CHECK(Scene(builder.desc).warnings() == warnings);
     CHECK(warnings_of(wall(1e8f, test::lambertian(Rgb(0.5f))).desc).empty());
@@ -127,7 +127,7 @@ TEST_CASE("a lamp that is too near to a vast plane is named", "[precision]")
     CHECK(with_lamp(1e8f, 200.0f).empty());
     const std::vector<std::string> warnings = with_lamp(1e8f, 2.0f);
     REQUIRE(warnings.size() == 1);
-    CHECK(warnings[0].find("instance 0: points on it are known to 7") == 0);
+    CHECK(warnings[0].find("instance 0: its points have a precision of 7") == 0);
     CHECK(warnings[0].find("but point light 0 \"lamp\" is nearer") != std::string::npos);
 }
 

@@ -103,7 +103,7 @@ TEST_CASE("everything is within reach of rays", "[validate]")
     };
     CHECK(refusal(scale(1e-17f, 1)).empty());
     check_refused(
-        "is the most, as a mesh that is used more than once or moves is scaled down very much",
+        "is the most, because an instanced or moving mesh is scaled down very much",
         scale(1e-18f, 2));
     CHECK(refusal(scale(1e-6f, 2)).empty());
 }
@@ -200,9 +200,9 @@ TEST_CASE("lights and images", "[validate]")
     check_refused("volume 0 \"smoke\": albedo is 2", volume([](VolumeDesc& v) { v.albedo.g = 2; }));
     check_refused("volume 0 \"smoke\": anisotropy is 1",
                   volume([](VolumeDesc& v) { v.anisotropy = 1; }));
-    check_refused("volume 0 \"smoke\": its greatest extinction",
+    check_refused("volume 0 \"smoke\": its maximum extinction",
                   volume([](VolumeDesc& v) { v.extinction.g = 1e38f; }));
-    check_refused("volume 0 \"smoke\": its greatest extinction",
+    check_refused("volume 0 \"smoke\": its maximum extinction",
                   volume([](VolumeDesc& v) { v.density[0] = 1e6f; }));
     check_refused("volume 0 \"smoke\": reaches",
                   volume([](VolumeDesc& v) { v.world_from_grid[3].x = 1e30f; }));

@@ -117,24 +117,24 @@ void add_camera_options(OptionList& options, std::optional<std::string>& camera,
                 "Camera of the scene, or auto to frame all of it. Default: the first", camera,
                 any_text());
     options.add("--view", "SIDE|AZIMUTH,ELEVATION",
-                "Frame all of the scene from the front (+z), right (+x), back, left, top, bottom "
-                "or three-quarter, or by angles [degrees]: the azimuth counts from the front to "
-                "the right, the elevation upwards",
+                "Frame the whole scene from the front (+z), right (+x), back, left, top, bottom or "
+                "three-quarter, or by angles [degrees]: azimuth from the front to the right, "
+                "elevation upwards",
                 view.direction, view_direction());
     options.add("--margin", "M%",
-                "Frame all of the scene, and leave that share of the width and height free on each "
-                "side. Default: 10%",
+                "Frame the whole scene with this margin on each side, relative to width and "
+                "height. Default: 10%",
                 view.margin, margin());
     const Choices<Projection> projections{
         {{"true", Projection::orthographic}, {"false", Projection::perspective}}};
-    options.add_flag("--ortho", "Frame all of the scene by an orthographic camera", view.projection,
-                     projections.type());
-    options.add("--from", "X,Y,Z", "Move the camera here [m]", view.from, point());
-    options.add("--look-at", "X,Y,Z", "Turn the camera to this point [m]", view.look_at, point());
+    options.add_flag("--ortho", "Frame the whole scene with an orthographic camera",
+                     view.projection, projections.type());
+    options.add("--from", "X,Y,Z", "Position of the camera [m]", view.from, point());
+    options.add("--look-at", "X,Y,Z", "Point that the camera looks at [m]", view.look_at, point());
     options.add("--fov", "DEG", "Vertical field of view [degrees]", view.vertical_fov,
                 field_of_view());
     options.add("--focal-length", "MM",
-                "The same by the focal length of a lens before a sensor 24 mm high [mm]",
+                "Field of view by focal length, for a sensor 24 mm high [mm]",
                 view.vertical_fov, focal_length());
 }
 
@@ -150,7 +150,7 @@ void check_camera_options(const OptionList& options, const std::optional<std::st
         check(others, options);
         if (options.given(framing) && camera && *camera != "auto") {
             throw OptionError(fmt::format(
-                "{} frames all of the scene and cannot be combined with --camera \"{}\"", framing,
+                "{} frames the whole scene and cannot be combined with --camera \"{}\"", framing,
                 *camera));
         }
     }

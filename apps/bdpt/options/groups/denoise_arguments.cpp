@@ -13,17 +13,17 @@ void add_denoise_options(OptionList& options, DenoiseArguments& denoise)
                                      {"true", DenoisedAs::image}}};  // without a value
     Option& flag = options.add_flag(
         "--denoise",
-        "Denoise the image by Open Image Denoise 2, with the layers albedo and "
-        "normal; .exr keeps the noisy one as layer \"noisy\". As --denoise=layer the "
-        "other way round: .exr gets the layer \"denoised\"",
+        "Denoise the image with Open Image Denoise 2, guided by albedo and normal; .exr keeps the "
+        "noisy image as layer \"noisy\". With --denoise=layer .exr stays noisy and gets the layer "
+        "\"denoised\"",
         denoise.as,
         ValueType<DenoisedAs>{
             .parse = kinds.type().parse, .expected = "image or layer", .info = kinds.type().info});
     flag.uses.plan_render = true;  // its layers are needed for merging
     Option& library =
         options.add("--denoiser-library", "FILE|DIR",
-                    "Open Image Denoise 2, a file or its folder. Default: libOpenImageDenoise.so.2 "
-                    "where the system finds it, in a Python environment that of pyoidn",
+                    "Open Image Denoise 2: the library or its folder. Default: the system's "
+                    "libOpenImageDenoise.so.2; in a Python environment, that of pyoidn",
                     denoise.library, some_text("a file or a folder"));
     library.uses = {.python_save = true, .job = false};  // no file may choose code to load
 }

@@ -100,11 +100,10 @@ void add_display_options(OptionList& options, DisplayArguments& display)
 {
     Option& exposure = options.add(
         "--exposure", "EV|auto|light",
-        "Exposure of .png, .jpg and .webp: pixels times 2^EV, by how bright the image is (auto), "
-        "or "
-        "by the light that falls in, so that a white card comes out white (light); auto+1 or "
-        "light-0.5 is that and more or less, +1 alone is 1 EV. Default: light with --background, "
-        "--orbit and --frames, and under the default sky and the studio; else auto",
+        "Exposure of .png, .jpg and .webp: pixels times 2^EV, metered from the image (auto), or "
+        "from the incident light, so that a white card appears white (light); auto+1 or light-0.5 "
+        "adds an offset, +1 alone is 1 EV. Default: light with --background, --orbit and --frames, "
+        "and under the default sky and the studio; else auto",
         display.exposure,
         parsed_by(parse_exposure,
                   "EV from -100 to 100, auto or light, or one of these plus or minus EV, like "
@@ -120,10 +119,9 @@ void add_display_options(OptionList& options, DisplayArguments& display)
                 display.curve, curves.type());
     Option& background = options.add(
         "--background", "transparent|black|white|#RRGGBB|FILE",
-        "Leave out the environment where the camera sees it directly; it still lights the scene. "
-        ".exr gets alpha (colours are premultiplied), .png and .webp get alpha (transparent) or "
-        "that "
-        "sRGB colour there, or a photograph (.png, .jpg, .webp, .exr, .hdr) that fills the frame",
+        "Replace the environment where the camera sees it directly; it still lights the scene. "
+        ".exr gets alpha (premultiplied colours); .png and .webp get alpha (transparent), this "
+        "sRGB colour, or a photograph (.png, .jpg, .webp, .exr, .hdr) that fills the frame",
         display.backdrop,
         parsed_by(
             [](const std::string& text) { return parse_backdrop(text); },
@@ -133,7 +131,7 @@ void add_display_options(OptionList& options, DisplayArguments& display)
     background.uses.plan_render = true;    // its alpha is needed for merging
     background.uses.python_render = true;  // and for save()
     const Choices<TexelType> depths{{{"8", TexelType::unorm8}, {"16", TexelType::unorm16}}};
-    options.add("--png-bits", "8|16", "Bits of each channel of .png: 8 (default) or 16",
+    options.add("--png-bits", "8|16", "Bits per channel of .png: 8 (default) or 16",
                 display.type, depths.type());
 }
 

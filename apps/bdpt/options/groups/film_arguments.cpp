@@ -106,10 +106,9 @@ void add_ground_option(OptionList& options, Ground& ground)
 {
     const Choices<Ground> grounds{{{"shadow", Ground::shadow}, {"none", Ground::none}}};
     options.add("--ground", "shadow|none",
-                "shadow: catch the shadow of the scene on a level ground that is not seen itself, "
-                "and is in no reflection. The shadow is black, and adds to the alpha of "
-                "--background, which has to be given; .exr also gets it as layer shadow.A. none "
-                "(default)",
+                "shadow: shadow catcher, a horizontal ground that is invisible itself, also in "
+                "reflections. The shadow is black and adds to the alpha of --background, which is "
+                "required; .exr also gets it as layer shadow.A. Default: none",
                 ground, grounds.type());
 }
 
@@ -122,7 +121,7 @@ FilmOptions with_ground(Ground ground, FilmOptions film, const OptionList& optio
         return film;
     }
     static constexpr std::array needs{
-        Need{"--ground", "--background", "a shadow is on nothing else"}};
+        Need{"--ground", "--background", "the shadow adds to its alpha"}};
     static constexpr std::array conflicts{Conflict{"--ground", "--fog"},
                                           Conflict{"--ground", "--volume"}};
     check(needs, options);

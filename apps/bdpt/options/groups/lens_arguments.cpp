@@ -85,8 +85,8 @@ CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& sce
     }
     if (camera.projection == Projection::orthographic) {
         throw Error(ErrorCode::usage,
-                    fmt::format("camera {} is orthographic and has no lens: --lens-radius, "
-                                "--f-stop and --focus-distance need another",
+                    fmt::format("camera {} is orthographic: --lens-radius, --f-stop and "
+                                "--focus-distance need a perspective camera",
                                 camera.name));
     }
     const bool had_lens = camera.lens_radius > 0.0f;
@@ -101,7 +101,7 @@ CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& sce
         const std::optional<float> depth = depth_in_the_middle(scene, camera);
         if (!depth) {
             throw Error(ErrorCode::usage,
-                        "nothing is in the middle of the view to focus on; give --focus-distance");
+                        "no surface is at the image centre to focus on; give --focus-distance");
         }
         camera.focus_distance = *depth;
     }

@@ -31,8 +31,7 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
     options.add("--variant", "NAME|INDEX", "Material variant. Default: the materials of the meshes",
                 scene.variant, any_text());
     options.add("--frame-time", "SECONDS",
-                "Time of the animation to render [s]. Without this and --animation nothing is "
-                "animated",
+                "Animation time to render [s]. Without this and --animation nothing is animated",
                 scene.time, finite_number("a finite number of seconds"));
     options.add("--animation", "NAME|INDEX|all",
                 "Animation for --frame-time, or all. Default: the first", scene.animation,
@@ -45,19 +44,19 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
                           "seconds from 0, or OPEN,CLOSE with OPEN not after CLOSE"));
     Option& library =
         options.add("--ktx-library", "FILE|DIR",
-                    "libktx 4, which decodes KTX2 textures (KHR_texture_basisu), a file or its "
-                    "folder. Default: libktx.so.4 where the system finds it",
+                    "libktx 4 for KTX2 textures (KHR_texture_basisu): the library or its folder. "
+                    "Default: the system's libktx.so.4",
                     scene.ktx_library, some_text("a file or a folder"));
     library.uses.plan_render = false;  // no file may choose code to load
     library.uses.job = false;
     options.add_flag("--ignore-required",
-                     "Render files that require extensions which bdpt does not support, or libktx "
-                     "where there is none, without what these add",
+                     "Render files that require unsupported extensions, or libktx where it is "
+                     "missing, without these features",
                      scene.ignore_required);
     options.add("--max-memory", "SIZE",
-                "Refuse scenes that need more memory than this, like 500M or 2G; a render counts "
-                "its film and layers, too. Default, and never more: what the machine has free, the "
-                "container is allowed and ulimit -v leaves",
+                "Refuse scenes that need more memory than this, like 500M or 2G; a render includes "
+                "its film and layers. Default and maximum: free memory, within the limits of the "
+                "container and of ulimit -v",
                 max_memory,
                 parsed_by([](const std::string& text) { return parse_bytes(text); },
                           "a size like 500M or 2G"));

@@ -75,44 +75,42 @@ void add_sequence_options(OptionList& options, Sequence& sequence)
                     {.plan_render = true});
     options
         .add("--frames", "A:B[:S]",
-             "Render the frames A to B, B included, or every S-th of them: frame 12 with 24 "
-             "frames a second is at 0.5 s of the animation, or --frame-time after that; its "
-             "file is out.0012.exr for -o out.####.exr. With --orbit: these of its views",
+             "Render frames A to B (inclusive), or every S-th: with --fps 24, frame 12 is at 0.5 s "
+             "of the animation, plus --frame-time; its file is out.0012.exr for -o out.####.exr. "
+             "With --orbit: these of its views",
              sequence.frames,
              parsed_by([](const std::string& text) { return parse_frames(text); },
                        "whole numbers FIRST:LAST or FIRST:LAST:STEP, like 1:24, with FIRST not "
                        "above LAST"))
         .uses.python_render = true;
-    options.add("--fps", "F", "Frames a second for --frames, like 24 or 24000/1001", sequence.fps,
+    options.add("--fps", "F", "Frames per second of --frames, like 24 or 24000/1001", sequence.fps,
                 parsed_by([](const std::string& text) { return parse_rate(text); },
-                          "frames a second, like 24 or 24000/1001"));
+                          "frames per second, like 24 or 24000/1001"));
     options
         .add("--orbit", "N",
-             "Turntable: N views, numbered from 1, by a camera that goes once around the "
-             "vertical axis through --look-at or, without it, what it looks at",
+             "Turntable: N views, numbered from 1; the camera orbits once about the vertical axis "
+             "through --look-at or, by default, its target",
              sequence.orbit, whole_number(1, max_frames))
         .uses.python_render = true;
     const Choices<TurntableMotion> motions{
         {{"camera", TurntableMotion::camera}, {"object", TurntableMotion::object}}};
     options
         .add("--turn", choice_text(motions.words()),
-             "What turns with --orbit: the camera, around an object whose light stays with it "
-             "(default), or the object, before a camera and an environment that stand still; "
-             "lamps of the file turn with it",
+             "What --orbit turns: the camera, with lighting fixed to the object (default), or the "
+             "object and the lamps of the file, before a fixed camera and environment",
              sequence.motion, motions.type())
         .uses.python_render = true;
     const Choices<SequenceCameras> cameras{{{"all", SequenceCameras::all}}};
     options.add("--cameras", "all",
-                "Render what each camera of the scene sees; {camera} in names of files becomes its "
-                "name, or its index if it has none",
+                "Render the view of each camera; {camera} in file names becomes the camera's name, "
+                "or its index if it has none",
                 sequence.cameras, cameras.type());
     const Choices<SequenceNoise> noises{
         {{"true", SequenceNoise::same}, {"false", SequenceNoise::fresh}}};
     options
         .add_flag("--same-noise",
-                  "Give all frames the same random numbers: noise stands still, like dirt on a "
-                  "window, and does not average out. Default with --denoise, for what is left of "
-                  "noise flickers more than it shows; --same-noise=false takes it away",
+                  "Use the same random numbers for all frames: noise becomes a static pattern "
+                  "instead of flickering. Default with --denoise; --same-noise=false turns it off",
                   sequence.noise, noises.type())
         .uses.python_render = true;
 }

@@ -101,12 +101,12 @@ std::optional<std::string> warning_of_flicker(const RenderArguments& arguments, 
     const ExposureBase base =
         arguments.display.exposure ? arguments.display.exposure->base : ExposureBase::light;
     if (base == ExposureBase::automatic) {
-        return "each .png file has an exposure of its own, so that frames may flicker; --exposure "
-               "EV gives all the same";
+        return "each .png file has its own exposure, so frames may flicker; --exposure EV sets the "
+               "same for all";
     }
     if (base == ExposureBase::light && by == FramesBy::tasks && arguments.sequence->orbit == 0) {
-        return "each task meters the light of its first frame, so that frames may flicker; "
-               "--exposure EV gives all the same";
+        return "each task meters the light of its first frame, so frames may flicker; --exposure "
+               "EV sets the same for all";
     }
     return std::nullopt;
 }

@@ -17,14 +17,15 @@ void add_strategy_options(OptionList& options, StrategyFiles& strategies)
 {
     add_strategy_file_option(
         options, strategies,
-        "Write an image of each strategy (bdpt, lt) to this .exr: layers like s02t03 (weighted: "
-        "its part of the image) and s02t03.unweighted (alone); and a contact sheet of all as .png");
+        "Write an image of each strategy (bdpt, lt) to this .exr: layers like s02t03 "
+        "(MIS-weighted: its part of the image) and s02t03.unweighted, and a .png contact sheet of "
+        "all");
     constexpr int most = 100;  // larger sheets are unreadable
     Option& depth =
         options.add("--strategy-depth", "N",
-                    fmt::format("Longest paths, in edges, of --strategies. Default: {}, or fewer "
-                                "to stay below 4 GB. With --part alone: keep these images in the "
-                                "part",
+                    fmt::format("Maximum path length, in edges, of --strategies. Default: {}, or "
+                                "less to stay below 4 GB. With --part alone: keep these images in "
+                                "the part",
                                 default_strategy_depth),
                     strategies.depth, whole_number(1, most));
     depth.uses = {};

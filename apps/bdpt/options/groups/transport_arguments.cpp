@@ -178,7 +178,7 @@ void add_transport_options(OptionList& options, RenderOptions& render, PathsOnly
         {{"direct", PathsOnly::direct}, {"indirect", PathsOnly::indirect}}};
     options.add("--only", "direct|indirect",
                 "direct: emission and direct light (paths of 1 or 2 edges); indirect: longer "
-                "paths, up to --max-depth. The two images add up to the whole",
+                "paths, up to --max-depth. The two images sum to the full image",
                 only, which.type());
     add_fields(options, render.bidirectional);
 }

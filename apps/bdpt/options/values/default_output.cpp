@@ -18,8 +18,8 @@ fs::path default_output(const fs::path& file)
     const bool is_free = there.type() == fs::file_type::not_found;
     if (!is_free && !(fs::is_regular_file(there) && io::is_png_of_bdpt(output))) {
         throw Error(ErrorCode::output,
-                    fmt::format("{0}: is there already and was not written by bdpt: -o {0} "
-                                "replaces it, -o with another name keeps it",
+                    fmt::format("{0}: exists and was not written by bdpt: -o {0} replaces it, -o "
+                                "with another name keeps it",
                                 output.string()));
     }
     return output;

@@ -59,7 +59,7 @@ fs::path with_number(const fs::path& file, int number)
     const std::size_t end = std::min(name.find_first_not_of('#', begin), name.size());
     if (name.find('#', end) != std::string::npos) {
         throw OptionError(fmt::format(
-            "{}: expected one run of # in the name, for the number of a frame", file.string()));
+            "{}: expected one run of # in the name, for the frame number", file.string()));
     }
     const std::string digits =
         fmt::format("{}{:0{}}", number < 0 ? "-" : "", std::abs(std::int64_t{number}), end - begin);

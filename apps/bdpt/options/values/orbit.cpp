@@ -17,8 +17,8 @@ Vec3 orbit_center(const CameraDesc& camera, const std::optional<Vec3>& look_at, 
     const float distance = glm::dot(middle - eye, forward);
     if (!(distance > 0.0f)) {
         throw Error(ErrorCode::usage,
-                    fmt::format("camera {} looks away from the middle of the scene: --orbit needs "
-                                "--look-at, the point to go around",
+                    fmt::format("camera {} looks away from the centre of the scene: --orbit needs "
+                                "--look-at, the point to orbit",
                                 camera.name));
     }
     return eye + distance * forward;

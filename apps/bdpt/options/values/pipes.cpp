@@ -35,7 +35,7 @@ void check_pipes(std::span<const fs::path> inputs, std::span<const fs::path> out
         throw OptionError("-: the standard input can be used only once");
     }
     if (format == Format::json && use_standard_output(outputs)) {
-        throw OptionError("--json: its lines go to the standard output, where another output goes");
+        throw OptionError("--json: its lines go to the standard output, which another output uses");
     }
 }
 

@@ -49,7 +49,7 @@ StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
     const std::uint64_t bytes = bytes_up_to(wanted, options, camera);
     if (bytes == 0) {
         throw Error(ErrorCode::usage,
-                    fmt::format("{}: no strategy that is used makes paths of up to {} edges "
+                    fmt::format("{}: no enabled strategy samples paths of up to {} edges "
                                 "(--strategy-depth)",
                                 format_option(files), wanted));
     }
@@ -68,7 +68,8 @@ StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
                                    : "; a smaller --size or --crop takes less"));
     }
     return {.edges = depth,
-            .warning = fmt::format("{}: those of up to {} edges are made (--strategy-depth)",
+            .warning = fmt::format("{}: only those of up to {} edges are written "
+                                   "(--strategy-depth)",
                                    figures, depth)};
 }
 

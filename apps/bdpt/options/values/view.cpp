@@ -67,8 +67,7 @@ CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
 {
     if (overrides.vertical_fov && camera.projection == Projection::orthographic) {
         throw Error(ErrorCode::usage,
-                    fmt::format("camera {} is orthographic and has no field of view: --fov needs "
-                                "another",
+                    fmt::format("camera {} is orthographic: --fov needs a perspective camera",
                                 camera.name));
     }
     CameraDesc result = camera;
@@ -86,8 +85,8 @@ CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
     const Vec3 forward = *goal - eye;
     if (!(glm::dot(forward, forward) > 0.0f)) {
         throw Error(ErrorCode::usage,
-                    fmt::format("the camera at {},{},{} cannot look at its own place: --from and "
-                                "--look-at must differ",
+                    fmt::format("the camera at {},{},{} cannot look at its own position: --from "
+                                "and --look-at must differ",
                                 eye.x, eye.y, eye.z));
     }
     result.world_from_camera = look_at(eye, *goal);

@@ -44,8 +44,8 @@ void check_metered(const std::optional<Exposure>& asked, const io::ImageMetadata
 {
     if (asked && asked->base == ExposureBase::light && !metered_in(settings_in(metadata))) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("--exposure light: the light of {} was not metered; render with "
-                                "--exposure light or --background",
+                    fmt::format("--exposure light: the incident light of {} was not metered; "
+                                "render with --exposure light or --background",
                                 what));
     }
 }

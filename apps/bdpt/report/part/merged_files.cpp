@@ -78,8 +78,8 @@ DisplayArguments display_of_parts(const io::PartInfo& part, DisplayArguments dis
     }
     if (display.backdrop && !own) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("--background \"{}\": the parts show the environment; render them "
-                                "with --background, too",
+                    fmt::format("--background \"{}\": the parts contain the environment; render "
+                                "them with --background, too",
                                 backdrop_text(*display.backdrop)));
     }
     display.backdrop = display.backdrop ? display.backdrop : own;
@@ -119,8 +119,8 @@ void check_strategies(const MergeArguments& arguments, const io::PartInfo& part)
         });
     if (arguments.strategies && !has_images) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("--strategies \"{}\": {} has no images of strategies; render the "
-                                "parts with --strategy-depth",
+                    fmt::format("--strategies \"{}\": {} has no strategy images; render the parts "
+                                "with --strategy-depth",
                                 arguments.strategies->string(), part.file.string()));
     }
 }

@@ -88,12 +88,13 @@ public:
             }
             result_.parts.push_back(std::move(part));
         } else if (other->samples.contains(part.samples)) {
-            result_.notes.push_back(fmt::format("{}: left out, as {} has its samples {}",
+            result_.notes.push_back(fmt::format("{}: skipped, because {} contains its samples {}",
                                                 part.file.string(), other->file.string(),
                                                 ranges_text(part.samples)));
         } else {
             throw Error(ErrorCode::invalid_input,
-                        fmt::format("{} and {} both have the samples {}, and each has others",
+                        fmt::format("{} and {} overlap in the samples {}, and neither contains the "
+                                    "other",
                                     other->file.string(), part.file.string(),
                                     ranges_text(part.samples.overlap(other->samples))));
         }

@@ -69,7 +69,7 @@ RenderPart PartKeeper::start(const Identity& identity, io::PartNotes notes)
     io::merge_part(part, *there_);
     written_ = part.samples;
     console_.event("part", {{"file", choice_.file.string()}, {"samples", written_.text()}});
-    console_.detail(fmt::format("going on with {}: it has the samples {}", choice_.file.string(),
+    console_.detail(fmt::format("resuming {}: it has the samples {}", choice_.file.string(),
                                 written_.text()));
     return part;
 }
@@ -87,7 +87,7 @@ void PartKeeper::after_pass(const RenderPart& part, Checkpoint checkpoint)
         }
         last_ = Clock::now();
         interval_ *= interval_after_failure;
-        console_.warning(fmt::format("{}; the render continues, and tries again in {:.0f} minutes",
+        console_.warning(fmt::format("{}; the render continues, and retries in {:.0f} minutes",
                                      error.what(), interval_.count() / 60.0),
                          Repeat::always);
     }
@@ -109,7 +109,7 @@ void PartKeeper::write(const RenderPart& part)
     interval_ = std::max(min_write_interval, interval_of_writes * taken);
     if (write == io::PartWrite::kept) {
         console_.note(
-            fmt::format("{}: has more samples by now, and stays as it is", choice_.file.string()));
+            fmt::format("{}: has more samples by now and is kept", choice_.file.string()));
         return;
     }
     old_ = io::OldPart::keep_if_more;  // from now on the file is ours

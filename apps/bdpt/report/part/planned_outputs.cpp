@@ -65,8 +65,8 @@ void check_planned_outputs(const MergeArguments& arguments, const Plan& plan)
         std::error_code ignored;
         if (planned.contains(file) && fs::exists(file, ignored) && !is_image_of_ours(file)) {
             throw Error(ErrorCode::output,
-                        fmt::format("{}: cannot write: the plan names it, but it is no image of "
-                                    "bdpt; remove it, or name other files with -o",
+                        fmt::format("{}: cannot write: the plan names it, but it is not an image "
+                                    "of bdpt; remove it, or name other files with -o",
                                     file.string()));
         }
     }

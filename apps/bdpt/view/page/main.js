@@ -21,7 +21,7 @@ const connection = new Connection(location.pathname, {
     document.documentElement.dataset.connection = "open";
   },
   lost: () => {
-    byId("gone").textContent = "The server is gone. This is the last picture; the page tries to connect again.";
+    byId("gone").textContent = "Connection lost. This is the last picture; the page tries to reconnect.";
     byId("gone").hidden = false;
     document.documentElement.dataset.connection = "lost";
   },
@@ -192,10 +192,10 @@ function automaticExposure() {
 
 /** Keys and their descriptions in the help. Those without an action are bound elsewhere. */
 const KEYS = [
-  ["Drag, arrow keys", "turn around the target"],
+  ["Drag, arrow keys", "orbit around the target"],
   ["Shift + drag, middle button, Shift + arrows", "pan"],
-  ["Wheel, Page Up, Page Down", "nearer and farther"],
-  ["Double click", "make this place the target, and focus on it"],
+  ["Wheel, Page Up, Page Down", "dolly in and out"],
+  ["Double click", "set the target and the focus here"],
   ["Click", "inspect the pixel"],
   ["Ctrl + wheel", "magnify the pixels"],
   ["I", "inspect the pixel in the middle", ["i"], () => state && inspect(state.size.map((x) => Math.floor(x / 2)))],
@@ -211,7 +211,7 @@ const KEYS = [
   }],
   ["1 to 4", "layers"],
   ["Space", "pause and continue", [" "], () => state && change({ paused: !state.paused })],
-  ["0", "the camera of the start", ["0"], resetView],
+  ["0", "reset the camera", ["0"], resetView],
   ["S, E, J", "save PNG, EXR, job", ["s"], save.png],
   [null, null, ["e"], save.exr],
   [null, null, ["j"], save.job],

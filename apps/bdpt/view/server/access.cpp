@@ -47,7 +47,7 @@ std::string random_token()
 {
     std::array<unsigned char, token_bytes> bytes{};
     if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
-        throw Error(ErrorCode::internal, "the system has no random numbers");
+        throw Error(ErrorCode::internal, "the system cannot provide random numbers");
     }
     constexpr std::string_view digits = "0123456789abcdef";
     std::string token;
@@ -96,7 +96,7 @@ std::optional<Refusal> Access::refusal(const RequestHead& head) const
         return Refusal{403, "pages of others may not ask this server"};
     }
     if (head.method != "GET") {
-        return Refusal{405, "only GET is understood"};
+        return Refusal{405, "only GET is supported"};
     }
     const std::string_view target = head.target;
     const std::size_t end = target.find('/', 1);

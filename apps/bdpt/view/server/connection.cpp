@@ -87,7 +87,7 @@ void Connection::take(const error_code& error)
         return;  // the connection is gone
     }
     if (error) {
-        refuse(400, "that is no request");
+        refuse(400, "this is not a request");
         return;
     }
     serve();
@@ -99,7 +99,7 @@ void Connection::serve()
     const auto host = request[http::field::host];
     const auto origin = request.find(http::field::origin);
     if (request.count(http::field::host) > 1) {
-        refuse(400, "a request has one Host");
+        refuse(400, "a request must have one Host");
         return;
     }
     const RequestHead head{
@@ -112,7 +112,7 @@ void Connection::serve()
         return;
     }
     if (parser_->chunked() || parser_->content_length().value_or(0) > 0) {
-        refuse(413, "a request has no body");
+        refuse(413, "a request must not have a body");
         return;
     }
     const std::string path(Access::parse_path(head.target));

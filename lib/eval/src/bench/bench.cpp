@@ -47,9 +47,8 @@ std::optional<BenchRun> kept_run(const BenchFiles& files, const BenchGoals& goal
     BenchRun run = parse_run(*json, file);
     if (run.integrator != goals.integrator || run.seed != seed || !reaches(run, goals)) {
         throw Error(ErrorCode::invalid_input, file.string() +
-                                                  ": is another run than its name and "
-                                                  "plan.json say; delete it to have it "
-                                                  "made again");
+                                                  ": does not match its name and plan.json; delete "
+                                                  "it to render it again");
     }
     return run;
 }

@@ -27,7 +27,7 @@ std::string run_name(IntegratorKind integrator, std::uint64_t seed)
 [[noreturn]] void refuse(const fs::path& file, const std::string& what)
 {
     throw Error(ErrorCode::invalid_input,
-                file.string() + ": " + what + "; delete it to have it made again");
+                file.string() + ": " + what + "; delete it to render it again");
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ std::optional<ordered_json> read_json(const fs::path& file)
     }
     ordered_json json = ordered_json::parse(text, nullptr, false);
     if (json.is_discarded() || !json.is_object()) {
-        refuse(file, "is not what bdpt bench wrote");
+        refuse(file, "was not written by bdpt bench");
     }
     return json;
 }
@@ -216,7 +216,7 @@ BenchRun parse_run(const ordered_json& json, const fs::path& file)
             run.peak_memory = json.at("peak_memory_bytes").get<std::uint64_t>();
         }
     } catch (const nlohmann::json::exception&) {
-        refuse(file, "lacks what a run of bdpt bench has");
+        refuse(file, "lacks values of a run of bdpt bench");
     }
     return run;
 }

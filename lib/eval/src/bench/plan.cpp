@@ -63,8 +63,8 @@ Plan::Plan(const BenchScene& scene, const BenchOptions& options, const BenchFile
         json_ = std::move(*kept);
         if (json_.contains(samples_member) && !json_[samples_member].is_object()) {
             throw Error(ErrorCode::invalid_input, file_.string() + ": " + samples_member +
-                                                      " is no object; delete the folder to start "
-                                                      "anew");
+                                                      " is not an object; delete the folder to "
+                                                      "start again");
         }
     }
 }
@@ -127,8 +127,8 @@ std::int64_t Plan::number(const std::string& member, const std::string& name) co
     if (found == object.end() || !found->is_number_integer() || *found < 1 ||
         *found > max_samples) {
         throw Error(ErrorCode::invalid_input, file_.string() + ": " + name +
-                                                  " is no number of samples; delete the folder to "
-                                                  "start anew");
+                                                  " is not a number of samples; delete the folder "
+                                                  "to start again");
     }
     return found->get<std::int64_t>();
 }

@@ -85,8 +85,8 @@ std::string describe_origin(const CombinedReference& combined, const HalvedRende
     char text[160];
     if (combined.share == 1.0) {
         std::snprintf(text, sizeof text,
-                      "bdpt with %lld samples; mis does not agree with it (%.3g times the "
-                      "difference that noise explains) and does not count",
+                      "bdpt with %lld samples; mis is excluded, as it differs by %.3g times what "
+                      "noise explains",
                       static_cast<long long>(bdpt.samples), combined.agreement);
     } else {
         std::snprintf(text, sizeof text, "bdpt with %lld samples (%.0f %%) and mis with %lld",
@@ -127,8 +127,7 @@ std::optional<KeyedReference> kept_reference(const std::string& key, const Bench
         !origin->is_string()) {
         throw Error(ErrorCode::invalid_input,
                     facts_file.string() +
-                        ": lacks what a reference of bdpt bench has; delete it "
-                        "to have it made again");
+                        ": is incomplete; delete it to render the reference again");
     }
     const fs::path file = files.reference_image(key);
     Reference reference{.image = io::read_image(file).image,

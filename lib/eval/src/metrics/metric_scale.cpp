@@ -34,7 +34,7 @@ void check_options(const MetricOptions& options)
         check(e.count >= 1 && std::isfinite(e.start) && std::isfinite(e.stop) &&
                   e.start <= e.stop && (e.count >= 2 || e.start == e.stop),
               "exposures of FLIP: " + std::to_string(e.count) + " from " + std::to_string(e.start) +
-                  " to " + std::to_string(e.stop) + " EV make no sense");
+                  " to " + std::to_string(e.stop) + " EV are not a valid range");
     }
 }
 
@@ -68,7 +68,7 @@ MetricScale make_scale(const Image& reference, const MetricOptions& options)
         if (!(unit > 0.0)) {
             throw Error(ErrorCode::invalid_input, "the reference's mean is " +
                                                       std::to_string(unit) +
-                                                      ", so that nothing can be relative to it");
+                                                      ", so errors cannot be relative to it");
         }
     }
     return {.epsilon = options.epsilon * unit,

@@ -136,7 +136,7 @@ inline constexpr auto fields<FilmOptions> = all_fields(
                 {.range = {-1e15, 1e15},  // as far as rays reach
                  .value = "Y",
                  .help = "Height of the ground of --ground, along y [m]",
-                 .otherwise = "the lowest point of the scene, in each frame"}},
+                 .otherwise = "the lowest point of the scene, per frame"}},
     OptionField{"clamp",
                 &FilmOptions::clamp,
                 {.range = {.low = 0.0, .low_is_excluded = true},
@@ -150,28 +150,28 @@ template <>
 inline constexpr auto fields<SamplingOptions> = all_fields(
     OptionField{"samples", &SamplingOptions::samples, {.role = OptionRole::samples}},
     OptionField{
-        "seed", &SamplingOptions::seed, {.value = "N", .help = "Seed of the random numbers"}},
+        "seed", &SamplingOptions::seed, {.value = "N", .help = "Random seed"}},
     OptionField{"sampler",
                 &SamplingOptions::sampler,
-                {.help = "Random numbers: sobol (Owen-scrambled, less noise, best with a power of "
-                         "two as --spp) or independent"}},
+                {.help = "Sampler: sobol (Owen-scrambled, less noise, best with a power of two as "
+                         "--spp) or independent"}},
     OptionField{"env_sampling",
                 &SamplingOptions::environment,
-                {.help = "Light sampling of environments: plain (by luminance), compensated (MIS "
+                {.help = "Environment sampling: plain (by luminance), compensated (MIS "
                          "compensation: leaves uniform light to BSDF sampling) or learned "
-                         "(compensated, and a pilot learns how much of the environment, suns and "
-                         "placed lights reaches each place)"}},
+                         "(compensated, and a pilot render learns how much light of the "
+                         "environment, suns and lamps reaches each place)"}},
     OptionField{"light_sampling",
                 &SamplingOptions::lights,
                 {.help = "Choice of one light: power (by emitted power), tree (light tree: by "
-                         "estimated contribution to the point), auto (tree for many lights, and "
-                         "for lamps beside the sun or an environment)"}},
+                         "estimated contribution to the point), auto (tree for many lights, or "
+                         "lamps together with a sun or environment)"}},
     OptionField{"light_samples",
                 &SamplingOptions::light_samples,
                 {.range = {1, 1024},
                  .value = "N",
-                 .help = "Light samples at each vertex of a camera path (all integrators but lt), "
-                         "which share the weight of one: less noise in direct light, more time"}},
+                 .help = "Light samples per camera path vertex (all integrators but lt), averaged: "
+                         "less noise in direct light, more time"}},
     OptionField{"rates", &SamplingOptions::rates, {}});
 
 /// Fields of `TransportOptions`, with their documentation and ranges.
@@ -181,7 +181,8 @@ inline constexpr auto fields<TransportOptions> = all_fields(
                 &TransportOptions::max_depth,
                 {.range = {1, max_path_edges},
                  .value = "N",
-                 .help = "Longest path, in edges: 1 is emitted light only, 2 adds direct light"}},
+                 .help = "Maximum path length, in edges: 1 is emitted light only, 2 adds direct "
+                         "light"}},
     OptionField{"min_depth", &TransportOptions::min_depth, {.range = {1, max_path_edges}}},
     OptionField{"rr_start",
                 &TransportOptions::rr_start,
@@ -200,49 +201,47 @@ inline constexpr auto fields<BidirectionalOptions> = all_fields(
                 &BidirectionalOptions::light_paths,
                 {.range = {0, 4096},
                  .value = "N",
-                 .help = "Light subpaths per camera subpath (bdpt, lt, vcm); a fraction, like 0.1, "
-                         "shares them among all pixels",
+                 .help = "Light subpaths per camera subpath (bdpt, lt, vcm); a fraction, like 0.1: "
+                         "all pixels share them",
                  .otherwise = "1; auto chooses it"}},
     OptionField{"connections",
                 &BidirectionalOptions::connections,
                 {.range = {0, 4096},
                  .value = "C",
                  .help = "Light subpaths that each camera subpath is connected to (bdpt, vcm)",
-                 .otherwise = "all of its own, or 1 if --light-paths is a fraction; auto chooses "
-                              "it"}},
+                 .otherwise = "--light-paths, or 1 if that is a fraction; auto chooses it"}},
     OptionField{"merge_radius",
                 &BidirectionalOptions::merge_radius,
                 {.range = {0, 1},
                  .value = "F",
-                 .help = "How close to a camera vertex light vertices are merged with it (vcm), as "
-                         "a fraction of the radius of the scene's bounding sphere; 0: not at all. "
-                         "Blurs light by so much"}},
+                 .help = "Initial merging radius (vcm), as a fraction of the radius of the scene's "
+                         "bounding sphere; 0: no merging. Blurs light by up to this radius"}},
     OptionField{"merge_alpha",
                 &BidirectionalOptions::merge_alpha,
                 {.range = {.low = 0, .high = 1, .low_is_excluded = true},
                  .value = "A",
-                 .help = "How slowly that radius shrinks (vcm), above 0 and up to 1: sample i has "
-                         "the first radius times i^((A - 1) / 2)"}},
+                 .help = "Alpha of the merging radius (vcm), above 0 and up to 1: sample i uses "
+                         "the initial radius times i^((A - 1) / 2)"}},
     OptionField{
         "light_path_memory", &BidirectionalOptions::light_path_memory, {.role = OptionRole::limit}},
     OptionField{"max_camera_depth",
                 &BidirectionalOptions::max_camera_depth,
                 {.range = {0, std::numeric_limits<int>::max()},
                  .value = "N",
-                 .help = "Longest camera subpath, in edges (bdpt, lt, vcm)",
+                 .help = "Maximum camera subpath length, in edges (bdpt, lt, vcm)",
                  .otherwise = "no limit"}},
     OptionField{"max_light_depth",
                 &BidirectionalOptions::max_light_depth,
                 {.range = {0, std::numeric_limits<int>::max()},
                  .value = "N",
-                 .help = "Longest light subpath, in edges (bdpt, lt, vcm)",
+                 .help = "Maximum light subpath length, in edges (bdpt, lt, vcm)",
                  .otherwise = "no limit"}},
     OptionField{"disable",
                 &BidirectionalOptions::disabled,
                 {.range = {0, max_path_edges + 1},  // range of s and t
                  .value = "LIST",
                  .help = "Disable strategies (bdpt, lt, vcm): s vertices from the light and t from "
-                         "the camera, like s2t1,s0t3. Light that only these find is missing",
+                         "the camera, like s2t1,s0t3. Light that only these can sample is lost",
                  .otherwise = "none"}},
     OptionField{
         "strategy_depth", &BidirectionalOptions::strategy_depth, {.range = {0, max_path_edges}}},
@@ -260,8 +259,8 @@ inline constexpr auto fields<SystemOptions> = all_fields(
                 {.range = {0, 4096},
                  .value = "N",
                  .help = "Number of threads. Does not change the image",
-                 .otherwise = "one for each processor that the process may use; quotas of "
-                              "containers count",
+                 .otherwise = "one per processor available to the process, within the container's "
+                              "quota",
                  .role = OptionRole::machine}});
 
 /// Fields of `RenderOptions`: the integrator, and the groups of all other options.

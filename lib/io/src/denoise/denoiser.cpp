@@ -62,8 +62,8 @@ void check_size(const Image& image, const Layer& layer)
     if (layer.width != image.width || layer.height != image.height ||
         layer.channels.size() != channels) {
         throw Error(ErrorCode::usage,
-                    fmt::format("the layer {} has {} x {} pixels of {} channels, and not {} x {} "
-                                "of {}, as the image to denoise",
+                    fmt::format("the layer {} has {} x {} pixels of {} channels, but the image to "
+                                "denoise has {} x {} of {}",
                                 layer.name, layer.width, layer.height, layer.channels.size(),
                                 image.width, image.height, channels));
     }

@@ -45,7 +45,7 @@ std::filesystem::path companion_file(std::string_view name)
         }
         tried += (tried.empty() ? "" : ", ") + file.lexically_normal().string();
     }
-    throw Error(ErrorCode::unsupported, fmt::format("{} is not there (tried {})", name, tried));
+    throw Error(ErrorCode::unsupported, fmt::format("{} not found (tried {})", name, tried));
 }
 
 }  // namespace bdpt::io

@@ -43,7 +43,7 @@ std::string explanation(std::string_view text)
 [[noreturn]] void refuse_second(std::string_view key)
 {
     throw Error(ErrorCode::invalid_input,
-                "JSON: the key " + quote(key) + " stands twice in one object");
+                "JSON: the key " + quote(key) + " occurs twice in one object");
 }
 
 /// Adds a member to an object that is sorted by its keys.

@@ -47,12 +47,12 @@ std::string memory_figures()
     };
     rlimit limit{};
     if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
-        return fmt::format("the process had up to {} and needs more, but its limit is {}",
+        return fmt::format("the process used up to {} and needs more, but its limit is {}",
                            text(read_status("VmPeak:")), text(limit.rlim_cur));
     }
     const auto machine = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                          static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-    return fmt::format("the process had up to {} and needs more; the machine has {}",
+    return fmt::format("the process used up to {} and needs more; the machine has {}",
                        text(read_status("VmHWM:")), text(machine));
 }
 

@@ -73,7 +73,7 @@ Bytes standard_input(std::uint64_t limit, const WorthReading& worth, const Memor
     static std::optional<Bytes> all;
     const std::lock_guard lock(mutex);
     if (::isatty(STDIN_FILENO) != 0) {
-        throw Error(ErrorCode::not_found, "standard input is a terminal: nothing comes from it");
+        throw Error(ErrorCode::not_found, "standard input is a terminal, not a file or pipe");
     }
     if (!all) {
         all = read_all(limit, worth, memory);

@@ -46,7 +46,7 @@ Bytes decode_base64(std::string_view text)
         const std::uint8_t digit = base64_table[static_cast<unsigned char>(text[i])];
         if (digit == not_base64) {
             throw Error(ErrorCode::invalid_input,
-                        fmt::format("base64 digit {}: byte 0x{:02x} is none", i,
+                        fmt::format("base64 digit {}: byte 0x{:02x} is not a base64 digit", i,
                                     static_cast<unsigned char>(text[i])));
         }
         word = (word << 6) | digit;
@@ -168,7 +168,7 @@ std::filesystem::path resolve_uri(const std::filesystem::path& folder, std::stri
         refuse(error.message());
     }
     if (!is_below(file, root)) {
-        refuse("outside of the scene's folder, from which alone files are read");
+        refuse("outside of the scene's folder; only files in it are read");
     }
     return file;
 }

@@ -110,7 +110,7 @@ void read_candelas(IesNumbers& numbers, double factor, const std::string& place,
     for (std::size_t i = 0; i < count; ++i) {
         const double given = numbers.next("an intensity");
         if (given < 0.0) {
-            warnings.add("a negative intensity of a light profile is taken as 0",
+            warnings.add("a negative intensity of a light profile is treated as 0",
                          fmt::format("{}: {} cd", place, given));
         }
         const double value = std::max(given, 0.0) * factor;
@@ -179,7 +179,7 @@ IesFile read_ies(ByteView bytes, const std::string& place, Warnings& warnings)
     file.horizontal_angles = read_angles(numbers, "horizontal", horizontal);
     read_candelas(numbers, factor, place, warnings, file);
     if (!numbers.at_end()) {
-        warnings.add("what follows the intensities of a light profile is ignored", place);
+        warnings.add("data after the intensities of a light profile is ignored", place);
     }
     return file;
 }

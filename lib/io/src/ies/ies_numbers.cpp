@@ -38,7 +38,7 @@ double IesNumbers::next(std::string_view what)
     skip_delimiters();
     const std::string_view word = rest_.substr(0, rest_.find_first_of(delimiters));
     if (word.empty()) {
-        fail(fmt::format("the file ends where {} should be", what));
+        fail(fmt::format("the file ends before {}", what));
     }
     rest_.remove_prefix(word.size());
     const std::string_view digits = word.front() == '+' ? word.substr(1) : word;

@@ -134,7 +134,7 @@ IesProfile from_type_c(Web web, const std::string& place, Warnings& warnings)
             mirror_at_end(web.along, web.values);
         }
     } else if (is(first, 0.0) && last > 180.0 && last < 360.0) {
-        warnings.add("horizontal angles of a light profile that do not close are closed",
+        warnings.add("horizontal angles of a light profile end below 360 degrees and are closed",
                      fmt::format("{}: the last is {} degrees", place, last));
         web.along.push_back(360.0);
         web.values.push_back(std::vector<float>(web.values.front()));

@@ -53,7 +53,7 @@ std::string own_message(const ProcessEnd& end)
     }
     if (end.signal == SIGKILL) {
         throw Error(ErrorCode::out_of_memory,
-                    fmt::format("{} was killed while it decoded, as systems do that lack memory",
+                    fmt::format("{} was killed while decoding, probably for lack of memory",
                                 ktx_reader_name));
     }
     if (end.signal != 0) {
@@ -92,7 +92,7 @@ std::optional<std::string> find_obstacle(const std::string& library)
         if (error.code() != ErrorCode::unsupported) {
             throw;
         }
-        return fmt::format("KTX2 images are read by a program of its own: {}", error.what());
+        return fmt::format("KTX2 images are read by a separate program: {}", error.what());
     }
 }
 

@@ -160,7 +160,7 @@ void OutputFile::commit()
     }
     struct stat now {};
     if (::stat(target_.c_str(), &now) == 0 && !S_ISREG(now.st_mode)) {
-        refuse_output(name_, "by now this is no regular file");
+        refuse_output(name_, "this is no longer a regular file");
     }
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
         refuse_output(name_, error_text(errno));

@@ -49,7 +49,7 @@ int writable_copy(const fs::path& name, int descriptor)
         refuse_output(name, error_text(errno));
     }
     if ((flags & O_ACCMODE) == O_RDONLY) {
-        refuse_output(name, "it is closed, or open for reading alone");
+        refuse_output(name, "it is closed or read-only");
     }
     if (::isatty(descriptor) != 0) {
         refuse_output(name, "this is a terminal");
@@ -92,7 +92,7 @@ OutputTarget special_target(const fs::path& name, const fs::path& path, mode_t m
     }
     refuse_output(name, S_ISSOCK(mode)  ? "this is a socket"
                         : S_ISBLK(mode) ? "this is a block device"
-                                        : "this is no file");
+                                        : "this is not a file");
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ OutputTarget find_target(const fs::path& name)
                 .descriptor = writable_copy("standard output", STDOUT_FILENO)};
     }
     if (!name.has_filename()) {
-        refuse_output(name, "this names no file");
+        refuse_output(name, "this is not a file name");
     }
     fs::path path = follow_links(name);
     if (const std::optional<int> descriptor = own_descriptor(path)) {

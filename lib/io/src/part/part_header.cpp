@@ -90,7 +90,7 @@ void check_ids(const PartHeader& header, const JsonValue& json)
         const auto most = std::min<std::uint64_t>(
             header.names[kind].size(), static_cast<std::uint64_t>(header.samples.count()));
         if (header.ranks[kind] > (header.aovs.contains(id_aovs[kind]) ? most : 0)) {
-            json.fail("more ids of a pixel than there can be");
+            json.fail("more ids of a pixel than possible");
         }
     }
 }

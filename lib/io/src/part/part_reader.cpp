@@ -78,7 +78,7 @@ void check_file_header(const SealedFile& file)
 
 PartHeader read_header(const Imf::MultiPartInputFile& exr)
 {
-    constexpr const char* no_part = "is an OpenEXR file, but no part of a render";
+    constexpr const char* no_part = "is an OpenEXR file, but not a part of a render";
     if (exr.parts() != 2) {
         fail(no_part);
     }
@@ -99,7 +99,7 @@ void check_planes(const Imf::Header& exr, const PartHeader& header, const Sealed
     const PixelRect& r = header.layout.region;
     const bool has_window = exr.dataWindow() == Imath::Box2i({r.x0, r.y0}, {r.x1 - 1, r.y1 - 1});
     if (!has_window || !exr.hasType() || exr.type() != Imf::SCANLINEIMAGE) {
-        fail("its sums are not those of the film that it tells of");
+        fail("its sums do not match the film in its header");
     }
     std::size_t channels = 0;
     for (auto i = exr.channels().begin(); i != exr.channels().end(); ++i) {
@@ -156,12 +156,12 @@ void merge_header(RenderPart& part, const PartHeader& header)
         fail(("is of another render: " + *what).c_str());
     }
     if (const SampleSet both = part.samples.overlap(header.samples); !both.empty()) {
-        fail(("has samples that are there already: " + both.text()).c_str());
+        fail(("has samples that are already included: " + both.text()).c_str());
     }
     if (part.film.layout() != header.layout || part.aovs.aovs() != header.aovs ||
         part.aovs.counts() != header.counts || part.strategies.strategies() != header.strategies ||
         part.ids.names() != header.names) {
-        fail("its films are not those of its render");
+        fail("its films do not match its render");
     }
     for (const SampleRange& range : header.samples.ranges()) {
         part.film.count_samples(range.begin, range.end);

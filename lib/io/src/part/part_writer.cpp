@@ -105,7 +105,7 @@ bool is_ahead(const std::filesystem::path& file, const RenderPart& part)
     }
     if (const auto what = difference(part.identity, there->identity)) {
         throw Error(ErrorCode::output,
-                    fmt::format("{}: cannot write: by now this is a part of another render: {}",
+                    fmt::format("{}: cannot write: this is now a part of another render: {}",
                                 file.string(), *what));
     }
     return there->samples.contains(part.samples) && there->samples != part.samples;

@@ -50,7 +50,7 @@ void check_background(const openvdb::GridBase& grid)
     with_values(grid, [](const auto& values) {
         if (!(values.background() == 0)) {
             fail(values, "its background is ", values.background(),
-                 ", but must be 0: a scene is not filled to infinity");
+                 ", but must be 0: infinite volumes are not supported");
         }
     });
 }

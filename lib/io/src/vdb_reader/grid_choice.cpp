@@ -66,11 +66,12 @@ const Head& chosen(const std::vector<Head>& heads, const std::string& wanted)
         throw Error(ErrorCode::invalid_input, "no grids");
     }
     if (first == heads.end()) {
-        throw Error(ErrorCode::unsupported, "no grid of floats; it has " + list_grids(heads));
+        throw Error(ErrorCode::unsupported, "no float grid; it has " + list_grids(heads));
     }
     if (std::any_of(std::next(first), heads.end(), is_candidate)) {
         throw Error(ErrorCode::invalid_input,
-                    "no grid \"density\", but several of floats, so one must be named; it has " +
+                    "no grid \"density\", but several float grids, of which one must be named; it "
+                    "has " +
                         list_grids(heads));
     }
     return *first;

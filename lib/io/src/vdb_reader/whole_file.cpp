@@ -72,7 +72,7 @@ void check_whole_file(const std::string& name)
         check_version(file);
         Heads().check(file, size);
     } catch (const std::ios_base::failure&) {
-        throw Error(ErrorCode::invalid_input, "broken: ends within the heads of its grids");
+        throw Error(ErrorCode::invalid_input, "broken: ends within the headers of its grids");
     }
 }
 

@@ -58,7 +58,8 @@ void check_start(const std::filesystem::path& file, const ReadLimits& limits)
     const auto kind = other_kind(start);
     throw Error(
         start.empty() ? ErrorCode::invalid_input : ErrorCode::unsupported,
-        fmt::format("no OpenVDB file{}", kind ? fmt::format(", but {}", *kind) : std::string()));
+        fmt::format("not an OpenVDB file{}",
+                    kind ? fmt::format(", but {}", *kind) : std::string()));
 }
 
 std::filesystem::path find_reader()
@@ -66,8 +67,8 @@ std::filesystem::path find_reader()
     try {
         return companion_file(vdb_reader_name);
     } catch (const Error& error) {
-        throw Error(error.code(), fmt::format("OpenVDB files are read by a program of its own: {}; "
-                                              "the package bdpt-openvdb has it",
+        throw Error(error.code(), fmt::format("OpenVDB files are read by a separate program: {}; "
+                                              "the package bdpt-openvdb contains it",
                                               error.what()));
     }
 }
@@ -90,7 +91,7 @@ bool lacks_threads(const ProcessEnd& end)
     }
     if (end.signal == SIGKILL) {
         throw Error(ErrorCode::out_of_memory,
-                    fmt::format("{} was killed while it read, as systems do that lack memory",
+                    fmt::format("{} was killed while reading, probably for lack of memory",
                                 vdb_reader_name));
     }
     if (end.signal == SIGABRT && lacks_threads(end)) {

@@ -101,7 +101,7 @@ void check_moving(const InstanceDesc& instance, const std::string& item, const M
             fail(step, ": transform is not finite");
         }
         if (!can_move(at_step(instance.world_from_object, motion, i), motion[i])) {
-            fail(step, ": on the way to it some transform has no inverse; give more steps");
+            fail(step, ": an interpolated transform before it has no inverse; use more steps");
         }
         check_extent(motion[i]);
     }
@@ -130,7 +130,7 @@ void check_directions(const std::string& item, Vec3 first, std::span<const Vec3>
             fail(step_label(item, i), ": direction is zero or not finite");
         }
         if (!can_turn(at_step(first, turn, i), turn[i])) {
-            fail(step_label(item, i), ": direction turns by 90 degrees or more; give more steps");
+            fail(step_label(item, i), ": direction turns by 90 degrees or more; use more steps");
         }
     }
 }

@@ -134,7 +134,7 @@ void check(const VolumeDesc& volume, const std::string& item)
     const double depth =
         densest * static_cast<double>(max_component(volume.extinction)) * glm::length(diagonal);
     if (!(depth <= max_depth)) {
-        fail(item, ": its greatest extinction, all along its diagonal, is an optical depth of ",
+        fail(item, ": its maximum extinction along its diagonal gives an optical depth of ",
              depth, ", but must be at most ", max_depth);
     }
 }

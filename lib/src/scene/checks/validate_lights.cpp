@@ -219,7 +219,7 @@ std::string limit_text(float reach)
     std::ostringstream text;
     text << " m from the origin, but " << reach << " m is the most";
     if (reach < max_coordinate) {
-        text << ", as a mesh that is used more than once or moves is scaled down very much";
+        text << ", because an instanced or moving mesh is scaled down very much";
     }
     return text.str();
 }

@@ -190,7 +190,7 @@ TEST_CASE("key frames that make no sense are refused by name")
     CHECK(contains(error_of([](auto& a) { a["samplers"][0]["interpolation"] = "CUBICSPLINE"; }),
                    "/animations/0/samplers/0/output: 6 numbers, but 2 key frames need 18"));
     CHECK(contains(error_of([](auto& a) { a["samplers"][0]["interpolation"] = "BOUNCE"; }),
-                   "/animations/0/samplers/0/interpolation: \"BOUNCE\" is no interpolation"));
+                   "/animations/0/samplers/0/interpolation: \"BOUNCE\" is not an interpolation"));
     CHECK(contains(error_of([](auto& a) { a["channels"][0]["sampler"] = 1; }),
                    "/animations/0/channels/0/sampler: index 1, but the number of samplers is 1"));
     CHECK(contains(error_of([](auto& a) { a["channels"][0].erase("sampler"); }),
@@ -219,7 +219,7 @@ TEST_CASE("parts of an animation that move nothing may lack something")
                 {"/animations/0/channels/0/target/path: 3"}));
     animation["channels"][4]["sampler"] = 1;
     CHECK(contains(animated.fixture.error({.time = 2.0}).what(),
-                   "/animations/0/samplers/1/interpolation: 3 is no interpolation"));
+                   "/animations/0/samplers/1/interpolation: 3 is not an interpolation"));
 }
 
 TEST_CASE("what cannot be animated rests, with a warning")

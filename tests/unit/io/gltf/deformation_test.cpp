@@ -217,9 +217,9 @@ TEST_CASE("weights of joints are made to add up to one")
         f32, "VEC4", 3, bytes_of<float>({2, 0, 0, 0, 0, 0, 0, 0, 1, 3, -1, NAN}));
     const LoadedScene loaded = fixture.load();
     CHECK(only_mesh(loaded).positions == std::vector<Vec3>{{1, 0, 0}, {2, 0, 0}, {1, 7, 0}});
-    CHECK(warns(loaded.warnings, {"WEIGHTS_0: vertex 0: 2", "do not add up"}));
+    CHECK(warns(loaded.warnings, {"WEIGHTS_0: vertex 0: 2", "do not sum to 1"}));
     CHECK(warns(loaded.warnings, {"WEIGHTS_0: vertex 1: 0", "first joint"}));
-    CHECK(warns(loaded.warnings, {"WEIGHTS_0: vertex 2: -1", "count as 0", "and 1 more"}));
+    CHECK(warns(loaded.warnings, {"WEIGHTS_0: vertex 2: -1", "treated as 0", "and 1 more"}));
 
     // Weights of eight bits are fractions, whether they say so or not.
     attributes["WEIGHTS_0"] = fixture.add_accessor(

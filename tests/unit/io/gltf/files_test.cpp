@@ -44,7 +44,7 @@ TEST_CASE("an allocation that fails is told with what the process had and may ha
         message = error.what();
         CHECK(error.code() == ErrorCode::out_of_memory);
     }
-    CHECK(contains(message, "scene.gltf: not enough memory: the process had up to "));
+    CHECK(contains(message, "scene.gltf: not enough memory: the process used up to "));
     CHECK(contains(message, "B and needs more"));
     CHECK_FALSE(contains(message, "up to 0 B"));
 

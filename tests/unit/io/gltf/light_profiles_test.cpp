@@ -301,7 +301,7 @@ TEST_CASE("what a light profile need not have is skipped")
     CHECK(loaded.scene.profiles.at(0).intensities == std::vector<float>{100, 50, 0});
     CHECK(loaded.warnings.size() == 2);
     CHECK(warns(loaded.warnings, {"negative intensity", "-3 cd"}));
-    CHECK(warns(loaded.warnings, {"follows the intensities"}));
+    CHECK(warns(loaded.warnings, {"after the intensities"}));
 }
 
 TEST_CASE("light profiles that are wrong are refused by line and value")
@@ -340,10 +340,10 @@ TEST_CASE("light profiles that are wrong are refused by line and value")
     CHECK(contains(message({.type = "2"}), "horizontal angles go from 0 to 0"));
     CHECK(contains(message({.type = "3", .horizontal = "0 90", .candelas = "1 2 3 4 5 6"}),
                    "vertical angles go from 0 to 180"));
-    CHECK(contains(message({.candelas = "100 50"}), "the file ends where an intensity should be"));
+    CHECK(contains(message({.candelas = "100 50"}), "the file ends before an intensity"));
     CHECK(contains(message({.multiplier = "1e30", .candelas = "1 2 3e30"}),
                    "line 9: an intensity of 3e+60 cd is too great"));
-    CHECK(contains(message({.tilt = "TILT=INCLUDE\n1\n900"}), "the file ends where"));
+    CHECK(contains(message({.tilt = "TILT=INCLUDE\n1\n900"}), "the file ends before"));
     for (std::size_t size = 0; size < 90; ++size) {
         const Error cut = with_profile(IesText{}.text().substr(0, size)).error();
         CAPTURE(size, cut.what());

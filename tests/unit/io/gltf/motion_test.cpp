@@ -311,7 +311,7 @@ TEST_CASE("what jumps while the shutter is open stands still if it must")
             joined(joined(about_z(0), about_z(180)), about_z(180)), "STEP");
     const LoadedScene loaded = fixture.load(open_for(0.0, 0.0, 1.0));
     CHECK(loaded.cameras.at(0).motion.empty());
-    CHECK(warns(loaded.warnings, {"/nodes/1", "a camera that turns in a jump stands still"}));
+    CHECK(warns(loaded.warnings, {"/nodes/1", "a camera whose direction jumps stands still"}));
 }
 
 TEST_CASE("shutters that make no sense are refused")
@@ -321,7 +321,7 @@ TEST_CASE("shutters that make no sense are refused")
                                    Shutter{0.0, std::numeric_limits<double>::infinity()}}) {
         const Error error = sliding().error({.time = 1.0, .shutter = shutter});
         CHECK(error.code() == ErrorCode::usage);
-        CHECK(contains(error.what(), "no times of a shutter"));
+        CHECK(contains(error.what(), "invalid shutter"));
     }
 }
 

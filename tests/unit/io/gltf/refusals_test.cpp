@@ -95,7 +95,7 @@ const std::vector<Refusal>& refusals()
         {"material", [](Json& j) { j["meshes"][0]["primitives"][0]["material"] = 0; },
          "/meshes/0/primitives/0/material: index 0, but the number of materials is 0"},
         {"mode", [](Json& j) { j["meshes"][0]["primitives"][0]["mode"] = 7; },
-         "/meshes/0/primitives/0/mode: 7 is no mode"},
+         "/meshes/0/primitives/0/mode: 7 is not a primitive mode"},
         {"mode beyond int", [](Json& j) { j["meshes"][0]["primitives"][0]["mode"] = 4294967300; },
          "/meshes/0/primitives/0/mode: 4294967300 is out of range"},
         {"indices of the wrong type", [](Json& j) { j["accessors"][1]["componentType"] = 5122; },
@@ -103,9 +103,9 @@ const std::vector<Refusal>& refusals()
         {"positions of the wrong type", [](Json& j) { j["accessors"][0]["type"] = "VEC2"; },
          "/accessors/0/type: must be VEC3"},
         {"component type", [](Json& j) { j["accessors"][0]["componentType"] = 5130; },
-         "/accessors/0/componentType: 5130 is no type"},
+         "/accessors/0/componentType: 5130 is not a component type"},
         {"accessor type", [](Json& j) { j["accessors"][0]["type"] = "VEC5"; },
-         "/accessors/0/type: \"VEC5\" is no type"},
+         "/accessors/0/type: \"VEC5\" is not an accessor type"},
         {"count missing", [](Json& j) { j["accessors"][0].erase("count"); },
          "/accessors/0: \"count\" is missing"},
         {"count zero", [](Json& j) { j["accessors"][0]["count"] = 0; },
@@ -200,7 +200,7 @@ const std::vector<Refusal>& refusals()
          [](Json& j) {
              j["cameras"] = {{{"type", "fisheye"}}};
          },
-         "/cameras/0/type: \"fisheye\" is no type of camera"},
+         "/cameras/0/type: \"fisheye\" is not a type of camera"},
         {"camera without values",
          [](Json& j) {
              j["cameras"] = {{{"type", "perspective"}}};
@@ -249,7 +249,7 @@ TEST_CASE("broken JSON is refused")
     CHECK(contains(json_error("{\"asset\":{\"version\":1e999}}"), "JSON"));
     CHECK(contains(json_error("{\"asset\":{\"version\":\"\xff\"}}"), "JSON"));
     CHECK(contains(json_error("[]"), "must be a JSON object"));
-    CHECK(contains(json_error("{\"scene\":0,\"scene\":1}"), "\"scene\" stands twice"));
+    CHECK(contains(json_error("{\"scene\":0,\"scene\":1}"), "\"scene\" occurs twice"));
 }
 
 TEST_CASE("a file of another kind is called by its name")

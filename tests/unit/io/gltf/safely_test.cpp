@@ -140,7 +140,7 @@ TEST_CASE("of a buffer's file no more is read than the buffer needs")
     for (std::size_t i = 0; i < 3; ++i) {
         CHECK(checked.buffers[i].size() == 11 + i);  // one more tells that there are more
     }
-    CHECK(warns(context.warnings.lines(), {"more bytes than it says", "and 2 more"}));
+    CHECK(warns(context.warnings.lines(), {"more bytes than its byteLength", "and 2 more"}));
 }
 
 TEST_CASE("a Draco mesh of more points than its head says keeps to the limit")

@@ -77,7 +77,7 @@ TEST_CASE("what is wrong with a value of JSON is told with its place", "[json]")
     CHECK(message_of([&] { static_cast<void>(json.elements()); }) ==
           "must be an array, but is an object of 2");
     CHECK(message_of([&] { static_cast<void>(JsonValue::parse(R"({"a": 1, "b": 2, "a": 3})")); }) ==
-          "JSON: the key \"a\" stands twice in one object");
+          "JSON: the key \"a\" occurs twice in one object");
     CHECK(message_of([&] { static_cast<void>(JsonValue::parse(std::string(17, '['))); }) ==
           "JSON: nested deeper than 16");
 }
@@ -126,7 +126,7 @@ TEST_CASE("objects of a million keys are read in time", "[json]")
     }
     CHECK(JsonValue::parse(text + "}").members().size() == 1'000'000);
     CHECK(message_of([&] { static_cast<void>(JsonValue::parse(text + ",\"77\":0}")); }) ==
-          "JSON: the key \"77\" stands twice in one object");
+          "JSON: the key \"77\" occurs twice in one object");
 }
 
 }  // namespace

@@ -48,9 +48,9 @@ TEST_CASE("what is no whole OpenVDB file is refused", "[volume]")
     VdbFiles files;
     refuse("/nowhere/smoke.vdb", ErrorCode::not_found, {"no such file"});
     refuse("/dev/null", ErrorCode::not_found, {"not a regular file"});
-    refuse(files.write(""), invalid, {"no OpenVDB file", "empty"});
-    refuse(files.write("\x89PNG\r\n\x1a\n and more"), unsupported, {"no OpenVDB file", "PNG"});
-    refuse(files.write("{\"asset\": {}}"), unsupported, {"no OpenVDB file"});
+    refuse(files.write(""), invalid, {"not an OpenVDB file", "empty"});
+    refuse(files.write("\x89PNG\r\n\x1a\n and more"), unsupported, {"not an OpenVDB file", "PNG"});
+    refuse(files.write("{\"asset\": {}}"), unsupported, {"not an OpenVDB file"});
     const std::string whole = bytes_of(files.write({small_grid()}));
     for (std::size_t size = 8; size < whole.size(); size += 1 + size / 3) {
         CAPTURE(size);
@@ -86,7 +86,7 @@ TEST_CASE("grids of OpenVDB files that have no densities are refused", "[volume]
            {.grid = "points"});
     refuse(files.write({flags}), unsupported, {"grid \"flags\"", "bool"}, {.grid = "flags"});
     refuse(files.write({flags, vectors}), unsupported,
-           {"no grid of floats", "flags (bool)", "v (vec3s)"});
+           {"no float grid", "flags (bool)", "v (vec3s)"});
     refuse(files.write({numbers}), unsupported, {"grid \"density\"", "int32"});
     refuse(files.write(std::vector<openvdb::GridBase::Ptr>{}), invalid, {"no grids"});
 
@@ -95,7 +95,7 @@ TEST_CASE("grids of OpenVDB files that have no densities are refused", "[volume]
     auto heat = small_grid();
     heat->setName("heat");
     refuse(files.write({smoke, heat}), invalid,
-           {"several of floats", "smoke?2 (float)", "heat (float)"});
+           {"several float grids", "smoke?2 (float)", "heat (float)"});
 
     auto surface = small_grid();
     surface->setGridClass(openvdb::GRID_LEVEL_SET);

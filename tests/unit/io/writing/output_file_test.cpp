@@ -207,7 +207,7 @@ TEST_CASE("a place that cannot be written is an output error that names it")
     SECTION("no name")
     {
         bad = folder / "";
-        reason = "names no file";
+        reason = "not a file name";
     }
     SECTION("a name that is too long")
     {

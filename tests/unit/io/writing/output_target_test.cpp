@@ -198,7 +198,7 @@ TEST_CASE("names of open descriptors lead to those", "[output]")
     std::string text(20, ' ');
     text.resize(static_cast<std::size_t>(::read(ends[0], text.data(), text.size())));
     CHECK(text == "one two");
-    CHECK(refusal(name + std::to_string(ends[0])).find("reading alone") != std::string::npos);
+    CHECK(refusal(name + std::to_string(ends[0])).find("read-only") != std::string::npos);
     ::close(ends[0]);
     CHECK(refusal(name + number).find("cannot write") != std::string::npos);
 

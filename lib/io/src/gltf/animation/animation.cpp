@@ -151,7 +151,7 @@ void check_shutter(const Shutter& shutter)
     if (!std::isfinite(shutter.open) || !std::isfinite(shutter.close) ||
         shutter.close < shutter.open) {
         throw Error(ErrorCode::usage,
-                    fmt::format("no times of a shutter: opens at {} s, closes at {} s",
+                    fmt::format("invalid shutter: opens at {} s, closes at {} s",
                                 shutter.open, shutter.close));
     }
 }
@@ -162,7 +162,7 @@ std::vector<std::size_t> select_animations(const std::vector<std::string>& names
                                            const GltfOptions& options, LoadContext& context)
 {
     if (options.time && !std::isfinite(*options.time)) {
-        throw Error(ErrorCode::usage, fmt::format("no time of an animation: {}", *options.time));
+        throw Error(ErrorCode::usage, fmt::format("invalid animation time: {}", *options.time));
     }
     if (options.shutter) {
         check_shutter(*options.shutter);
@@ -183,7 +183,7 @@ std::vector<std::size_t> select_animations(const std::vector<std::string>& names
         return {};
     }
     if (names.size() > 1) {
-        context.warn("several animations and none is chosen: the first one plays",
+        context.warn("several animations and none is chosen: the first one is used",
                      fmt::format("/animations: {}", names.size()));
     }
     return {0};

@@ -56,7 +56,7 @@ void check_sampler(const JsonPlace& sampler)
     if (sampler.has("interpolation")) {
         const JsonPlace place = sampler.member("interpolation");
         if (!is_one_of(place.value(), {"LINEAR", "STEP", "CUBICSPLINE"})) {
-            place.fail(brief(place.value()) + " is no interpolation");
+            place.fail(brief(place.value()) + " is not an interpolation");
         }
     }
     require(sampler, "input");

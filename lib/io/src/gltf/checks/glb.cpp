@@ -96,7 +96,7 @@ GlbChunks find_glb_chunks(ByteView file, LoadContext& context)
         offset = start + size;
     }
     if (offset != length) {
-        fail(fmt::format("{} bytes at byte {} are no chunk", length - offset, offset));
+        fail(fmt::format("{} bytes at byte {} are not a chunk", length - offset, offset));
     }
     if (!json) {
         fail("no JSON chunk");

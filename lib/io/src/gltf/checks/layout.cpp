@@ -72,7 +72,7 @@ void check_views(const JsonPlace& views, const JsonPlace& buffers, LoadContext& 
                 .fail(fmt::format("{}, but must be a multiple of 4 up to 252", stride));
         }
         if (view.has("byteStride") && stride == 0) {
-            context.warn("a stride of 0 is taken as none", view.member("byteStride").pointer());
+            context.warn("a stride of 0 is treated as none", view.member("byteStride").pointer());
         }
     }
 }
@@ -90,7 +90,7 @@ void check_sparse(const JsonPlace& accessor, const JsonPlace& views, std::uint64
     const JsonPlace indices = sparse.member("indices");
     const std::uint64_t type = indices.member("componentType").as_unsigned();
     if (type != unsigned_byte && type != unsigned_short && type != unsigned_int) {
-        indices.member("componentType").fail(fmt::format("{} is no type for indices", type));
+        indices.member("componentType").fail(fmt::format("{} is not a type for indices", type));
     }
     const std::uint64_t index_size = component_size(type);
     check_span(indices, views, indices.member("bufferView").as_unsigned(),
@@ -109,12 +109,13 @@ void check_accessor(const JsonPlace& accessor, const JsonPlace& views, LoadConte
     const std::uint64_t component_type = accessor.member("componentType").as_unsigned();
     const std::uint64_t component = component_size(component_type);
     if (component == 0) {
-        accessor.member("componentType").fail(fmt::format("{} is no type", component_type));
+        accessor.member("componentType")
+            .fail(fmt::format("{} is not a component type", component_type));
     }
     const JsonPlace type = accessor.member("type");
     const std::uint64_t components = component_count(type.value().get_ref<const std::string&>());
     if (components == 0) {
-        type.fail(brief(type.value()) + " is no type");
+        type.fail(brief(type.value()) + " is not an accessor type");
     }
     const std::uint64_t element_size = component * components;
     const JsonPlace count_place = accessor.member("count");

@@ -201,7 +201,7 @@ void check_cameras(const JsonPlace& cameras)
         const JsonPlace camera = cameras.element(i);
         const JsonPlace type = camera.member("type");
         if (type.value() != "perspective" && type.value() != "orthographic") {
-            type.fail(brief(type.value()) + " is no type of camera");
+            type.fail(brief(type.value()) + " is not a type of camera");
         }
     }
     check_kinds(cameras, {"perspective", "orthographic"});

@@ -146,7 +146,7 @@ DracoSize draco_size(ByteView data)
 {
     constexpr std::array<std::uint8_t, 5> magic{'D', 'R', 'A', 'C', 'O'};
     if (data.size() < head_size || !std::equal(magic.begin(), magic.end(), data.begin())) {
-        fail(fmt::format("{} bytes that do not begin as Draco data", data.size()));
+        fail(fmt::format("{} bytes that do not begin like Draco data", data.size()));
     }
     const int major = data[5];
     const int minor = data[6];
@@ -155,7 +155,7 @@ DracoSize draco_size(ByteView data)
              ErrorCode::unsupported);
     }
     if (data[7] != draco::TRIANGULAR_MESH) {
-        fail("the data is no mesh");
+        fail("the data is not a mesh");
     }
     const bool edgebreaker = data[8] == draco::MESH_EDGEBREAKER_ENCODING;
     const bool has_metadata = (data[10] & (METADATA_FLAG_MASK >> 8)) != 0;

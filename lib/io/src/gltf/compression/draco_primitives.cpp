@@ -81,7 +81,7 @@ private:
             const JsonPlace place = ids.member(item.key());
             const std::uint64_t id = place.as_unsigned();
             if (id > UINT32_MAX) {
-                place.fail(fmt::format("{} is no number of an attribute", id));
+                place.fail(fmt::format("{} is not an attribute id", id));
             }
             Json accessor =
                 document_["accessors"][attributes.member(item.key()).value().get<std::size_t>()];

@@ -60,7 +60,7 @@ Bytes decode_meshopt(const MeshoptStream& stream, ByteView data)
                         "attributes of version 1, which the meshoptimizer of this build does not "
                         "read");
         }
-        throw Error(ErrorCode::invalid_input, "the data is no meshopt stream of this size");
+        throw Error(ErrorCode::invalid_input, "the data is not a meshopt stream of this size");
     }
     apply_filter(stream, decoded);
     return decoded;

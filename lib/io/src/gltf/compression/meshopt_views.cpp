@@ -44,7 +44,7 @@ MeshoptMode read_mode(const JsonPlace& place)
     if (place.value() == "INDICES") {
         return MeshoptMode::indices;
     }
-    place.fail(brief(place.value()) + " is no mode");
+    place.fail(brief(place.value()) + " is not a mode");
 }
 
 MeshoptFilter read_filter(const JsonPlace& packed)
@@ -68,7 +68,7 @@ MeshoptFilter read_filter(const JsonPlace& packed)
     if (place.value() == "COLOR") {
         place.fail("the filter \"COLOR\" is not supported", ErrorCode::unsupported);
     }
-    place.fail(brief(place.value()) + " is no filter");
+    place.fail(brief(place.value()) + " is not a filter");
 }
 
 bool stride_fits(const MeshoptStream& stream)
@@ -96,13 +96,13 @@ MeshoptStream read_stream(const JsonPlace& packed)
     const JsonPlace stride = packed.member("byteStride");
     stream.stride = static_cast<std::size_t>(stride.as_unsigned());
     if (stream.mode != MeshoptMode::attributes && stream.filter != MeshoptFilter::none) {
-        packed.member("filter").fail("only attributes have filters");
+        packed.member("filter").fail("filters need the mode ATTRIBUTES");
     }
     if (!stride_fits(stream)) {
-        stride.fail(fmt::format("{} does not fit to this mode and filter", stream.stride));
+        stride.fail(fmt::format("{} does not fit this mode and filter", stream.stride));
     }
     if (stream.mode == MeshoptMode::triangles && stream.count % 3 != 0) {
-        packed.member("count").fail(fmt::format("{} is no multiple of 3", stream.count));
+        packed.member("count").fail(fmt::format("{} is not a multiple of 3", stream.count));
     }
     return stream;
 }

@@ -100,7 +100,7 @@ std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
         }
         // The BIN chunk may have up to three bytes of padding.
         if (bytes.size() > length + (in_bin ? 3 : 0)) {
-            context.warn("the buffer holds more bytes than it says; they are ignored",
+            context.warn("the buffer has more bytes than its byteLength; they are ignored",
                          fmt::format("{}: {}", buffer.member("byteLength").pointer(), length));
         }
         buffers.push_back(std::move(bytes));

@@ -95,7 +95,7 @@ void repair_uvs(std::vector<Vec2>& uvs, const std::string& place, LoadContext& c
 {
     for (Vec2& uv : uvs) {
         if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-            context.warn("texture coordinates that are not finite are taken as 0", place);
+            context.warn("texture coordinates that are not finite are treated as 0", place);
             uv = Vec2(0.0f);
         }
     }

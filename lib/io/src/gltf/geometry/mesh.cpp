@@ -148,7 +148,7 @@ std::optional<MeshDesc> read_primitive(const tinygltf::Model& model, PrimitiveId
     const PrimitiveReader primitive(model, id);
     const int mode = primitive.source().mode;
     if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN) {
-        primitive.fail("mode", fmt::format("{} is no mode", mode));
+        primitive.fail("mode", fmt::format("{} is not a primitive mode", mode));
     }
     if (mode < TINYGLTF_MODE_TRIANGLES) {
         context.warn("points and lines are not rendered",

@@ -44,7 +44,7 @@ bool add_set(std::vector<Blend>& blends, const PrimitiveReader& primitive, int n
         for (int c = 0; c < 4; ++c) {
             const double weight = static_cast<double>(weights[i][c]);
             if (!std::isfinite(weight) || weight < 0.0) {
-                context.warn("weights of joints that are no weights count as 0",
+                context.warn("invalid joint weights are treated as 0",
                              fmt::format("{}/attributes/{}: vertex {}: {}",
                                          primitive.id().pointer(), weight_name, i, weight));
                 continue;
@@ -77,7 +77,7 @@ std::vector<Blend> blend_joints(const PrimitiveReader& primitive, std::size_t ve
         Blend& blend = blends[i];
         if (!(std::abs(blend.weight - 1.0) <= tolerance)) {
             context.warn(blend.weight > 0.0
-                             ? "weights of joints that do not add up to 1 are made to"
+                             ? "joint weights that do not sum to 1 are normalised"
                              : "vertices without a weight follow the first joint of their skin",
                          fmt::format("{}/attributes/WEIGHTS_0: vertex {}: {}",
                                      primitive.id().pointer(), i, blend.weight));

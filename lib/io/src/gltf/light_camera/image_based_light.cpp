@@ -70,7 +70,7 @@ Image decode_rgbd(const TexelImage& texels, const std::string& place, LoadContex
 {
     Image image{texels.width, texels.height, {}};
     if (texels.type != TexelType::unorm8 && texels.type != TexelType::unorm16) {
-        throw UnreadableCube(place + ": its pixels are no integers, as those of RGBD are");
+        throw UnreadableCube(place + ": its pixels are not integers, as RGBD needs");
     }
     image.pixels.reserve(texel_count(texels));
     const bool is_grey = texels.channels < 3;
@@ -138,7 +138,7 @@ CubeMap read_cube(const tinygltf::Model& model, const std::vector<std::size_t>& 
         try {
             const DecodedImage decoded = read_face(model, images[side], context);
             if (!decoded.damage.empty()) {
-                context.warn("an image of the environment is damaged; what can be decoded counts",
+                context.warn("an image of the environment is damaged; its decoded part is used",
                              face_place + ": " + decoded.damage);
             }
             Image& face = cube.faces[side];
@@ -189,7 +189,8 @@ Image flatten(CubeMap cube, const std::string& place, LoadContext& context)
         1, static_cast<int>(std::min({most, affordable, context.limits.image_side / 2.0})));
     const int wanted = std::max(2 * longest_side(cube), least);
     if (wanted > highest) {
-        context.warn("an environment loses detail, as an image of all of it would be too large",
+        context.warn("an environment loses detail, because its equirectangular image would be too "
+                     "large",
                      fmt::format("{}: {} x {} pixels", place, 2 * wanted, wanted));
     }
     while (longest_side(cube) > 1 && 2 * longest_side(cube) > highest) {
@@ -207,7 +208,7 @@ float read_intensity(const tinygltf::Value& light, const std::string& place, Loa
     constexpr double most = std::numeric_limits<float>::max() / 256.0;
     const double intensity = light.Get("intensity").GetNumberAsDouble();
     if (!(intensity >= 0.0 && intensity <= most)) {
-        context.warn("the intensity of an environment is brought into its range",
+        context.warn("an out-of-range intensity of an environment is clamped",
                      fmt::format("{}/intensity: {}", place, intensity));
     }
     return static_cast<float>(std::clamp(intensity, 0.0, most));

@@ -29,7 +29,7 @@ Rgb read_intensity(const tinygltf::Light& light, const std::string& place, LoadC
             light.color.size() == 3 ? light.color[static_cast<std::size_t>(c)] : 1.0;
         const double value = factor * light.intensity;
         if (!(value >= 0.0 && value <= most)) {
-            context.warn("an intensity beyond its range is brought back",
+            context.warn("an out-of-range intensity is clamped",
                          fmt::format("{}: {}", place, value));
         }
         intensity[c] = static_cast<float>(std::clamp(value, 0.0, most));
@@ -44,7 +44,7 @@ SpotLightDesc read_spot(const tinygltf::Light& light, const std::string& place,
     const double outer = std::clamp(light.spot.outerConeAngle, min_cone, half_pi);
     const double inner = std::clamp(light.spot.innerConeAngle, 0.0, outer);
     if (outer != light.spot.outerConeAngle || inner != light.spot.innerConeAngle) {
-        context.warn("the cone angles of a spot light are brought into their ranges",
+        context.warn("out-of-range cone angles of a spot light are clamped",
                      fmt::format("{}/spot: {} and {}", place, light.spot.innerConeAngle,
                                  light.spot.outerConeAngle));
     }
@@ -99,7 +99,7 @@ std::optional<LightDesc> read_light(const tinygltf::Model& model, std::size_t no
     const Vec3 direction = transform_direction(world_from_node, {0.0, 0.0, -1.0});
     const Rgb intensity = read_intensity(light, place, context);
     if (light.range > 0.0) {
-        context.warn("the range of a light is ignored: light does not end",
+        context.warn("the range of a light is ignored: light has no cutoff distance",
                      fmt::format("{}/range: {}", place, light.range));
     }
     const float radius = read_radius(light, place, world_from_node, context);

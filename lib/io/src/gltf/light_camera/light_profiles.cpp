@@ -21,7 +21,7 @@ namespace {
 double in_range(double value, double most, const std::string& place, LoadContext& context)
 {
     if (!(value >= 0.0 && value <= most)) {
-        context.warn("a colour or multiplier of a light profile is brought into its range",
+        context.warn("an out-of-range colour or multiplier of a light profile is clamped",
                      fmt::format("{}: {}", place, value));
     }
     return std::clamp(value, 0.0, most);

@@ -170,7 +170,7 @@ void ImageTable::add(Job& job)
         }
         const std::string& damage = job.decoded.damage;
         if (!damage.empty()) {
-            context_.warn("the image is damaged; the texture has what can be decoded of it",
+            context_.warn("the image is damaged; the texture uses its decoded part",
                           place + ": " + damage);
         }
         for (const std::string& remark : job.decoded.remarks) {

@@ -77,7 +77,8 @@ private:
         } else if (mode == "BLEND") {
             desc_.alpha_mode = AlphaMode::blend;
         } else if (mode != "OPAQUE" && !mode.empty()) {
-            context_.warn("an unknown alpha mode counts as OPAQUE", place_ + "/alphaMode: " + mode);
+            context_.warn("an unknown alpha mode is treated as OPAQUE",
+                          place_ + "/alphaMode: " + mode);
         }
     }
 
@@ -182,7 +183,7 @@ private:
         if (static_cast<float>(distance) > 0.0f) {
             desc_.attenuation_distance = static_cast<float>(distance);
         } else {
-            context_.warn("an attenuation distance must be above 0; nothing is attenuated",
+            context_.warn("an attenuation distance must be above 0; there is no attenuation",
                           fmt::format("{}/extensions/KHR_materials_volume/attenuationDistance: {}",
                                       place_, distance));
         }

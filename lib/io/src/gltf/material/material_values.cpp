@@ -13,7 +13,7 @@ float MaterialValues::in_range(double value, double low, double high, std::strin
         return static_cast<float>(value);
     }
     const double nearest = std::clamp(value, low, high);
-    context_.warn("a material value beyond its range is brought back",
+    context_.warn("an out-of-range material value is clamped",
                   fmt::format("{}/{}: {} becomes {}", place_, key, value, nearest));
     return static_cast<float>(nearest);
 }

@@ -126,8 +126,7 @@ std::optional<TextureRef> TextureResolver::resolve(const TextureInfo& info,
     }
     if (ref.uv_set > 1) {
         context_.warn(
-            "only TEXCOORD_0 and TEXCOORD_1 are read; the material does without the "
-            "texture",
+            "only TEXCOORD_0 and TEXCOORD_1 are read; the texture is left out",
             fmt::format("{}: texCoord {}", place, ref.uv_set));
         return std::nullopt;
     }

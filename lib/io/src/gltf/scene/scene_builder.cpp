@@ -78,7 +78,7 @@ public:
             const Pending next = stack.back();
             stack.pop_back();
             if (visited_[next.node]) {
-                context_.warn("the scene lists a node that it has already; it is shown once",
+                context_.warn("the scene lists a node twice; it is shown once",
                               fmt::format("/nodes/{}", next.node));
                 continue;
             }
@@ -193,11 +193,11 @@ private:
             // A scale of zero flattens the mesh, whose triangles may still be visible.
             const std::optional<MeshId> flat = meshes_.flatten(mesh, id, worlds);
             if (!flat) {
-                context_.warn("a mesh that is scaled to nothing is left out",
+                context_.warn("a mesh that is scaled to zero size is left out",
                               fmt::format("/nodes/{}", node));
                 return;
             }
-            context_.warn("a mesh that is scaled flat gets the normals of its faces",
+            context_.warn("a mesh that is scaled flat gets face normals",
                           fmt::format("/nodes/{}", node));
             instance.mesh = *flat;
             instance.world_from_object = Mat4(1.0f);

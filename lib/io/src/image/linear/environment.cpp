@@ -31,7 +31,7 @@ void mend_pixels(Image& image, Warnings& warnings)
                 continue;
             }
             const auto width = static_cast<std::size_t>(image.width);
-            warnings.add("negative, infinite and NaN values are taken as 0",
+            warnings.add("negative, infinite and NaN values are treated as 0",
                          fmt::format("pixel ({}, {}): {}", i % width, i / width, value));
             value = 0.0f;
         }

@@ -78,8 +78,14 @@ void AovFilm::add_ground(int x, int y, const GroundLight& light) noexcept
 {
     const std::size_t i = index(x, y);
     ++ground_hits_[i];
-    unshadowed_[i].add_alone(std::min(light.unshadowed, ExactSum::max_value));
-    shadowed_[i].add_alone(std::min(light.shadowed, ExactSum::max_value));
+    ExactSum light_sum;
+    light_sum.add_alone(std::min(light.unshadowed, ExactSum::max_value));
+    unshadowed_[i].add(light_sum);
+    if (light.shadowed == light.unshadowed) {  // as on most of the ground
+        shadowed_[i].add(light_sum);
+    } else {
+        shadowed_[i].add_alone(std::min(light.shadowed, ExactSum::max_value));
+    }
 }
 
 void AovFilm::add_opacity(int x, int y, float opacity) noexcept

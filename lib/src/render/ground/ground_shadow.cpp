@@ -145,34 +145,29 @@ void GroundShadow::add_sky(const Point& point, GroundLight& sum) const
         sum = {.unshadowed = sky_->irradiance(), .shadowed = sky_->irradiance()};
         return;
     }
-    const GroundSky::Shares shares = sky_->shares(point.place);
-    sum = {.unshadowed = shares.open, .shadowed = shares.open};
-    if (!(shares.exposed > 0.0f)) {
+    const float open = sky_->shares(point.place).open;
+    sum = {.unshadowed = open, .shadowed = open};
+    const GroundSky::Effort effort = sky_->effort(point.place);
+    if (effort.samples == 0) {
         return;
     }
-    constexpr float samples_of_all = 4.0f;  // samples if all of the sky may be blocked
-    const float wanted = samples_of_all * shares.exposed / (shares.open + shares.exposed);
-    // Fewer than one sample is one with that probability.
-    const int samples = static_cast<int>(std::ceil(wanted));
-    const float chance = std::min(wanted, 1.0f);
-    const float weight = 1.0f / (chance * static_cast<float>(samples));
     point.sampler.start(SampleUse::ground, number_of_ray(0, 0));
-    const Vec2 first = point.sampler.next_2d();
-    for (int i = 0; i < samples; ++i) {
-        Vec2 u = shifted_point(first, static_cast<std::uint32_t>(i),
-                               static_cast<std::uint32_t>(samples));
-        if (!(u.x < chance)) {
-            continue;
-        }
-        u.x /= chance;
-        const GroundSky::Sample sample = sky_->sample(point.place, u);
+    Vec2 first = point.sampler.next_2d();
+    if (!(first.x < effort.chance)) {
+        return;
+    }
+    first.x = effort.samples == 1 ? first.x / effort.chance : first.x;
+    for (std::uint32_t i = 0; i < effort.samples; ++i) {
+        const GroundSky::Sample sample =
+            sky_->sample(point.place, shifted_point(first, i, effort.samples));
         if (is_useless(sample.irradiance)) {
             continue;
         }
         ++point.rays.aov;
-        const Rgb open = world_.transmittance_to_infinity(point.end, sample.to_light,
-                                                          point.segment(number_of_ray(0, i)));
-        add(sum, {luminance(sample.irradiance), luminance(sample.irradiance * open)}, weight);
+        const Rgb transmittance = world_.transmittance_to_infinity(
+            point.end, sample.to_light, point.segment(number_of_ray(0, static_cast<int>(i))));
+        add(sum, {luminance(sample.irradiance), luminance(sample.irradiance * transmittance)},
+            effort.weight);
     }
 }
 

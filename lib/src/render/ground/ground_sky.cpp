@@ -21,6 +21,34 @@ Vec3 to_direction(float azimuth, float sine, float cosine)
     return {sine * phi.sin, cosine, sine * phi.cos};
 }
 
+GroundSky::Effort choose_effort(const GroundSky::Shares& shares)
+{
+    if (!(shares.exposed > 0.0f)) {
+        return {};
+    }
+    constexpr float samples_of_all = 4.0f;  // samples if all of the sky may be blocked
+    const float wanted = samples_of_all * shares.exposed / (shares.open + shares.exposed);
+    const auto samples = static_cast<std::uint32_t>(std::ceil(wanted));
+    const float chance = std::min(wanted, 1.0f);
+    return {.samples = samples,
+            .chance = chance,
+            .weight = 1.0f / (chance * static_cast<float>(samples))};
+}
+
+/// Counts how many of the first `n` ascending numbers are at most `x`, without branches that the
+/// processor has to predict. `n` is less than a power of two, `2 * half`.
+template <typename Number>
+std::size_t count_up_to(const Number* numbers, std::size_t n, Number x, std::size_t half)
+{
+    std::size_t count = 0;
+    for (std::size_t step = half; step > 0; step /= 2) {
+        const std::size_t next = count + step;
+        const bool is_up_to = numbers[std::min(next, std::max<std::size_t>(n, 1)) - 1] <= x;
+        count = (next <= n && is_up_to) ? next : count;
+    }
+    return count;
+}
+
 template <std::size_t count>
 double compute_sum(const std::array<float, count>& numbers)
 {
@@ -45,6 +73,10 @@ GroundSky::GroundSky(const EnvironmentLight& sky, const GroundOccluders& occlude
             sin_cos(0.5f * pi * static_cast<float>(row) / static_cast<float>(rows)).sin;
         sines_squared_[row] = row == rows ? 1.0f : sine * sine;
     }
+    for (std::size_t row = 0; row < rows; ++row) {
+        projected_[row] = pi / static_cast<float>(columns) *
+                          (sines_squared_[row + 1] - sines_squared_[row]);
+    }
     fill_cells();
     double all = 0.0;
     for (const RowSums& strip : irradiances_) {
@@ -66,6 +98,7 @@ GroundSky::GroundSky(const EnvironmentLight& sky, const GroundOccluders& occlude
         place.weight = place.weights.back();
         place.shares = {.open = static_cast<float>(std::max(all - exposed, 0.0)),
                         .exposed = place.weight > 0.0f ? static_cast<float>(exposed) : 0.0f};
+        place.effort = choose_effort(place.shares);
     });
 }
 
@@ -141,8 +174,7 @@ GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
     constexpr Sample nothing{.to_light = {0.0f, 1.0f, 0.0f}};
     // A strip of those that may be blocked, by the first number.
     const float target = std::min(u.x, below_one) * from.weight;
-    const auto found = std::upper_bound(from.weights.begin(), from.weights.end() - 1, target);
-    const auto strip = static_cast<std::size_t>(found - from.weights.begin());
+    const std::size_t strip = count_up_to(from.weights.data(), strips - 1, target, strips / 2);
     const GroundOccluders::Rows blocked = occluders_.skyline(place)[strip];
     // A row of it, by the second.
     const RowSums& sums = weights_[strip];
@@ -151,31 +183,30 @@ GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
         return nothing;
     }
     const double height = sums[blocked.begin] + static_cast<double>(u.y) * weight;
-    const auto above =
-        std::upper_bound(sums.begin() + blocked.begin + 1, sums.begin() + blocked.end, height) - 1;
-    const auto row =
-        std::min(static_cast<std::size_t>(above - sums.begin()), std::size_t{blocked.end} - 1U);
-    const double of_row = sums[row + 1] - sums[row];
-    if (!(of_row > 0.0)) {
+    const std::size_t row =
+        blocked.begin + count_up_to(sums.data() + blocked.begin + 1,
+                                    std::size_t{blocked.end} - blocked.begin - 1U, height, rows / 2);
+    const auto of_row = static_cast<float>(sums[row + 1] - sums[row]);
+    if (!(of_row > 0.0f)) {
         return nothing;
     }
-    const auto along =
-        std::min(static_cast<float>(std::max(height - sums[row], 0.0) / of_row), below_one);
+    const float along =
+        std::min(std::max(static_cast<float>(height - sums[row]), 0.0f) / of_row, below_one);
     // A cell of both, by what is left of the first.
     const Cells& row_of_cells = cells(strip, row);
-    const double of_cells = compute_sum(row_of_cells);
     const float before = strip > 0 ? from.weights[strip - 1] : 0.0f;
-    double left = static_cast<double>(target - before) / weight * of_cells;
+    float left = (target - before) / static_cast<float>(weight) * of_row;
     std::size_t cell = 0;
-    while (cell + 1 < columns_of_strip && left >= static_cast<double>(row_of_cells[cell])) {
-        left -= static_cast<double>(row_of_cells[cell]);
+    while (cell + 1 < columns_of_strip && left >= row_of_cells[cell]) {
+        left -= row_of_cells[cell];
         ++cell;
     }
-    const auto of_cell = static_cast<double>(row_of_cells[cell]);
-    if (!(of_cell > 0.0)) {
+    const float of_cell = row_of_cells[cell];
+    if (!(of_cell > 0.0f)) {
         return nothing;
     }
-    const auto across = std::min(static_cast<float>(left / of_cell), below_one);
+    const float over_cell = 1.0f / of_cell;
+    const float across = std::min(left * over_cell, below_one);
     const std::size_t column = strip * columns_of_strip + cell;
     // In a cell all of the projected solid angle is the same.
     const float sine_squared =
@@ -184,11 +215,7 @@ GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
         (static_cast<float>(column) + across) / static_cast<float>(columns_of_strip);
     const Vec3 to_light = to_direction(azimuth, std::sqrt(sine_squared),
                                        std::sqrt(std::max(1.0f - sine_squared, 0.0f)));
-    const float projected =
-        pi / static_cast<float>(columns) * (sines_squared_[row + 1] - sines_squared_[row]);
-    const auto over_density =
-        static_cast<float>(static_cast<double>(from.weight) / of_row * (of_cells / of_cell) *
-                           static_cast<double>(projected));
+    const float over_density = from.weight * over_cell * projected_[row];
     return {.to_light = to_light, .irradiance = over_density * sky_.radiance(to_light)};
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace bdpt {
@@ -24,6 +25,14 @@ public:
         float exposed = 0.0f;
     };
     [[nodiscard]] Shares shares(std::size_t place) const { return places_[place].shares; }
+    /// Number of samples that estimate the exposed share of a place.
+    struct Effort {
+        std::uint32_t samples = 0;  ///< 0: nothing is exposed
+        float chance = 0.0f;        ///< probability of taking the samples; below 1 for one sample
+        float weight = 0.0f;        ///< of each sample
+    };
+    /// Returns more samples where more of the light may be blocked: only that part is noisy.
+    [[nodiscard]] Effort effort(std::size_t place) const { return places_[place].effort; }
     /// Returns the irradiance of unblocked ground.
     [[nodiscard]] float irradiance() const { return irradiance_; }
 
@@ -44,6 +53,7 @@ private:
     using RowSums = std::array<double, rows + 1>;
     struct Place {
         Shares shares;
+        Effort effort;
         float weight = 0.0f;                  ///< weight of all directions that may be blocked
         std::array<float, strips> weights{};  ///< cumulative weights of strips, inclusive
     };
@@ -63,6 +73,7 @@ private:
     const EnvironmentLight& sky_;
     const GroundOccluders& occluders_;
     std::array<float, rows + 1> sines_squared_{};  ///< of the polar angle where rows begin
+    std::array<float, rows> projected_{};          ///< projected solid angle of a cell by row [sr]
     std::vector<Cells> cells_;
     std::vector<RowSums> weights_;      ///< of the cells, by strip
     std::vector<RowSums> irradiances_;  ///< by strip

@@ -47,7 +47,7 @@ void add_part_options(OptionList& options, PartChoice& part)
     options
         .add_flag("--restart", "Do not go on with the file of --part, but replace it",
                   part.existing, existing.type())
-        .uses.job = false;
+        .uses = {.job = false, .program = true};
     options
         .add("--plan", "FILE",
              "Render one task of this plan (bdpt plan), which says all but --threads, "

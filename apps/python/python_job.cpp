@@ -40,7 +40,7 @@ public:
         if (!message_.is_none()) {
             control.on_message = [this](MessageKind kind, std::string_view text) {
                 const Locked lock;
-                sleep_when_python_ends([&] {
+                call([&] {
                     message_(kind == MessageKind::note ? "note" : "warning", std::string(text));
                 });
             };
@@ -60,12 +60,31 @@ private:
     void tell(const JobProgress& now)
     {
         const Locked lock;
-        if (!interrupt_ && PyErr_CheckSignals() != 0) {
-            interrupt_.emplace();
-            stop_.request_stop();
+        call([&] {
+            if (PyErr_CheckSignals() != 0) {
+                throw nb::python_error();
+            }
+            if (!progress_.is_none()) {
+                progress_(now);
+            }
+        });
+    }
+
+    /// Calls `work()`, which may run Python. Ctrl-C may also arrive within a callback.
+    template <typename Work>
+    void call(const Work& work)
+    {
+        if (interrupt_) {
+            return;
         }
-        if (!interrupt_ && !progress_.is_none()) {
-            sleep_when_python_ends([&] { progress_(now); });
+        try {
+            sleep_when_python_ends(work);
+        } catch (nb::python_error& error) {
+            if (!error.matches(PyExc_KeyboardInterrupt)) {
+                throw;
+            }
+            interrupt_.emplace(std::move(error));
+            stop_.request_stop();
         }
     }
 

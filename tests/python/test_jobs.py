@@ -43,10 +43,10 @@ def test_values_are_those_of_python_and_numpy(tmp_path):
 def test_a_job_file_is_overridden_by_options(tmp_path):
     file = tmp_path / "a.json"
     file.write_text(json.dumps({"bdpt_job": 1, "file": str(SCENE), "output": ["in-folder.exr"], "spp": 2, "size": "8x8",
-                                "adaptive": True}))
-    [image] = bdpt.run(file, adaptive=False)
+                                "denoise": True}))
+    [image] = bdpt.run(file, denoise=False)
     assert image.files == [tmp_path / "in-folder.exr"] and image.spp == 2
-    [image] = bdpt.run(file, adaptive=False, spp=3, output=str(tmp_path / "other.png"))
+    [image] = bdpt.run(file, denoise=False, spp=3, output=str(tmp_path / "other.png"))
     assert image.files == [tmp_path / "other.png"] and image.spp == 3
 
 
@@ -99,6 +99,16 @@ def test_other_threads_run_while_a_job_does(tmp_path):
     done.set()
     thread.join()
     assert counts[0] > 50
+
+
+@pytest.mark.parametrize("callback", ["progress", "message"])
+def test_an_interrupt_within_a_callback_writes_what_is_there(tmp_path, callback):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        bdpt.run(SCENE, output=tmp_path / "a.exr", spp=10**9, **SMALL, **{callback: interrupt})
+    assert (tmp_path / "a.exr").stat().st_size > 0
 
 
 def test_control_c_stops_a_job_and_writes_what_is_there(tmp_path):

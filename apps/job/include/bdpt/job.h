@@ -120,7 +120,7 @@ struct JobProgress {
 /// Observation and control of a job. Everything is optional.
 struct JobControl {
     /// A request ends the render after the current pass, and the samples so far are written, as
-    /// Ctrl-C does in the command. Before the first pass of an image nothing is written for it.
+    /// Ctrl-C does in the command. Images that are not begun yet are not written.
     std::stop_token stop;
     /// Called on the thread that called run(), after each pass. What it throws ends the job, reaches
     /// the caller, and leaves the files of the image unwritten.

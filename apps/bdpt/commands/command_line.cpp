@@ -69,8 +69,8 @@ int save_job(const RenderRequest& request, const OptionList& options)
     return 0;
 }
 
-/// Renders one scene, controlled by signals. Returns the exit code: 0, or 128 + a signal's number if
-/// that ended the render early.
+/// Renders one scene, controlled by signals. Returns the exit code: 0, or 128 + a signal's number
+/// if that ended the render early.
 int run_scene(const RenderArguments& arguments, const std::vector<std::string>& words)
 {
     TerminalConsole console(arguments.printed.format, arguments.printed.verbosity);

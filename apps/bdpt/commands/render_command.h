@@ -11,9 +11,9 @@
 
 namespace bdpt::app {
 
-/// Renders one scene and writes all files: `bdpt render` and `bdpt::run`. `words` are the equivalent
-/// command line. What happens is told to `console`; `interrupt` stops the render. Throws `Error`
-/// before anything is written, or if writing fails.
+/// Renders one scene and writes all files: `bdpt render` and `bdpt::run`. `words` are the
+/// equivalent command line. What happens is told to `console`; `interrupt` stops the render. Throws
+/// `Error` before anything is written, or if writing fails.
 [[nodiscard]] JobResult run_render(const RenderArguments& arguments,
                                    const std::vector<std::string>& words, Console& console,
                                    Interrupt& interrupt);

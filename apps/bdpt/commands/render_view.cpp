@@ -236,7 +236,8 @@ void note_done(Console& console, const RenderArguments& arguments, const RenderR
 }
 
 void report_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
-                 double noise, const WrittenImages& images, const std::optional<std::string>& stopped_by)
+                 double noise, const WrittenImages& images,
+                 const std::optional<std::string>& stopped_by)
 {
     ordered_json outputs = ordered_json::array();
     for (const std::filesystem::path& output : images.files) {
@@ -301,8 +302,7 @@ std::optional<JobImage> render_view(const RenderArguments& asked, const Prepared
     Console& console = session.console;
     Interrupt& interrupt = session.interrupt;
     const auto choosing_start = std::chrono::steady_clock::now();
-    const RenderArguments arguments =
-        with_choice(asked, stage, console, interrupt.stop_token());
+    const RenderArguments arguments = with_choice(asked, stage, console, interrupt.stop_token());
     if (interrupt.stopped_by()) {
         return std::nullopt;
     }

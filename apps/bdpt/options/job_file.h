@@ -32,9 +32,9 @@ void load_job(const std::filesystem::path& file, OptionList& options);
 /// The same for a job that was read; paths in it are relative to `folder`.
 void load_job(const io::JsonValue& job, const std::filesystem::path& folder, OptionList& options);
 
-/// Stores `members`, an object of options as in jobs, into `options`, replacing what was given; null
-/// removes it. Options of `OptionUses::program` may be among them; paths are relative to the working
-/// directory. Throws `Error` (invalid_input).
+/// Stores `members`, an object of options as in jobs, into `options`, replacing what was given;
+/// null removes it. Options of `OptionUses::program` may be among them; paths are relative to the
+/// working directory. Throws `Error` (invalid_input).
 void set_options(const io::JsonValue& members, OptionList& options);
 
 /// Returns the given `options` as a job to be written to `file`.

@@ -26,7 +26,8 @@ sigset_t signals_to_watch()
 
 }  // namespace
 
-SignalInterrupt::SignalInterrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop)
+SignalInterrupt::SignalInterrupt(std::vector<std::filesystem::path> temporaries,
+                                 std::function<void()> on_stop)
     : temporaries_(std::move(temporaries)),
       on_stop_(std::move(on_stop)),
       signals_(signals_to_watch())

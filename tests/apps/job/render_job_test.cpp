@@ -128,7 +128,8 @@ TEST_CASE("a job is written as a job file, and read from one", "[job]")
             ErrorCode::invalid_input, "has no \"file\"");
     refused([] { return RenderJob::from_json(R"({"bdpt_job": 1, "file": "a.glb", "spp": 0})"); },
             ErrorCode::invalid_input, "/spp: must be a whole number");
-    refused([&] { return RenderJob::from_file(folder / "no.json"); }, ErrorCode::not_found, "no.json");
+    refused([&] { return RenderJob::from_file(folder / "no.json"); }, ErrorCode::not_found,
+            "no.json");
 }
 
 TEST_CASE("a program decides what no file may decide", "[job]")

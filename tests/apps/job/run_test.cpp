@@ -118,14 +118,15 @@ TEST_CASE("a program gets the files of the command, to the bit", "[job]")
     CHECK_FALSE(image.camera);
 
     const std::string same = (studio.folder / "same.exr").string();
-    REQUIRE(test::run({"render", studio.scene.string(), "--size", "16x8", "--spp", "3", "--integrator",
-                       "bdpt", "--aov", "depth", "-o", same, "--quiet"})
+    REQUIRE(test::run({"render", studio.scene.string(), "--size", "16x8", "--spp", "3",
+                       "--integrator", "bdpt", "--aov", "depth", "-o", same, "--quiet"})
                 .exit_code == 0);
     const ExrFile ours = read_exr(studio.folder / "out.exr");
     const ExrFile its = read_exr(same);
     CHECK(ours.image.pixels == its.image.pixels);
     CHECK(ours.image.at(8, 4).g > 0.0f);
-    CHECK(read_exr_channel(studio.folder / "out.exr", "depth.Z") == read_exr_channel(same, "depth.Z"));
+    CHECK(read_exr_channel(studio.folder / "out.exr", "depth.Z") ==
+          read_exr_channel(same, "depth.Z"));
     CHECK(ours.text("bdpt.settings") == its.text("bdpt.settings"));
 }
 
@@ -331,7 +332,9 @@ TEST_CASE("jobs of several threads do not disturb each other", "[job]")
         threads.emplace_back([&, seed] {
             std::vector<std::string>& mine = told[static_cast<std::size_t>(seed)];
             JobControl control;
-            control.on_message = [&](MessageKind, std::string_view text) { mine.emplace_back(text); };
+            control.on_message = [&](MessageKind, std::string_view text) {
+                mine.emplace_back(text);
+            };
             static_cast<void>(
                 bdpt::run(job(seed, "together" + std::to_string(seed) + ".exr"), control));
         });

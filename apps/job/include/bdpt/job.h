@@ -122,8 +122,8 @@ struct JobControl {
     /// A request ends the render after the current pass, and the samples so far are written, as
     /// Ctrl-C does in the command. Images that are not begun yet are not written.
     std::stop_token stop;
-    /// Called on the thread that called run(), after each pass. What it throws ends the job, reaches
-    /// the caller, and leaves the files of the image unwritten.
+    /// Called after each pass of an image. What it throws ends the job and reaches the caller; the
+    /// files of the image are not written.
     std::function<void(const JobProgress&)> on_progress;
     /// Called with each message of the command, without its "bdpt: ": one line.
     std::function<void(MessageKind, std::string_view)> on_message;
@@ -150,12 +150,11 @@ struct JobResult {
     bool stopped = false;            ///< true: a stop was requested, and images may be missing
 };
 
-/// Renders `job` as `bdpt render` does, with the same bits: loads the scene, adds light and a camera
-/// where there are none, renders or continues a part, denoises, and writes all files. It prints
-/// nothing and handles no signals. May be called from several threads at once, for jobs that write
-/// different files. Throws `Error` with the messages and codes of the
-/// command; usage if the standard input or output ("-") is among the files, because it belongs to
-/// the program.
+/// Renders `job` as `bdpt render` does, with the same bits: loads the scene, adds light and a
+/// camera where there are none, renders or continues a part, denoises, and writes all files. It
+/// prints nothing and handles no signals. May be called from several threads at once, for jobs that
+/// write different files. Throws `Error` with the messages and codes of the command; usage if the
+/// standard input or output ("-") is among the files, because it belongs to the program.
 BDPT_EXPORT JobResult run(const RenderJob& job, const JobControl& control = {});
 
 }  // namespace bdpt

@@ -35,7 +35,7 @@ on a farm, and compares integrators. Its libraries do the same for programs.")
 set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_SUGGESTS "bdpt-openimageio, bdpt-openvdb")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
-    "${CMAKE_BINARY_DIR}/lib;${CMAKE_BINARY_DIR}/lib/io;${CMAKE_BINARY_DIR}/lib/eval")
+    "${CMAKE_BINARY_DIR}/lib;${CMAKE_BINARY_DIR}/lib/io;${CMAKE_BINARY_DIR}/lib/eval;${CMAKE_BINARY_DIR}/apps/job")
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/debian/triggers")
@@ -66,8 +66,8 @@ set(CPACK_DEBIAN_BDPT_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_BDPT_DEVELOPMENT_PACKAGE_DEPENDS "bdpt (= ${PROJECT_VERSION}), libglm-dev")
 set(CPACK_DEBIAN_BDPT_DEVELOPMENT_DESCRIPTION
 "bidirectional path tracing for programs
-Headers of the libraries bdpt, bdpt_io and bdpt_eval, and their packages for
-CMake and pkg-config.")
+Headers of the libraries bdpt, bdpt_io, bdpt_eval and bdpt_job, and their
+packages for CMake and pkg-config.")
 
 if(BDPT_BUILD_PYTHON AND BDPT_PYTHON_DEBIAN_DEPENDS)
   list(APPEND CPACK_COMPONENTS_ALL bdpt_python)

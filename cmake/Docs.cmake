@@ -10,7 +10,7 @@ if(NOT DOXYGEN_FOUND)
 endif()
 
 set(headers "")
-foreach(library IN ITEMS bdpt bdpt_io bdpt_eval)  # those that are built
+foreach(library IN ITEMS bdpt bdpt_io bdpt_eval bdpt_job)  # those that are built
   if(TARGET ${library})
     get_target_property(folders ${library} INTERFACE_INCLUDE_DIRECTORIES)
     string(REGEX REPLACE "\\$<BUILD_INTERFACE:([^>]*)>" "\\1" folders "${folders}")

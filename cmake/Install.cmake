@@ -10,6 +10,9 @@ endif()
 if(BDPT_BUILD_EVAL)
   list(APPEND libraries bdpt_eval)
 endif()
+if(BDPT_BUILD_APPS)
+  list(APPEND libraries bdpt_job)
+endif()
 
 # Before 1.0 every minor version may break the ABI.
 set_target_properties(${libraries} PROPERTIES VERSION ${PROJECT_VERSION}
@@ -59,6 +62,10 @@ if(BDPT_BUILD_EVAL)
 endif()
 
 if(BDPT_BUILD_APPS)
+  bdpt_install_library(bdpt_job job bdptJobTargets)
+  set_property(TARGET bdpt_job APPEND PROPERTY INSTALL_RPATH "$ORIGIN")
+  install(DIRECTORY apps/job/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+          COMPONENT bdpt_development FILES_MATCHING PATTERN "*.h")
   file(RELATIVE_PATH to_libdir "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
   set_property(TARGET bdpt_app APPEND PROPERTY INSTALL_RPATH "$ORIGIN/${to_libdir}")
   install(TARGETS bdpt_app RUNTIME COMPONENT bdpt_runtime)

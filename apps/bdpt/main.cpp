@@ -1,8 +1,6 @@
 #include <bdpt/error.h>
-#include <bdpt/thread_limit.h>
 #include <fmt/core.h>
 #include <signal.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <exception>
@@ -16,8 +14,8 @@
 #include "commands/command_line.h"
 #include "options/option_list.h"
 #include "plan/planned_words.h"
-#include "terminal/cgroup_limits.h"
 #include "terminal/console.h"
+#include "terminal/processor_quota.h"
 #include "terminal/standard_streams.h"
 
 namespace bdpt::app {
@@ -44,17 +42,6 @@ int run(const std::vector<std::string>& given)
     }
 }
 
-/// Runs `work` with as many threads as the quota of a container allows, and as the system lets
-/// start: oneTBB knows only the processors that the process may run on, not such limits.
-template <typename Work>
-int within_quota(const Work& work)
-{
-    const int quota = cgroup_limits().processors.value_or(int{tbb::task_arena::automatic});
-    const int available = tbb::this_task_arena::max_concurrency();
-    const int allowed = limit_threads(quota > 0 ? std::min(quota, available) : available).allowed;
-    return allowed < available ? tbb::task_arena(allowed).execute(work) : work();
-}
-
 /// Runs a command and returns the exit code. All failures become messages.
 int guarded_run(const std::vector<std::string>& words, Format format)
 {
@@ -63,7 +50,9 @@ int guarded_run(const std::vector<std::string>& words, Format format)
         return static_cast<int>(code);
     };
     try {
-        return within_quota([&] { return run(words); });
+        int exit_code = 0;
+        within_quota([&] { exit_code = run(words); });
+        return exit_code;
     } catch (const Error& error) {
         return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {

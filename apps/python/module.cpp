@@ -52,5 +52,6 @@ NB_MODULE(_bdpt, module)
     bdpt::python::bind_parts_of_scenes(module);
     bdpt::python::bind_edits(module);
     bdpt::python::bind_render(module);
+    bdpt::python::bind_job(module);
     bdpt::python::bind_compare(module);
 }

@@ -127,7 +127,7 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
     CameraDesc own_camera = std::exchange(scene.stage.camera, task.camera);
     if (arguments.rates) {  // by a pilot or from a file, as in the command
         const Unlocked unlocked;
-        app::Console silent(arguments.printed.format, app::Verbosity::quiet);
+        app::TerminalConsole silent(arguments.printed.format, app::Verbosity::quiet);
         arguments = with_choice(std::move(arguments), scene.stage, silent);
     }
     task.metadata = make_metadata(arguments, scene.stage, make_settings(arguments, scene.stage));

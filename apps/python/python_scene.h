@@ -37,6 +37,9 @@ void bind_edits(nanobind::module_& module);
 /// Binds render(), `Render` and related types.
 void bind_render(nanobind::module_& module);
 
+/// Binds run() and the types of its results.
+void bind_job(nanobind::module_& module);
+
 /// Binds compare().
 void bind_compare(nanobind::module_& module);
 

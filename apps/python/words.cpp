@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <sstream>
 #include <utility>
 
 #include "options/command_parser.h"
+#include "options/job_file.h"
 
 namespace bdpt::python {
 namespace {
@@ -39,9 +41,17 @@ struct SaveRequest {
 bool belongs(const app::Option& option, Call call)
 {
     const app::OptionUses& uses = option.uses;
-    return call == Call::load     ? uses.python_load
-           : call == Call::render ? uses.python_render
-                                  : uses.python_save;
+    switch (call) {
+        case Call::load:
+            return uses.python_load;
+        case Call::render:
+            return uses.python_render;
+        case Call::save:
+            return uses.python_save;
+        case Call::run:
+            return (uses.job || uses.program) && !option.is_argument();
+    }
+    return false;
 }
 
 /// Calls `visit(option)` for each option of `call`.
@@ -120,6 +130,38 @@ std::string to_text(const app::Option& option, nb::handle value)
     return text;
 }
 
+/// Returns a number of Python or NumPy; else the text of `value`.
+JobValue to_number(nb::handle value)
+{
+    if (PyIndex_Check(value.ptr()) != 0) {
+        const nb::object whole = nb::steal(PyNumber_Index(value.ptr()));
+        std::uint64_t number = 0;
+        if (nb::try_cast(whole, number)) {
+            return number;
+        }
+        return nb::cast<std::int64_t>(whole);
+    }
+    double number = 0.0;
+    return nb::try_cast(value, number) ? JobValue(number) : JobValue(to_text(value));
+}
+
+JobValue to_value(const app::Option& option, nb::handle value)
+{
+    if (option.repeats && has_items(value)) {
+        std::vector<JobValue> values;
+        for (const nb::handle item : nb::iter(value)) {
+            values.emplace_back(to_text(item));
+        }
+        return values;
+    }
+    if (value.ptr() == Py_True || value.ptr() == Py_False) {
+        return value.ptr() == Py_True;
+    }
+    const bool is_number = option.info.json == app::JsonType::whole_number ||
+                           option.info.json == app::JsonType::number;
+    return is_number && !has_items(value) ? to_number(value) : JobValue(to_text(option, value));
+}
+
 /// Names of types, for stubs.
 constexpr const char* whole = "typing.SupportsIndex";  // int, and integers of NumPy
 constexpr const char* real = "typing.SupportsFloat";   // int, float, and those of NumPy
@@ -146,7 +188,7 @@ std::string format_type(const app::Option& option)
         return words.empty() ? "bool" : "bool | " + literals(words);
     }
     if (info.is_path) {
-        return path;
+        return option.repeats ? fmt::format("{0} | collections.abc.Iterable[{0}]", path) : path;
     }
     if (!info.words.empty()) {
         return literals(info.words);
@@ -166,12 +208,15 @@ std::string format_type(const app::Option& option)
 
 const char* format_call(Call call)
 {
-    return call == Call::load ? "load()" : call == Call::render ? "render()" : "save()";
+    return call == Call::load     ? "load()"
+           : call == Call::render ? "render()"
+           : call == Call::save   ? "save()"
+                                  : "run()";
 }
 
 [[noreturn]] void fail_unknown(const std::string& keyword, Call call)
 {
-    for (const Call other : {Call::load, Call::render, Call::save}) {
+    for (const Call other : {Call::load, Call::render, Call::save, Call::run}) {
         if (collect_options(other).contains(keyword)) {
             throw Error(ErrorCode::usage, fmt::format("{} is an option of {}, not of {}", keyword,
                                                       format_call(other), format_call(call)));
@@ -280,6 +325,24 @@ Words to_words(const nb::kwargs& options, Call call)
                              : fmt::format("{}={}", option.name(), to_text(option, value)));
     }
     return words;
+}
+
+void set_options(RenderJob& job, const nb::kwargs& options)
+{
+    const std::map<std::string, app::Option> known = collect_options(Call::run);
+    for (const auto& [key, value] : options) {
+        const auto keyword = nb::cast<std::string>(key);
+        const auto found = known.find(keyword == "from" ? "from_" : keyword);
+        if (found == known.end()) {
+            fail_unknown(keyword, Call::run);
+        }
+        const app::Option& option = found->second;
+        if (value.is_none()) {
+            continue;
+        }
+        const bool is_off = option.is_flag() && value.ptr() == Py_False;
+        job.set(to_key(option), is_off ? JobValue(nullptr) : to_value(option, value));
+    }
 }
 
 app::RenderArguments understand_render(const Words& words)

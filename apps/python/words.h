@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/job.h>
 #include <nanobind/nanobind.h>
 
 #include <optional>
@@ -19,11 +20,15 @@ namespace bdpt::python {
 using Words = std::vector<std::string>;
 
 /// The Python call that an option belongs to.
-enum class Call { load, render, save };
+enum class Call { load, render, save, run };
 
 /// Returns the words for `options`. Throws `Error` (usage) for options that do not belong to
 /// `call`, saying where they belong.
 [[nodiscard]] Words to_words(const nanobind::kwargs& options, Call call);
+
+/// Sets `options` in `job`. Throws `Error`: usage for options that do not belong to run(), and
+/// invalid_input for their values.
+void set_options(RenderJob& job, const nanobind::kwargs& options);
 
 /// Tests whether one of `words` chooses a camera, or changes its position or its lens.
 [[nodiscard]] bool change_view(const Words& words);

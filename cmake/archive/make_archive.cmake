@@ -31,6 +31,8 @@ foreach(component IN LISTS COMPONENTS)
   run("${CMAKE_COMMAND}" --install "${BUILD}" --config "${CONFIG}" --prefix "${root}" --component "${component}" --strip)
 endforeach()
 set(libraries "${root}/${LIBDIR}")
+file(GLOB of_programs "${libraries}/libbdpt_job.*")  # the command contains this code
+file(REMOVE ${of_programs})
 set(programs "${root}/bin/bdpt")
 file(GLOB readers "${libraries}/bdpt/*")
 file(GLOB own_libraries "${libraries}/*.so*")

@@ -16,9 +16,9 @@ PLAIN = set("""
     desc diffuse direction directional display enumerator epsilon equal error errors estimate estimator exact exposures
     exr extension facts false field file film flip frame framed gltf halved hash hasher heuristic ids info inspected
     instance integrator iridescence isa json kind layer layout length lights limit limits list load loaded loss machine
-    manifest map maps material mean memory merge mesh metadata meter metric mode moments name named noisy notes number
+    manifest map maps material mean memory merge mesh message metadata meter metric mode moments name named noisy notes number
     old option options output phase pixel place placement png point primary profile profiling progress projection range
-    read record rect ref reference render renderer report result run sampler scale scatter scene score set shared sheen
+    read record rect ref reference render renderer report result run sampler scale scatter scene score set setting shared sheen
     shutter size source speed split spot spread stats status storage sum summary surface system test texel text texture
     thread threshold time to tone totals transmission transport type unit up use value variant verify vertex view volume
     weight wrap write checkpoint role sheet""".split())
@@ -34,7 +34,7 @@ def find_public_types(root):
     """Returns the types of the public headers, by file."""
     declaration = re.compile(r"^(?:class|struct|enum class)\s+(?:BDPT_\w*EXPORT\s+)?(\w+)\s*(?:final\s*)?[:{]", flags=re.M)
     types = {}
-    for folder in ("lib/include", "lib/io/include", "lib/eval/include"):
+    for folder in ("lib/include", "lib/io/include", "lib/eval/include", "apps/job/include"):
         for header in sorted((root / folder).rglob("*.h")):
             for name in declaration.findall(header.read_text(encoding="utf-8")):
                 types.setdefault(name, header.relative_to(root))

@@ -50,7 +50,8 @@ ALLOWED = {
     "apps/python": [r"glm/", r"nlohmann/", r"fmt/", r"nanobind/", r"cxxabi\.h", POSIX],
     "apps/bdpt/options/command_parser.cpp": [r"CLI/", r"fmt/"],
     "apps/bdpt/view": [r"glm/", r"nlohmann/", r"fmt/", r"boost/", POSIX],
-    "apps/bdpt/main.cpp": [r"fmt/", r"(oneapi/)?tbb/", POSIX],
+    "apps/bdpt/terminal/processor_quota.cpp": [r"(oneapi/)?tbb/"],
+    "apps/job/include": [],
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, r"pthread\.h",
               INTRINSICS],
     "tests/unit/io/volume": [r"catch2/", r"openvdb/", POSIX],
@@ -102,7 +103,7 @@ def check_layer_include(layers, layer, header):
 
 def check_quoted_include(path, header):
     """Returns the error of `#include "header"` in the file `path`, or None."""
-    if path.startswith(("lib/include/", "lib/io/include/", "lib/eval/include/")):
+    if path.startswith(("lib/include/", "lib/io/include/", "lib/eval/include/", "apps/job/include/")):
         return f'is public: "{header}" must be a <bdpt/...> header'
     folder = header.split("/")[0]
     if path.startswith("apps/bdpt/") and folder not in LAYERS:

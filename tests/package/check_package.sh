@@ -135,6 +135,7 @@ use_find_package() {
   expect_version "$WORK/find_package/render_box"
   "$WORK/find_package/read_sky" "$sky"
   "$WORK/find_package/judge"
+  (cd "$WORK/find_package" && ./run_job "$SOURCE/scenes/furnace.gltf" "$sky")
 }
 
 # compile PROGRAM SOURCE PACKAGE: compiles by hand. Hidden visibility in the program must not hide exceptions of the
@@ -161,10 +162,12 @@ use_pkg_config() {
   ./read_sky "$sky"
   compile judge "$consumer/judge.cpp" bdpt_eval
   ./judge
+  compile run_job "$consumer/run_job.cpp" bdpt_job
+  ./run_job "$SOURCE/scenes/furnace.gltf" "$sky"
 
   # Builds the programs in the README and in the page about the library, with fewer pixels.
   ln -s "$SOURCE/scenes" scenes
-  local page program image
+  local page program image package
   for page in README.md docs/library.md; do
     awk -v name="$(basename "$page" .md)" \
       '/^```cpp$/ {inside = 1; ++number; next} /^```$/ {inside = 0} inside {print >(name number ".cpp")}' \
@@ -172,11 +175,13 @@ use_pkg_config() {
   done
   for program in README?.cpp library?.cpp; do
     sed -i 's/512/16/g; s/{0, 64}/{0, 1}/' "$program"
-    compile "${program%.cpp}" "$program" bdpt_io
+    package=bdpt_io
+    ! grep -q "<bdpt/job.h>" "$program" || package=bdpt_job
+    compile "${program%.cpp}" "$program" "$package"
     "./${program%.cpp}"
   done
-  for image in out growing edited built; do
-    [[ -s $image.exr ]] || fail "no program in the documentation wrote $image.exr"
+  for image in out.exr growing.exr edited.exr built.exr job.exr job.png; do
+    [[ -s $image ]] || fail "no program in the documentation wrote $image"
   done
 }
 
@@ -214,6 +219,7 @@ use_add_subdirectory() {
   chmod +x "$trap/bdpt-read-vdb"
   (cd "$trap" && PATH=$folder:$PATH read_scene "${files[@]}")
   [[ -s $trap/read_scene.exr ]] || fail "no image"
+  (cd "$trap" && "$folder/run_job" "$SOURCE/scenes/furnace.gltf" "$folder/sky.tif")
   [[ ! -e $trap/caught ]] || fail "a program of the current folder was run"
 }
 

@@ -15,11 +15,11 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKAGE = pathlib.Path(bdpt.__file__).parent
-FUNCTIONS = {"load": bdpt.load, "render": bdpt.render, "save": bdpt.Render.save}
-# Options of `bdpt render` that Python expresses differently, or that concern one process of the command.
-OF_THE_COMMAND = {"file", "output", "float", "stats", "profile", "save_rates", "strategies", "strategy_depth", "part",
+FUNCTIONS = {"load": bdpt.load, "render": bdpt.render, "save": bdpt.Render.save, "run": bdpt.run}
+# Options of `bdpt render` that only run() has: others express them differently, or they concern the files.
+OF_JOBS = {"output", "float", "stats", "profile", "save_rates", "strategies", "strategy_depth", "part",
                   "fps", "cameras", "full_paths"}
-NOT_IN_JOBS = {"denoiser_library", "ktx_library"}  # they name code that is loaded
+NOT_IN_JOBS = {"denoiser_library", "ktx_library", "restart"}  # no file may decide them
 
 PROGRAM = '''
 import pathlib
@@ -53,6 +53,11 @@ paint.clearcoat_texture = np.zeros((2, 2), np.uint8)
 paint.clearcoat_texture = None
 paint.clearcoat = "much"  # refused: .
 scene = scene.with_material("paint", paint).with_environment(None)
+images = bdpt.run("scene.glb", output=["a.exr", pathlib.Path("a.png")], spp=64, denoise=True, restart=True)
+samples: int = images[0].spp
+bdpt.run("job.json", output="a.exr", progress=lambda now: print(now.fraction), message=lambda kind, text: print(kind + text))
+bdpt.run("scene.glb", output=3)  # refused: output
+bdpt.run("scene.glb", sppp=3)  # refused: sppp
 code: int = bdpt.Error("").code
 camera = bdpt.Camera(from_=(0, 0, 0), look_at=(0, 0, 1), fov=40)
 camera = bdpt.Camera(from_=(0, 0, 0))  # refused: Camera
@@ -68,7 +73,7 @@ def read_stub_keywords():
             if isinstance(node, ast.ClassDef):
                 look(node.body, node.name + ".")
             elif isinstance(node, ast.FunctionDef) and node.args.kwonlyargs:
-                found[prefix + node.name] = {argument.arg for argument in node.args.kwonlyargs} - {"progress", "format"}
+                found[prefix + node.name] = {argument.arg for argument in node.args.kwonlyargs} - {"progress", "format", "message"}
 
     look(ast.parse((PACKAGE / "_bdpt.pyi").read_text(encoding="utf-8")).body, "")
     found["save"] = found.pop("Render.save")
@@ -82,9 +87,11 @@ def test_the_package_says_that_it_has_types():
 def test_stubs_have_each_option_of_the_command():
     schema = json.loads((ROOT / "docs" / "job.schema.json").read_text(encoding="utf-8"))
     options = {"from_" if name == "from" else name for name in schema["properties"] if name not in ("bdpt_job", "$schema")}
-    in_stubs = set().union(*read_stub_keywords().values())
-    assert in_stubs - NOT_IN_JOBS == options - OF_THE_COMMAND
-    assert OF_THE_COMMAND < options and NOT_IN_JOBS < in_stubs
+    found = read_stub_keywords()
+    assert found.pop("run") == options - {"file"} | NOT_IN_JOBS
+    in_others = set().union(*found.values())
+    assert in_others - NOT_IN_JOBS == options - OF_JOBS - {"file"}
+    assert OF_JOBS < options
 
 
 def test_other_functions_have_the_keywords_of_these():
@@ -98,7 +105,7 @@ def test_stubs_signatures_and_help_have_the_same_keywords(name):
     function, keywords = FUNCTIONS[name], read_stub_keywords()[name]
     signature = inspect.signature(function)
     only = {key for key, value in signature.parameters.items() if value.kind is value.KEYWORD_ONLY}
-    assert only - {"progress", "format"} == keywords
+    assert only - {"progress", "format", "message"} == keywords
     text = pydoc.plain(pydoc.render_doc(function))
     documented = set(re.findall(r"^ {8}(\w+): \S.*\n {12}\S", text.partition("Options:")[2], flags=re.M))
     assert documented == keywords and len(keywords) > 5
@@ -108,12 +115,12 @@ def test_stubs_signatures_and_help_have_the_same_keywords(name):
 def test_each_keyword_of_a_stub_is_taken(name, cornell_box, tmp_path):
     """Tests that bdpt reports the first unknown keyword."""
     render = bdpt.render(cornell_box, spp=1, size=(2, 2))
-    first = {"load": "absent.glb", "render": cornell_box, "save": render}[name]
+    first = {"load": "absent.glb", "render": cornell_box, "save": render, "run": "absent.glb"}[name]
     rest = [tmp_path / "a.exr"] if name == "save" else []
     assert read_stub_keywords()[name]
     for keyword in read_stub_keywords()[name]:
         with pytest.raises(bdpt.Error) as raised:
-            FUNCTIONS[name](first, *rest, **{keyword: "\0"}, no_such_option=1)
+            FUNCTIONS[name](first, *rest, **{keyword: None if name == "run" else "\0"}, no_such_option=1)
         assert "no_such_option" in str(raised.value)
 
 

@@ -184,8 +184,8 @@ int run_bench(const BenchArguments& arguments, const std::vector<std::string>& c
     for (const BenchSubject& subject : arguments.subjects) {
         check_not_read(files, input_files(subject.render));
     }
-    Console console(arguments.printed.format, arguments.printed.verbosity);
-    Interrupt interrupt(temporary_paths(files), [&console] {
+    TerminalConsole console(arguments.printed.format, arguments.printed.verbosity);
+    SignalInterrupt interrupt(temporary_paths(files), [&console] {
         console.note("stopping after the current pass; interrupt again to quit at once");
     });
     eval::BenchRecord record{.options = arguments.options,

@@ -4,6 +4,7 @@
 #include <bdpt/io/output_file.h>
 #include <fmt/core.h>
 
+#include <optional>
 #include <utility>
 
 #include "commands/bench_command.h"
@@ -22,6 +23,7 @@
 #include "options/values/value_types.h"
 #include "stage/input_files.h"
 #include "terminal/console.h"
+#include "terminal/interrupt.h"
 
 namespace bdpt::app {
 namespace {
@@ -62,9 +64,22 @@ int save_job(const RenderRequest& request, const OptionList& options)
     io::OutputFile output(file);
     output.write(job_text(options, file));
     output.commit();
-    Console(arguments.printed.format, arguments.printed.verbosity)
+    TerminalConsole(arguments.printed.format, arguments.printed.verbosity)
         .note(fmt::format("wrote {}", file.string()));
     return 0;
+}
+
+/// Renders one scene, controlled by signals. Returns the exit code: 0, or 128 + a signal's number
+/// if that ended the render early.
+int run_scene(const RenderArguments& arguments, const std::vector<std::string>& words)
+{
+    TerminalConsole console(arguments.printed.format, arguments.printed.verbosity);
+    SignalInterrupt interrupt({}, [&console] {
+        console.note("stopping after the current pass; interrupt again to quit at once");
+    });
+    static_cast<void>(run_render(arguments, words, console, interrupt));
+    const std::optional<int> signal = interrupt.signal();
+    return signal ? 128 + *signal : 0;
 }
 
 /// Runs `bdpt render SCENE...` and `bdpt render JOB`.
@@ -87,7 +102,7 @@ int run_render_words(const RenderRequest& request, OptionList& options,
         return save_job(request, options);
     }
     return run_render_scenes(checked(request, options), scenes, options,
-                             [&](const RenderArguments& one) { return run_render(one, words); });
+                             [&](const RenderArguments& one) { return run_scene(one, words); });
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ int run_compare(const CompareArguments& arguments)
                                     [](const auto& result) { return result.passed; });
 
     // stdout has the report alone, so warnings go to stderr in both formats.
-    Console console(Format::text, arguments.printed.verbosity);
+    TerminalConsole console(Format::text, arguments.printed.verbosity);
     for (const std::string& warning : comparison.warnings) {
         console.warning(warning);
     }

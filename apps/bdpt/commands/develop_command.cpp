@@ -71,8 +71,8 @@ int run_develop(const DevelopArguments& arguments)
     const std::vector<fs::path> outputs = choose_outputs(arguments);
     const std::string file = arguments.file.string();
     check_outputs(outputs, FileSet({arguments.file}));
-    Console console(arguments.printed.format, arguments.printed.verbosity);
-    const Interrupt interrupt(temporary_paths(outputs), [] {});
+    TerminalConsole console(arguments.printed.format, arguments.printed.verbosity);
+    const SignalInterrupt interrupt(temporary_paths(outputs), [] {});
     LayeredImage image =
         read_layered_image(arguments.file, arguments.denoise ? Wanted::clean : Wanted::main);
     for (const std::string& warning : image.warnings) {

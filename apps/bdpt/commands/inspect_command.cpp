@@ -56,7 +56,7 @@ int run_inspect(const InspectArguments& arguments)
     };
     check_directions(input_files(what));
     // stdout has the report alone.
-    Console console(Format::text, what.printed.verbosity);
+    TerminalConsole console(Format::text, what.printed.verbosity);
     const PreparedScene stage = prepare_scene(what);
     check_directions(input_files(what, stage));
     tell_findings(console, stage);

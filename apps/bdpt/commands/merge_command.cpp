@@ -270,9 +270,9 @@ int run_merge(const MergeArguments& asked)
             check_planned_outputs(image, *plan);
         }
     }
-    Console console(asked.printed.format, asked.printed.verbosity);
+    TerminalConsole console(asked.printed.format, asked.printed.verbosity);
     // Stops need no clean finish, but must leave no partial files.
-    Interrupt interrupt({}, [] {});
+    SignalInterrupt interrupt({}, [] {});
     constexpr int all_processors = 0;
     const std::optional<io::Denoiser> denoiser =
         open_denoiser(asked.denoise, asked.outputs, all_processors);

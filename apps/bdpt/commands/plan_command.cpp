@@ -295,7 +295,7 @@ int run_plan(const PlanArguments& arguments)
                         backdrop_text(*asked.display.backdrop)));
     }
     check_files(arguments, input_files(asked));
-    Console console(asked.printed.format, asked.printed.verbosity);
+    TerminalConsole console(asked.printed.format, asked.printed.verbosity);
     const fs::path folder =
         fs::weakly_canonical(fs::absolute(arguments.folder / "plan.json")).parent_path();
     if (const std::optional<std::string> warning = warning_of_flicker(asked, FramesBy::tasks)) {

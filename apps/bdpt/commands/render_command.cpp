@@ -47,6 +47,14 @@ void report_complete(Console& console, const RenderArguments& arguments)
                            {"stopped_by", nullptr}});
 }
 
+JobImage complete_image(const RenderArguments& arguments)
+{
+    const ImageLabel label = make_label(arguments);
+    return {.frame = label.frame,
+            .camera = label.camera,
+            .samples_per_pixel = arguments.samples.end - arguments.samples.begin};
+}
+
 /// Adds a cache of images, if the file is loaded for several frames.
 RenderArguments with_cache(RenderArguments arguments)
 {
@@ -108,14 +116,11 @@ void check_files_of_plan(const RenderArguments& asked, const Plan& plan)
 
 }  // namespace
 
-int run_render(const RenderArguments& typed, const std::vector<std::string>& words)
+JobResult run_render(const RenderArguments& typed, const std::vector<std::string>& words,
+                     Console& console, Interrupt& interrupt)
 {
     const RenderArguments asked = with_cache(typed);
     check_patterns(asked);
-    Console console(asked.printed.format, asked.printed.verbosity);
-    Interrupt interrupt({}, [&console] {
-        console.note("stopping after the current pass; interrupt again to quit at once");
-    });
     if (const std::optional<std::string> warning =
             warning_of_flicker(asked, FramesBy::one_process)) {
         console.warning(*warning);
@@ -154,8 +159,9 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
     std::optional<Viewpoint> first;
     std::optional<Scene> still;     // before its environment was turned
     std::optional<float> exposure;  // by the light of the first frame, for all frames
+    JobResult result;
     for (const SequenceView& view : views) {
-        if (interrupt.signal()) {
+        if (interrupt.stopped_by()) {
             break;
         }
         RenderArguments image = make_view_arguments(asked, view);
@@ -170,6 +176,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
                 console);
             if (keeper->is_complete(image.samples) && image.outputs.empty()) {
                 report_complete(console, image);
+                result.images.push_back(complete_image(image));
                 continue;
             }
         }
@@ -203,14 +210,18 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         }
         stage->camera = std::move(seen.camera);
         stage->size = seen.size;
-        render_view(image, *stage, keeper,
-                    {console, interrupt, display ? &*display : nullptr,
-                     denoiser ? &*denoiser : nullptr, add_view_words(words, view)});
+        std::optional<JobImage> done =
+            render_view(image, *stage, keeper,
+                        {console, interrupt, display ? &*display : nullptr,
+                         denoiser ? &*denoiser : nullptr, add_view_words(words, view)});
+        if (done) {
+            result.images.push_back(std::move(*done));
+        }
         stage->load_seconds = 0.0;
         stage->build_seconds = 0.0;
     }
-    const std::optional<int> signal = interrupt.signal();
-    return signal ? 128 + *signal : 0;
+    result.stopped = interrupt.stopped_by().has_value();
+    return result;
 }
 
 }  // namespace bdpt::app

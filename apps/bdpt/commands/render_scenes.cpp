@@ -43,24 +43,6 @@ void check_scenes(const std::vector<fs::path>& scenes, const OptionList& options
     }
 }
 
-/// Returns `asked` for `scene`, whose name replaces the placeholders in file names.
-RenderArguments for_scene(const RenderArguments& asked, const fs::path& scene)
-{
-    RenderArguments one = asked;
-    one.file = scene;
-    const std::string name = scene.stem().string();
-    for (fs::path& output : one.outputs) {
-        output = with_scene(output, name);
-    }
-    if (one.stats) {
-        one.stats = with_scene(*one.stats, name);
-    }
-    if (one.outputs.empty() && !one.part && !one.sequence && scene != "-") {
-        one.outputs.push_back(default_output(scene));
-    }
-    return one;
-}
-
 /// Throws `OptionError` if two scenes would write the same file, and `Error` (usage) if one would
 /// write a file that is read for another.
 void check_separate(const std::vector<RenderArguments>& all)
@@ -92,6 +74,23 @@ void check_separate(const std::vector<RenderArguments>& all)
 }
 
 }  // namespace
+
+RenderArguments for_scene(const RenderArguments& asked, const fs::path& scene)
+{
+    RenderArguments one = asked;
+    one.file = scene;
+    const std::string name = scene.stem().string();
+    for (fs::path& output : one.outputs) {
+        output = with_scene(output, name);
+    }
+    if (one.stats) {
+        one.stats = with_scene(*one.stats, name);
+    }
+    if (one.outputs.empty() && !one.part && !one.sequence && scene != "-") {
+        one.outputs.push_back(default_output(scene));
+    }
+    return one;
+}
 
 int run_render_scenes(const RenderArguments& asked, const std::vector<fs::path>& scenes,
                       const OptionList& options, const RenderScene& render)
@@ -129,7 +128,7 @@ int run_render_scenes(const RenderArguments& asked, const std::vector<fs::path>&
         }
     }
     if (failures > 0) {
-        Console(asked.printed.format, asked.printed.verbosity)
+        TerminalConsole(asked.printed.format, asked.printed.verbosity)
             .note(fmt::format("{} of {} failed", failures, counted(all.size(), "scene")));
     }
     return first_failure;

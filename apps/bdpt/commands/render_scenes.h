@@ -12,6 +12,11 @@ namespace bdpt::app {
 /// Renders one scene and returns an exit code.
 using RenderScene = std::function<int(const RenderArguments& arguments)>;
 
+/// Returns `asked` for `scene`, whose name replaces the placeholders in file names. Without outputs
+/// it gets its default one.
+[[nodiscard]] RenderArguments for_scene(const RenderArguments& asked,
+                                        const std::filesystem::path& scene);
+
 /// Runs `bdpt render SCENE...`: renders `asked` for each of `scenes`, one after the other; "{name}"
 /// in output names is replaced by the scene's name without folder and extension. Without outputs
 /// each scene has its default one. The failure of a scene is reported, and the others are still

@@ -13,7 +13,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "options/groups/transport_arguments.h"
 #include "options/values/output_files.h"
@@ -118,7 +120,7 @@ PartResult render_stage(const RenderArguments& arguments, const PreparedScene& s
         session.display->begin_image(name_in_viewer(arguments));
     }
     control.on_part = [&](const RenderPart& now) {
-        if (keeper && !interrupt.signal()) {  // otherwise it is written in a moment
+        if (keeper && !interrupt.stopped_by()) {  // otherwise it is written in a moment
             const bool asked = interrupt.take_checkpoint_request();
             keeper->after_pass(now, asked ? Checkpoint::now : Checkpoint::when_due);
         }
@@ -180,11 +182,11 @@ ImageFileOptions image_file_options(const RenderArguments& arguments, const Prep
 }
 
 ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json& settings,
-                           const std::optional<int>& signal)
+                           const std::optional<std::string>& stopped_by)
 {
     ordered_json stats{
         {"version", BDPT_VERSION}, {"file", arguments.file.string()}, {"settings", settings}};
-    stats["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
+    stats["stopped_by"] = stopped_by ? ordered_json(*stopped_by) : ordered_json();
     return stats;
 }
 
@@ -234,7 +236,8 @@ void note_done(Console& console, const RenderArguments& arguments, const RenderR
 }
 
 void report_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
-                 const WrittenImages& images, std::optional<int> signal)
+                 double noise, const WrittenImages& images,
+                 const std::optional<std::string>& stopped_by)
 {
     ordered_json outputs = ordered_json::array();
     for (const std::filesystem::path& output : images.files) {
@@ -243,7 +246,6 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
     ordered_json fields{{"samples", result.film.sample_count()},
                         {"seconds", result.seconds},
                         {"outputs", std::move(outputs)}};
-    const double noise = estimate_noise(result.film);
     fields["noise"] = noise_json(noise);
     note_noise(console, arguments, noise);
     const std::optional<double> goal = arguments.goal.noise;
@@ -259,8 +261,25 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
                         noise_text(noise), noise_text(*goal), samples));
     }
     fields["exposure"] = images.exposure ? ordered_json(*images.exposure) : ordered_json();
-    fields["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
+    fields["stopped_by"] = stopped_by ? ordered_json(*stopped_by) : ordered_json();
     console.event("done", fields);
+}
+
+/// Returns `images` and all other files that were written.
+std::vector<std::filesystem::path> written_files(const RenderArguments& arguments,
+                                                 std::vector<std::filesystem::path> images)
+{
+    std::vector<std::filesystem::path> files = std::move(images);
+    if (arguments.part) {
+        files.push_back(arguments.part->file);
+    }
+    if (arguments.rates && arguments.rates->saved) {
+        files.push_back(*arguments.rates->saved);
+    }
+    if (arguments.stats) {
+        files.push_back(*arguments.stats);
+    }
+    return files;
 }
 
 }  // namespace
@@ -277,13 +296,16 @@ ImageLabel make_label(const RenderArguments& arguments)
             .count = view.count};
 }
 
-void render_view(const RenderArguments& asked, const PreparedScene& stage,
-                 std::optional<PartKeeper>& keeper, const RenderSession& session)
+std::optional<JobImage> render_view(const RenderArguments& asked, const PreparedScene& stage,
+                                    std::optional<PartKeeper>& keeper, const RenderSession& session)
 {
     Console& console = session.console;
     Interrupt& interrupt = session.interrupt;
     const auto choosing_start = std::chrono::steady_clock::now();
-    const RenderArguments arguments = with_choice(asked, stage, console);
+    const RenderArguments arguments = with_choice(asked, stage, console, interrupt.stop_token());
+    if (interrupt.stopped_by()) {
+        return std::nullopt;
+    }
     const std::chrono::duration<double> choosing =
         std::chrono::steady_clock::now() - choosing_start;
     ordered_json settings = make_settings(arguments, stage);
@@ -310,6 +332,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     }
     PartResult done = render_stage(arguments, stage, part_notes(arguments, metadata, session.words),
                                    session, keeper);
+    const bool stopped = interrupt.stopped_by().has_value();
     Attempts attempts;
     if (keeper) {
         attempts.run([&] { keeper->finish(done.part); });
@@ -346,9 +369,9 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
             fmt::format("{} pixels exceed 65504 and are clamped to it; --float keeps them",
                         images.clamped_pixels));
     }
-    const std::optional<int> signal = interrupt.signal();
+    const std::optional<std::string> stopped_by = interrupt.stopped_by();
     if (arguments.stats) {
-        ordered_json stats = head_of_stats(arguments, settings, signal);
+        ordered_json stats = head_of_stats(arguments, settings, stopped_by);
         stats.update(stats_json(result, {.load = stage.load_seconds,
                                          .build = stage.build_seconds,
                                          .choose = choosing.count(),
@@ -364,13 +387,23 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
         }
         attempts.run([&] { write_stats_file(*arguments.stats, stats); });
     }
-    if (signal) {
-        console.note(fmt::format("stopped by {} after {} samples per pixel", signal_name(*signal),
+    if (stopped_by) {
+        console.note(fmt::format("stopped by {} after {} samples per pixel", *stopped_by,
                                  result.film.sample_count()));
     }
     note_done(console, arguments, result, images);
     attempts.finish();
-    report_done(console, arguments, result, images, signal);
+    const double noise = estimate_noise(result.film);
+    report_done(console, arguments, result, noise, images, stopped_by);
+    const ImageLabel label = make_label(arguments);
+    return JobImage{.files = written_files(arguments, std::move(images.files)),
+                    .frame = label.frame,
+                    .camera = label.camera,
+                    .samples_per_pixel = result.film.sample_count(),
+                    .seconds = result.seconds,
+                    .noise = noise,
+                    .exposure = images.exposure,
+                    .stopped = stopped};
 }
 
 }  // namespace bdpt::app

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/io/denoise.h>
+#include <bdpt/job.h>
 
 #include <optional>
 #include <string>
@@ -29,9 +30,11 @@ struct RenderSession {
 
 /// Renders the view of `stage`'s camera, continuing the part of `keeper` if there is one, and
 /// writes all files that `asked` names. Once it has begun, the session may be stopped, and the
-/// samples so far are written. Throws `Error`; errors of the part are thrown after the images are
-/// written.
-void render_view(const RenderArguments& asked, const PreparedScene& stage,
-                 std::optional<PartKeeper>& keeper, const RenderSession& session);
+/// samples so far are written. Returns none, and writes nothing, if the stop was requested before.
+/// Throws `Error`; errors of the part are thrown after the images are written.
+[[nodiscard]] std::optional<JobImage> render_view(const RenderArguments& asked,
+                                                  const PreparedScene& stage,
+                                                  std::optional<PartKeeper>& keeper,
+                                                  const RenderSession& session);
 
 }  // namespace bdpt::app

@@ -58,8 +58,8 @@ int run_verify(const VerifyArguments& arguments)
 {
     const RenderArguments& what = arguments.stage;
     // stdout has the report alone, so all else goes to stderr in both formats.
-    Console console(Format::text, what.printed.verbosity);
-    Interrupt interrupt({}, [&console] {
+    TerminalConsole console(Format::text, what.printed.verbosity);
+    SignalInterrupt interrupt({}, [&console] {
         console.note("stopping after the current batches; interrupt again to quit at once");
     });
     const PreparedScene stage = prepare_scene(what);

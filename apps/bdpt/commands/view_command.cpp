@@ -42,7 +42,7 @@ private:
 
 int run_view(const ViewArguments& arguments, const OptionList& options)
 {
-    Console console(Format::text, arguments.stage.printed.verbosity);
+    TerminalConsole console(Format::text, arguments.stage.printed.verbosity);
     Server server(arguments.listen, view_page());
     Session session(ViewWords(options), server, console);
     const Serving serving(

@@ -22,15 +22,6 @@ using nlohmann::ordered_json;
 constexpr const char* format_key = "bdpt_job";
 constexpr const char* schema_key = "$schema";  // for editors
 
-/// Returns "light_samples" for --light-samples.
-std::string to_key(const Option& option)
-{
-    std::string key = option.name();
-    key.erase(0, key.find_first_not_of('-'));
-    std::replace(key.begin(), key.end(), '-', '_');
-    return key;
-}
-
 bool is_word(const Option& option, const std::string& text)
 {
     const std::vector<std::string>& words = option.info.words;
@@ -94,11 +85,16 @@ void take(Option& option, const JsonValue& value, const fs::path& folder)
     }
 }
 
+/// Who sets an option.
+enum class Setter : std::uint8_t { file, program };
+
 /// Returns the option with the name `key` in jobs, or null.
-Option* find_option(OptionList& options, const std::string& key)
+Option* find_option(OptionList& options, const std::string& key, Setter setter = Setter::file)
 {
     for (Option& option : options.all()) {
-        if (option.uses.job && to_key(option) == key) {
+        const bool may_be_set =
+            option.uses.job || (option.uses.program && setter == Setter::program);
+        if (may_be_set && to_key(option) == key) {
             return &option;
         }
     }
@@ -117,6 +113,14 @@ Option* find_option(OptionList& options, const std::string& key)
     const std::optional<std::string> meant = closest(key, keys);
     value.fail("is not an option of a job" +
                (meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
+}
+
+/// Throws `Error` if the given `scene` is a job; `members` contain it.
+void check_scene(const Option& scene, const JsonValue& members)
+{
+    if (is_job(scene.texts.back())) {
+        members.at("file").fail_expecting("a scene, .gltf or .glb");
+    }
 }
 
 void check_format(const JsonValue& job)
@@ -201,6 +205,14 @@ ordered_json make_schema(const Option& option)
 
 }  // namespace
 
+std::string to_key(const Option& option)
+{
+    std::string key = option.name();
+    key.erase(0, key.find_first_not_of('-'));
+    std::replace(key.begin(), key.end(), '-', '_');
+    return key;
+}
+
 bool is_job(const fs::path& file)
 {
     return has_extension(file, ".json");
@@ -208,9 +220,12 @@ bool is_job(const fs::path& file)
 
 void load_job(const fs::path& file, OptionList& options)
 {
-    const JsonValue job = JsonValue::read(file);
+    load_job(JsonValue::read(file), file.parent_path(), options);
+}
+
+void load_job(const JsonValue& job, const fs::path& folder, OptionList& options)
+{
     check_format(job);
-    const fs::path folder = file.parent_path();
     Option& scene = *find_option(options, "file");
     scene.texts.clear();
     std::vector<const Option*> given;
@@ -237,10 +252,26 @@ void load_job(const fs::path& file, OptionList& options)
     if (!scene.given()) {
         job.fail("has no \"file\", the scene");
     }
-    if (is_job(scene.texts.back())) {
-        job.at("file").fail_expecting("a scene, .gltf or .glb");
-    }
+    check_scene(scene, job);
     options.store_given();
+}
+
+void set_options(const JsonValue& members, OptionList& options)
+{
+    for (const auto& [key, value] : members.members()) {
+        Option* option = find_option(options, key, Setter::program);
+        if (option == nullptr) {
+            fail_unknown(options, key, value);
+        }
+        option->texts.clear();
+        const bool is_scene = key == "file";
+        if (is_scene || !value.is_null()) {
+            take(*option, members.at(key), "");
+        }
+        if (is_scene) {
+            check_scene(*option, members);
+        }
+    }
 }
 
 std::string job_text(const OptionList& options, const fs::path& file)

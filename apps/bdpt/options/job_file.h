@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bdpt/io/json_value.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,6 +18,9 @@ namespace bdpt::app {
 /// misread.
 inline constexpr int job_format = 1;
 
+/// Returns "light_samples" for --light-samples.
+[[nodiscard]] std::string to_key(const Option& option);
+
 /// Tests whether `file` is named as a job: .json.
 [[nodiscard]] bool is_job(const std::filesystem::path& file);
 
@@ -23,6 +28,14 @@ inline constexpr int job_format = 1;
 /// the job replaces the given scene. Throws `Error`: not_found, and invalid_input that names the
 /// place in the file.
 void load_job(const std::filesystem::path& file, OptionList& options);
+
+/// The same for a job that was read; paths in it are relative to `folder`.
+void load_job(const io::JsonValue& job, const std::filesystem::path& folder, OptionList& options);
+
+/// Stores `members`, an object of options as in jobs, into `options`, replacing what was given;
+/// null removes it. Options of `OptionUses::program` may be among them; paths are relative to the
+/// working directory. Throws `Error` (invalid_input).
+void set_options(const io::JsonValue& members, OptionList& options);
 
 /// Returns the given `options` as a job to be written to `file`.
 [[nodiscard]] std::string job_text(const OptionList& options, const std::filesystem::path& file);

@@ -59,6 +59,7 @@ struct OptionUses {
     bool python_render = false;  ///< keyword of render() in Python
     bool python_save = false;    ///< keyword of save() in Python
     bool job = true;             ///< member of jobs (options/job_file.h)
+    bool program = false;        ///< of `RenderJob::set`, though no file may decide it
 };
 
 /// An option of a command, or a positional argument.

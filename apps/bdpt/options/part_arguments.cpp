@@ -47,7 +47,7 @@ void add_part_options(OptionList& options, PartChoice& part)
     options
         .add_flag("--restart", "Replace the file of --part instead of resuming from it",
                   part.existing, existing.type())
-        .uses.job = false;
+        .uses = {.job = false, .program = true};
     options
         .add("--plan", "FILE",
              "Render one task of this plan (bdpt plan), which sets all but --threads, "

@@ -36,15 +36,6 @@ bool stderr_redraws()
            std::string_view(terminal) != "dumb";
 }
 
-double fraction_done(const Progress& progress, const Goal& goal)
-{
-    const double by_time = progress.seconds / goal.seconds;
-    const double by_samples = goal.samples ? static_cast<double>(progress.samples_done) /
-                                                 static_cast<double>(*goal.samples)
-                                           : 0.0;
-    return std::clamp(std::max(by_time, by_samples), 0.0, 1.0);
-}
-
 std::string samples_text(const Progress& progress, const Goal& goal)
 {
     return goal.samples ? fmt::format("{}/{} spp", progress.samples_done, *goal.samples)
@@ -100,6 +91,15 @@ std::string label_text(const ImageLabel& label)
     return fmt::format("{} ({} of {})", text, label.index + 1, label.count);
 }
 
+double fraction_done(const Progress& progress, const Goal& goal)
+{
+    const double by_time = progress.seconds / goal.seconds;
+    const double by_samples = goal.samples ? static_cast<double>(progress.samples_done) /
+                                                 static_cast<double>(*goal.samples)
+                                           : 0.0;
+    return std::clamp(std::max(by_time, by_samples), 0.0, 1.0);
+}
+
 std::optional<double> time_left(const Progress& progress, const Goal& goal)
 {
     if (progress.samples_done <= 0) {
@@ -114,45 +114,17 @@ std::optional<double> time_left(const Progress& progress, const Goal& goal)
     return std::max(left, 0.0);
 }
 
-Console::Console(Format format, Verbosity verbosity)
-    : format_(format),
-      verbosity_(verbosity),
-      terminal_(stderr_redraws()),
-      color_(terminal_ && !is_set("NO_COLOR"))
-{}
-
-void Console::put_event(std::string_view name, const ordered_json& fields)
-{
-    ordered_json object{{"event", name}};
-    if (label_.frame) {
-        object["frame"] = *label_.frame;
-    }
-    if (label_.camera) {
-        object["camera"] = one_line(*label_.camera);
-    }
-    object.update(fields);
-    put_object(object);
-}
-
-Console::~Console()
-{
-    erase_progress();
-}
-
 void Console::event(std::string_view name, const ordered_json& fields)
 {
     const std::lock_guard lock(mutex_);
-    if (format_ == Format::json && (verbosity_ == Verbosity::normal || name == "done")) {
-        put_event(name, fields);
-    }
+    show_event(name, fields);
 }
 
 void Console::note(std::string_view message, Repeat repeat)
 {
     const std::lock_guard lock(mutex_);
-    const bool is_news = repeat == Repeat::always || told_.emplace(message).second;
-    if (is_news && format_ == Format::text && verbosity_ == Verbosity::normal) {
-        print_line("bdpt: ", message);
+    if (repeat == Repeat::always || told_.emplace(message).second) {
+        show_note(message);
     }
 }
 
@@ -172,8 +144,71 @@ void Console::begin_image(const ImageLabel& label)
 void Console::warning(std::string_view message, Repeat repeat)
 {
     const std::lock_guard lock(mutex_);
-    const bool is_news = told_.emplace(message).second || repeat == Repeat::always;
-    if (verbosity_ == Verbosity::quiet || !is_news) {
+    if (told_.emplace(message).second || repeat == Repeat::always) {
+        show_warning(message);
+    }
+}
+
+void Console::progress(const Progress& progress, const Goal& goal)
+{
+    const std::lock_guard lock(mutex_);
+    show_progress(progress, goal);
+}
+
+void Console::task(const TaskProgress& progress)
+{
+    const std::lock_guard lock(mutex_);
+    show_task(progress);
+}
+
+void Console::end_progress()
+{
+    const std::lock_guard lock(mutex_);
+    finish_progress();
+}
+
+TerminalConsole::TerminalConsole(Format format, Verbosity verbosity)
+    : format_(format),
+      verbosity_(verbosity),
+      terminal_(stderr_redraws()),
+      color_(terminal_ && !is_set("NO_COLOR"))
+{}
+
+TerminalConsole::~TerminalConsole()
+{
+    erase_progress();
+}
+
+void TerminalConsole::put_event(std::string_view name, const ordered_json& fields)
+{
+    ordered_json object{{"event", name}};
+    if (label().frame) {
+        object["frame"] = *label().frame;
+    }
+    if (label().camera) {
+        object["camera"] = one_line(*label().camera);
+    }
+    object.update(fields);
+    put_object(object);
+}
+
+void TerminalConsole::show_event(std::string_view name, const ordered_json& fields)
+{
+    if (format_ == Format::json && (verbosity_ == Verbosity::normal || name == "done")) {
+        put_event(name, fields);
+    }
+}
+
+void TerminalConsole::show_note(std::string_view message)
+{
+    if (format_ == Format::text && verbosity_ == Verbosity::normal) {
+        print_line("bdpt: ", message);
+    }
+}
+
+void TerminalConsole::show_warning(std::string_view message)
+{
+    if (verbosity_ == Verbosity::quiet) {
         return;
     }
     if (format_ == Format::json) {
@@ -183,9 +218,8 @@ void Console::warning(std::string_view message, Repeat repeat)
     }
 }
 
-void Console::progress(const Progress& progress, const Goal& goal)
+void TerminalConsole::show_progress(const Progress& progress, const Goal& goal)
 {
-    const std::lock_guard lock(mutex_);
     const std::optional<double> left = time_left(progress, goal);
     if (verbosity_ == Verbosity::quiet || !left || !is_due(progress.seconds)) {
         return;
@@ -209,9 +243,8 @@ void Console::progress(const Progress& progress, const Goal& goal)
                                         clock_time(*left), speed_text(progress)));
 }
 
-void Console::task(const TaskProgress& progress)
+void TerminalConsole::show_task(const TaskProgress& progress)
 {
-    const std::lock_guard lock(mutex_);
     if (verbosity_ == Verbosity::quiet || !is_due(progress.seconds)) {
         return;
     }
@@ -230,10 +263,10 @@ void Console::task(const TaskProgress& progress)
                               clock_time(progress.seconds), left, one_line(progress.activity)));
 }
 
-void Console::draw_progress(double fraction, const std::string& text)
+void TerminalConsole::draw_progress(double fraction, const std::string& text)
 {
-    const std::string label = label_text(label_);
-    const std::string labelled = label.empty() ? text : fmt::format("{}  {}", label, text);
+    const std::string name = label_text(label());
+    const std::string labelled = name.empty() ? text : fmt::format("{}  {}", name, text);
     if (!terminal_) {
         put(stderr, fmt::format("bdpt: {}\n", labelled));
         return;
@@ -243,20 +276,19 @@ void Console::draw_progress(double fraction, const std::string& text)
     drawn_ = line.size();
 }
 
-void Console::end_progress()
+void TerminalConsole::finish_progress()
 {
-    const std::lock_guard lock(mutex_);
     erase_progress();
     last_shown_ = -std::numeric_limits<double>::infinity();
 }
 
-void Console::print_line(std::string_view prefix, std::string_view message)
+void TerminalConsole::print_line(std::string_view prefix, std::string_view message)
 {
     erase_progress();
     put(stderr, fmt::format("{}{}\n", prefix, one_line(message)));
 }
 
-void Console::erase_progress()
+void TerminalConsole::erase_progress()
 {
     if (drawn_ > 0) {
         put(stderr, fmt::format("\r{:{}}\r", "", drawn_));
@@ -264,7 +296,7 @@ void Console::erase_progress()
     }
 }
 
-bool Console::is_due(double seconds)
+bool TerminalConsole::is_due(double seconds)
 {
     const double interval = format_ == Format::json ? 0.5 : terminal_ ? 0.1 : 5.0;
     const bool due = seconds - last_shown_ >= interval;

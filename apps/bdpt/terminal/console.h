@@ -59,36 +59,72 @@ struct ImageLabel {
 /// Returns "2.3 %", or "unknown" for an infinite noise.
 [[nodiscard]] std::string noise_text(double noise);
 
+/// Returns the fraction of the way to `goal`, in [0, 1], by samples or time.
+[[nodiscard]] double fraction_done(const Progress& progress, const Goal& goal);
+
 /// Estimates the seconds left until `goal` by `progress`; none if nothing is done yet.
 [[nodiscard]] std::optional<double> time_left(const Progress& progress, const Goal& goal);
 
-/// Prints messages and progress for the user. Results of `info` do not use it. Thread-safe.
+/// Receives the messages and the progress of a command, and decides which of them are news.
+/// Thread-safe.
 class Console {
 public:
-    Console(Format format, Verbosity verbosity);
-    ~Console();
+    Console() = default;
+    virtual ~Console() = default;
     Console(const Console&) = delete;
     Console& operator=(const Console&) = delete;
 
-    /// Emits an event. `fields` is a JSON object, to which "event" is added. Does nothing if the
-    /// format is text; if quiet, only the event "done" is emitted.
+    /// Emits an event for programs. `fields` is a JSON object, to which "event" is added.
     void event(std::string_view name, const nlohmann::ordered_json& fields);
-    /// Prints a line for people; nothing if the format is JSON.
+    /// Shows a line for people.
     void note(std::string_view message, Repeat repeat = Repeat::always);
-    /// Prints a line for people, if there is only one image.
+    /// Shows a line for people, if there is only one image.
     void detail(std::string_view message);
     void warning(std::string_view message, Repeat repeat = Repeat::never);
-    /// Sets the image: further events get its "frame" and "camera", if any, and progress lines its
-    /// label.
+    /// Sets the image that all further messages are about.
     void begin_image(const ImageLabel& label);
-    /// Shows the progress of a render; rate-limited, however often it is called.
+    /// Shows the progress of a render.
     void progress(const Progress& progress, const Goal& goal);
     /// Shows the progress of a task of many parts.
     void task(const TaskProgress& progress);
     /// Ends a progress line, so that further output starts on a new line.
     void end_progress();
 
+protected:
+    [[nodiscard]] const ImageLabel& label() const { return label_; }
+
 private:
+    // Called by one thread at a time.
+    virtual void show_event(std::string_view name, const nlohmann::ordered_json& fields) = 0;
+    virtual void show_note(std::string_view message) = 0;
+    virtual void show_warning(std::string_view message) = 0;
+    virtual void show_progress(const Progress& progress, const Goal& goal) = 0;
+    virtual void show_task(const TaskProgress& progress) = 0;
+    virtual void finish_progress() = 0;
+
+    std::mutex mutex_;
+    ImageLabel label_;
+    std::set<std::string, std::less<>> told_;
+};
+
+/// Prints messages and progress for the user. Results of `info` do not use it.
+class TerminalConsole final : public Console {
+public:
+    TerminalConsole(Format format, Verbosity verbosity);
+    ~TerminalConsole() override;
+
+private:
+    /// Prints nothing if the format is text; if quiet, only the event "done". Events of one of
+    /// several images get its "frame" and "camera".
+    void show_event(std::string_view name, const nlohmann::ordered_json& fields) override;
+    /// Prints nothing if the format is JSON.
+    void show_note(std::string_view message) override;
+    void show_warning(std::string_view message) override;
+    /// Rate-limited, however often it is called.
+    void show_progress(const Progress& progress, const Goal& goal) override;
+    void show_task(const TaskProgress& progress) override;
+    void finish_progress() override;
+
     void print_line(std::string_view prefix, std::string_view message);
     void put_event(std::string_view name, const nlohmann::ordered_json& fields);
     void erase_progress();
@@ -99,10 +135,7 @@ private:
     Verbosity verbosity_;
     bool terminal_;  // stderr is a terminal, which can redraw a line
     bool color_;
-    std::mutex mutex_;
     std::size_t drawn_ = 0;  // characters of the visible progress line
-    ImageLabel label_;
-    std::set<std::string, std::less<>> told_;
     double last_shown_ = -std::numeric_limits<double>::infinity();  // time of the render [s]
 };
 

@@ -26,7 +26,8 @@ sigset_t signals_to_watch()
 
 }  // namespace
 
-Interrupt::Interrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop)
+SignalInterrupt::SignalInterrupt(std::vector<std::filesystem::path> temporaries,
+                                 std::function<void()> on_stop)
     : temporaries_(std::move(temporaries)),
       on_stop_(std::move(on_stop)),
       signals_(signals_to_watch())
@@ -35,26 +36,32 @@ Interrupt::Interrupt(std::vector<std::filesystem::path> temporaries, std::functi
     watcher_ = std::jthread([this](const std::stop_token& finished) { watch(finished); });
 }
 
-Interrupt::~Interrupt()
+SignalInterrupt::~SignalInterrupt()
 {
     watcher_.request_stop();
     watcher_.join();
     pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
 }
 
-void Interrupt::set_temporaries(std::vector<std::filesystem::path> temporaries)
+void SignalInterrupt::set_temporaries(std::vector<std::filesystem::path> temporaries)
 {
     const std::lock_guard lock(mutex_);
     temporaries_ = std::move(temporaries);
 }
 
-std::optional<int> Interrupt::signal() const
+std::optional<int> SignalInterrupt::signal() const
 {
     const int signal_number = signal_;
     return signal_number != 0 ? std::optional(signal_number) : std::nullopt;
 }
 
-void Interrupt::watch(const std::stop_token& finished)
+std::optional<std::string> SignalInterrupt::stopped_by() const
+{
+    const std::optional<int> by = signal();
+    return by ? std::optional<std::string>(signal_name(*by)) : std::nullopt;
+}
+
+void SignalInterrupt::watch(const std::stop_token& finished)
 {
     // Long enough to cost nothing, short enough that joining the thread is quick.
     constexpr timespec interval{0, 20'000'000};
@@ -66,7 +73,7 @@ void Interrupt::watch(const std::stop_token& finished)
     }
 }
 
-void Interrupt::handle(int signal_number)
+void SignalInterrupt::handle(int signal_number)
 {
     if (signal_number == SIGUSR1) {
         checkpoint_ = true;

@@ -93,7 +93,8 @@ private:
 
     Audience& audience_;
     Console& console_;
-    Console quiet_{Format::text, Verbosity::quiet};  ///< for messages that would be repeated
+    /// For messages that would be repeated.
+    TerminalConsole quiet_{Format::text, Verbosity::quiet};
     Mailbox mailbox_;
     const ViewWords first_words_;
     ViewWords words_;        ///< requested by pages

@@ -10,15 +10,17 @@
 import operator
 from typing import Any, Iterator
 
-from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, Material, Mesh, PointLight, Render,
-                    Renderer, Scene, SpotLight, __version__, compare, load, read_part, render)
+from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, JobImage, JobProgress, Material, Mesh,
+                    PointLight, Render, Renderer, Scene, SpotLight, __version__, compare, load, read_part, render, run)
 from ._signatures import with_signature
 
-__all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "Material", "Mesh", "PointLight", "Render",
-           "Renderer", "Scene", "SpotLight", "compare", "load", "orbit", "read_part", "render"]
+__all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "JobImage", "JobProgress", "Material",
+           "Mesh", "PointLight", "Render", "Renderer", "Scene", "SpotLight", "compare", "load", "orbit", "read_part", "render",
+           "run"]
 
 load = with_signature(load)
 render = with_signature(render)
+run = with_signature(run)
 Render.save = with_signature(Render.save)  # type: ignore[method-assign]
 Render.to_srgb = with_signature(Render.to_srgb)  # type: ignore[method-assign]
 Renderer.save = with_signature(Renderer.save)  # type: ignore[method-assign]

@@ -183,7 +183,7 @@ public:
 
 private:
     ScratchFolder folder_;
-    app::Console console_{app::Format::text, app::Verbosity::quiet};
+    app::TerminalConsole console_{app::Format::text, app::Verbosity::quiet};
     Listener listener_;
     std::optional<app::Session> session_;
     std::thread thread_;

@@ -49,6 +49,7 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
                     scene.ktx_library, some_text("a file or a folder"));
     library.uses.plan_render = false;  // no file may choose code to load
     library.uses.job = false;
+    library.uses.program = true;
     options.add_flag("--ignore-required",
                      "Render files that require unsupported extensions, or libktx where it is "
                      "missing, without these features",

@@ -74,7 +74,7 @@ TEST_CASE("a job has values of all kinds", "[job]")
 
 TEST_CASE("wrong names and values are told as the command tells them", "[job]")
 {
-    CHECK(message("sppp", 3) == R"(/"sppp": is no option of a job (did you mean "spp"?))");
+    CHECK(message("sppp", 3) == R"(/"sppp": is not an option of a job (did you mean "spp"?))");
     CHECK(message("spp", 0) == "/spp: must be a whole number from 1 to 2147483648, but is 0");
     CHECK(message("spp", 1.5).starts_with("/spp: must be a whole number"));
     CHECK(message("spp", "64").starts_with("/spp: must be a whole number"));

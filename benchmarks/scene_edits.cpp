@@ -59,8 +59,8 @@ SceneDesc large_scene(unsigned side)
     desc.instances = {placed("sea", 0, 0, {0, 0, 0}), placed("left", 1, 1, {-2, 0, 0}),
                       placed("right", 1, 2, {2, 0, 0})};
     EnvironmentLightDesc sky;
-    sky.radiance = {
-        .width = 1024, .height = 512, .pixels = std::vector<Rgb>(1024 * 512, Rgb(1.0f))};
+    sky.radiance =
+        Image{.width = 1024, .height = 512, .pixels = std::vector<Rgb>(1024 * 512, Rgb(1.0f))};
     desc.lights = {sky, PointLightDesc{.position = {0.5f, 1.0f, 0.5f}}};
     return desc;
 }

@@ -101,7 +101,7 @@ std::vector<EqualityCase> alpha_cases()
     sky.quad({-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1},
              see_through(lambertian({0.3f, 0.6f, 0.3f}), 0.6f));
     sky.light(EnvironmentLightDesc{
-        .radiance = {.width = 2, .height = 1, .pixels = {Rgb(2.0f, 1.0f, 1.0f), Rgb(0.5f)}}});
+        .radiance = Image{.width = 2, .height = 1, .pixels = {Rgb(2.0f, 1.0f, 1.0f), Rgb(0.5f)}}});
     cases.push_back(
         in_leafy_room("masked leaves and a blended roof under a sky", std::move(sky), 2));
 

@@ -70,7 +70,8 @@ TEST_CASE("white panes in a white furnace are invisible, whatever their alpha",
     masked.alpha_mode = AlphaMode::mask;
     builder.quad({-1, -1, 0.2f}, {1, -1, 0.2f}, {1, 1, 0}, {-1, 1, 0}, blended);
     builder.quad({-1, -1, -0.7f}, {1, -1, -0.7f}, {1, 1, 0.3f}, {-1, 1, 0.3f}, masked);
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(2)}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(2)}}});
     const Scene scene(std::move(builder.desc));
     const CameraDesc camera = camera_at({0.3f, 0.5f, 4.0f}, {0.0f, 0.0f, 0.0f}, 0.4f);
     for (const auto kind : integrators) {

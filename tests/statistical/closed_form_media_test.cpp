@@ -59,7 +59,8 @@ TEST_CASE("fog that absorbs nothing under an even sky is not seen", "[closed-for
     // Whatever its colour: no wavelength is preferred. Nothing but fog, in a sphere of radius 1;
     // one path in ten thousand is longer than 40 edges.
     SceneBuilder builder;
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     builder.desc.fog = MediumDesc{.extinction = {0.3f, 0.7f, 1.4f}, .anisotropy = 0.5f};
     const Scene scene(std::move(builder.desc));
     const CameraDesc camera = camera_at({0.2f, 0.1f, 0.5f}, {0.0f, 0.0f, -1.0f}, 1.2f);
@@ -76,7 +77,7 @@ TEST_CASE("fog that absorbs nothing under an even sky is not seen", "[closed-for
 TEST_CASE("a volume of even density is a medium", "[closed-form][media]")
 {
     SceneBuilder fog;
-    fog.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    fog.light(EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     VolumeDesc volume;
     volume.size = {6, 6, 6};
     volume.density.assign(216, 0.7f);

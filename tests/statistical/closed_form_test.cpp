@@ -134,7 +134,8 @@ TEST_CASE("a clear glass sphere in a white furnace is invisible", "[closed-form]
 {
     SceneBuilder builder;
     builder.sphere({0.0f, 0.0f, 0.0f}, 1.0f, glass(0.0f));
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(2)}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(2)}}});
     const Scene scene(std::move(builder.desc));
     const CameraDesc camera = camera_at({0.0f, 0.0f, 4.0f}, {0.0f, 0.0f, 0.0f}, 0.4f);
     for (const auto kind : {IntegratorKind::pt, IntegratorKind::mis, IntegratorKind::bdpt}) {

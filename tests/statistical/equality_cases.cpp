@@ -180,7 +180,8 @@ void add_lights(std::vector<EqualityCase>& cases)
 
     SceneBuilder constant = room();
     constant.sphere({0.4f, -0.6f, 0.0f}, 0.4f, glass(0.0f));
-    constant.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    constant.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     cases.push_back(in_room("constant environment", std::move(constant), std::nullopt));
 
     SceneBuilder sky = room();

@@ -200,11 +200,11 @@ Scene glass_before_sky(Rgb light, float ior, float dispersion)
     material.dispersion = dispersion;
     SceneBuilder builder;
     builder.sphere({0.0f, 0.0f, 0.0f}, 0.8f, material);
-    EnvironmentLightDesc sky{.radiance = {.width = 16, .height = 2, .pixels = {}}};
+    Image sky{.width = 16, .height = 2, .pixels = {}};
     for (int i = 0; i < 32; ++i) {
-        sky.radiance.pixels.push_back((i % 4 < 2 ? 1.0f : 0.05f) * light);
+        sky.pixels.push_back((i % 4 < 2 ? 1.0f : 0.05f) * light);
     }
-    builder.light(std::move(sky));
+    builder.light(EnvironmentLightDesc{.radiance = std::move(sky)});
     return Scene(std::move(builder.desc));
 }
 

@@ -86,7 +86,7 @@ EqualityCase with_sky()
     builder.light(
         DirectionalLightDesc{.direction = {0.3f, -1.0f, -0.4f}, .illuminance = Rgb(1.0f)});
     builder.light(
-        EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(0.5f)}}});
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(0.5f)}}});
     EqualityCase result = in_bare_room("panels, sun and sky", std::move(builder));
     result.seen_by_lt = 2;
     return result;

@@ -56,11 +56,11 @@ EqualityCase fog_under_sky()
 {
     SceneBuilder builder;
     builder.walls(lambertian(Rgb(0.7f)), lambertian({0.7f, 0.5f, 0.3f}));
-    EnvironmentLightDesc sky{.radiance = {.width = 4, .height = 2, .pixels = {}}};
+    Image sky{.width = 4, .height = 2, .pixels = {}};
     for (int i = 0; i < 8; ++i) {
-        sky.radiance.pixels.emplace_back(0.5f + 0.2f * static_cast<float>(i));
+        sky.pixels.emplace_back(0.5f + 0.2f * static_cast<float>(i));
     }
-    builder.light(std::move(sky));
+    builder.light(EnvironmentLightDesc{.radiance = std::move(sky)});
     builder.desc.fog = mist;
     return of("fog under a sky", std::move(builder));
 }

@@ -70,7 +70,7 @@ inline double compute_mean(const std::vector<float>& values)
 
 inline EnvironmentLightDesc even_sky(Rgb radiance = Rgb(1.0f))
 {
-    return {.radiance = {.width = 1, .height = 1, .pixels = {radiance}}};
+    return {.radiance = Image{.width = 1, .height = 1, .pixels = {radiance}}};
 }
 
 /// Returns a sky that is bright above and dark below, with a sun of one texel off centre.

@@ -82,7 +82,7 @@ struct LightText {
     }
     std::string operator()(const EnvironmentLightDesc& light) const
     {
-        return fmt::format("environment {}x{}", light.radiance.width, light.radiance.height);
+        return fmt::format("environment {}x{}", light.radiance.width(), light.radiance.height());
     }
 };
 
@@ -124,8 +124,8 @@ struct LightJson {
     ordered_json operator()(const EnvironmentLightDesc& light) const
     {
         return {{"kind", "environment"},
-                {"width", light.radiance.width},
-                {"height", light.radiance.height}};
+                {"width", light.radiance.width()},
+                {"height", light.radiance.height()}};
     }
 };
 
@@ -134,10 +134,9 @@ struct LightJson {
 LightDesc without_pixels(const LightDesc& light)
 {
     if (const auto* environment = std::get_if<EnvironmentLightDesc>(&light)) {
-        EnvironmentLightDesc result;
-        result.radiance.width = environment->radiance.width;
-        result.radiance.height = environment->radiance.height;
-        return result;
+        return EnvironmentLightDesc{.radiance = Image{.width = environment->radiance.width(),
+                                                      .height = environment->radiance.height(),
+                                                      .pixels = {}}};
     }
     return light;
 }

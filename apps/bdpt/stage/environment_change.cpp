@@ -14,9 +14,7 @@ EnvironmentLightDesc changed(EnvironmentLightDesc light, const EnvironmentChange
                        static_cast<float>(change.rotation * std::numbers::pi / 180.0));
     }
     if (change.intensity != 1.0f) {
-        for (Rgb& pixel : light.radiance.pixels) {
-            pixel *= change.intensity;
-        }
+        light.radiance = light.radiance.scaled(change.intensity);
     }
     return light;
 }

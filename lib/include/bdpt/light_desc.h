@@ -14,7 +14,7 @@
 /// @endcode
 
 #include <bdpt/fields.h>
-#include <bdpt/image.h>
+#include <bdpt/light/environment_image.h>
 #include <bdpt/scene_ids.h>
 #include <bdpt/types.h>
 
@@ -102,7 +102,7 @@ struct DirectionalLightDesc {
 struct EnvironmentLightDesc {
     static constexpr std::string_view kind = "environment light";  ///< human-readable name
 
-    Image radiance;
+    EnvironmentImage radiance;
     Mat3 world_from_environment{1.0f};  ///< rotation
 };
 

@@ -6,6 +6,7 @@
 #include <bdpt/part/content_hash.h>
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -67,11 +68,22 @@ public:
         add(light.index());
         std::visit([this](const auto& kind) { add(kind); }, light);
     }
-    void add(const Image& image)
+    void add(const EnvironmentImage& image)
     {
-        add(image.width);
-        add(image.height);
-        add(image.pixels);
+        add(image.width());
+        add(image.height());
+        if (image.texels() == nullptr) {
+            const std::vector<Rgb> none;
+            add(image.floats() != nullptr ? image.floats()->pixels : none);
+            return;
+        }
+        // Hashed as floats, whichever way they are stored.
+        std::vector<Rgb> row(static_cast<std::size_t>(image.width()));
+        add(row.size() * static_cast<std::size_t>(image.height()));
+        for (int y = 0; y < image.height(); ++y) {
+            image.copy_row(y, row);
+            hasher_.add(row.data(), row.size() * sizeof(Rgb));
+        }
     }
     void add(const TexelImage& image)
     {

@@ -39,12 +39,19 @@ std::vector<float> row_shares(const std::vector<float>& cosines)
     return shares;
 }
 
+/// Returns the texels of the image itself if they are compact.
+std::shared_ptr<const EnvironmentTexels> shared_texels(const EnvironmentImage& image)
+{
+    return image.texels() ? image.texels()
+                          : std::make_shared<const EnvironmentTexels>(*image.floats());
+}
+
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(const EnvironmentLightDesc& desc, const BoundingSphere& bounds)
     : world_from_environment_(desc.world_from_environment),
       bounds_(bounds),
-      texels_(std::make_unique<const EnvironmentTexels>(desc.radiance))
+      texels_(shared_texels(desc.radiance))
 {
     CellWeights weights(*texels_, row_shares(row_cosines(height())));
     row_cosines_ = row_cosines(weights.rows());

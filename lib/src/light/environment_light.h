@@ -82,7 +82,7 @@ private:
     Mat3 world_from_environment_;
     BoundingSphere bounds_;
     std::vector<float> row_cosines_;
-    std::unique_ptr<const EnvironmentTexels> texels_;
+    std::shared_ptr<const EnvironmentTexels> texels_;
     std::unique_ptr<const EnvironmentTiles> tiles_;
 };
 

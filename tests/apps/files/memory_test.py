@@ -101,13 +101,13 @@ def write_scene(folder, name, instances=1, texture_sides=(), lamps=1, triangles=
 
 
 @run_in_child_process
-def write_sky(folder, name, width, height):
+def write_sky(folder, name, width, height, head=""):
     """Writes a Radiance HDR image of one colour."""
     line = bytes([2, 2, width >> 8, width & 255])
     for value in (120, 110, 100, 128):
         for begin in range(0, width, 127):
             line += bytes([128 + min(127, width - begin), value])
-    head = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n"
+    head = f"#?RADIANCE\n{head}FORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n"
     (folder / name).write_bytes(head.encode() + line * height)
 
 
@@ -117,11 +117,13 @@ def check_estimates(folder):
     least = write_scene(folder, "least.gltf")
     base = Run(folder, least, *small)
     sky = write_sky(folder, "sky.hdr", 4096, 2048)
+    floats = write_sky(folder, "floats.hdr", 4096, 2048, "EXPOSURE=3\n")
     cases = {
         "instances": [write_scene(folder, "instances.gltf", instances=50_000), *small],
         "textures": [write_scene(folder, "textures.gltf", texture_sides=[1024] * 12), *small],
         "triangles": [write_scene(folder, "triangles.gltf", triangles=400_000), *small],
         "an environment": [least, "--env", sky, *small],
+        "an environment of floats": [least, "--env", floats, *small],
         "a film": [least, "--size", "1024x1024", "--integrator", "pt"],
         "a film with splats": [least, "--size", "768x768", "--integrator", "bdpt"],
         "layers": [least, "--size", "768x768", "--integrator", "pt", "--aov", "albedo,normal,depth,position"],
@@ -148,9 +150,13 @@ def check_refusals(folder):
 
     (folder / "out.exr").unlink(missing_ok=True)
     yield "a sky beyond --max-memory", refused([least, "--env", sky, *small, "--max-memory", "60M"], 4, "sky.hdr: ",
-                                               "4096 x 2048", "101 MB", "of 62.9 MB are left (--max-memory)")
-    yield "the tables of a sky", refused([least, "--env", sky, *small, "--max-memory", "150M"], 4, "sky.hdr: ",
-                                         "the environment needs 185 MB", "of 157 MB are left (--max-memory)")
+                                               "the environment needs 67.1 MB", "of 62.9 MB are left (--max-memory)")
+    # Divided by the exposure, values are floats.
+    floats = write_sky(folder, "floats.hdr", 4096, 2048, "EXPOSURE=3\n")
+    yield "a sky of floats", refused([least, "--env", floats, *small, "--max-memory", "60M"], 4, "floats.hdr: ",
+                                     "4096 x 2048", "101 MB", "of 62.9 MB are left (--max-memory)")
+    yield "its tables", refused([least, "--env", floats, *small, "--max-memory", "150M"], 4, "floats.hdr: ",
+                                "the environment needs 185 MB", "of 157 MB are left (--max-memory)")
     yield "a film beyond the machine", refused([least, "--size", "65535x65535"], 7, "the film of 65535x65535 pixels",
                                                "needs 876 GB of memory, but the limit is")
     yield "a film beyond ulimit -v", refused([least, "--size", "4000x4000"], 7, "the film of 4000x4000 pixels",

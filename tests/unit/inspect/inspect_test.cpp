@@ -32,7 +32,8 @@ Scene floor_under_sky()
     SceneBuilder builder;
     builder.quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1},
                  test::lambertian(Rgb(0.8f, 0.4f, 0.2f)));
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(3)}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(3)}}});
     return Scene(std::move(builder.desc));
 }
 

@@ -173,7 +173,7 @@ TEST_CASE("real environments load")
             continue;
         }
         CAPTURE(entry.path().string());
-        const Image image = load_environment(entry.path()).light.radiance;
+        const Image image = load_environment(entry.path()).light.radiance.to_image();
         CHECK(image.width == 1024);
         CHECK(image.height == 512);
         double sum = 0.0;

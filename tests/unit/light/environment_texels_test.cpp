@@ -130,7 +130,7 @@ TEST_CASE("environment texels: one texel, none that shines, the greatest float",
     for (const float value : {0.0f, 1e-45f, 1e-38f, 0.3f, 1e30f, 3e38f}) {
         CAPTURE(value);
         const EnvironmentLight light(
-            {.radiance = {.width = 1, .height = 1, .pixels = {Rgb(value)}}},
+            {.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(value)}}},
             {.center = Vec3(0.0f), .radius = 1.0f});
         CHECK(light.radiance(Vec3(0, 1, 0)).r == Approx(value).epsilon(0x1p-11).margin(1e-38));
         for (const auto sampling : {EnvironmentSampling::plain, EnvironmentSampling::compensated}) {

@@ -28,7 +28,7 @@ float brightest(const Image& sky, float left, float right, float top, float bott
 
 TEST_CASE("the studio is grey, and 1 nit on average", "[studio]")
 {
-    const Image sky = studio_environment().radiance;
+    const Image sky = studio_environment().radiance.to_image();
     double sum = 0.0;
     double weights = 0.0;
     for (int y = 0; y < sky.height; ++y) {
@@ -47,7 +47,7 @@ TEST_CASE("the key of the studio is on the left of who sees the front, the fill 
           "[studio]")
 {
     // Columns go from +z by -x, which is the left, -z in the middle, and +x back to +z.
-    const Image sky = studio_environment().radiance;
+    const Image sky = studio_environment().radiance.to_image();
     const float key = brightest(sky, 0.0f, 0.25f, 0.0f, 0.5f);
     const float fill = brightest(sky, 0.65f, 0.85f, 0.3f, 0.6f);
     const float behind = brightest(sky, 0.35f, 0.65f, 0.2f, 0.5f);
@@ -60,7 +60,7 @@ TEST_CASE("the key of the studio is on the left of who sees the front, the fill 
 
 TEST_CASE("the boxes of the studio have soft edges", "[studio]")
 {
-    const Image sky = studio_environment().radiance;
+    const Image sky = studio_environment().radiance.to_image();
     float steepest = 0.0f;
     for (int y = 20; y < sky.height - 20; ++y) {
         for (int x = 1; x < sky.width; ++x) {

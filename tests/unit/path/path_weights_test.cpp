@@ -32,7 +32,8 @@ SceneDesc room(bool foggy)
     builder.ceiling(test::lambertian(Rgb(0.7f))).lamp(0.9f, 0.5f, Rgb(5.0f));
     builder.sphere({-0.4f, -0.6f, 0.0f}, 0.4f, test::glass(0.0f));
     builder.sphere({0.5f, -0.6f, 0.2f}, 0.4f, test::plastic(Rgb(0.5f), 0.0f));
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     return std::move(builder.desc);
 }
 

@@ -39,7 +39,8 @@ SceneDesc room(bool foggy)
     pane.base_color.w = 0.4f;
     pane.alpha_mode = AlphaMode::blend;
     builder.sphere({0.0f, 0.3f, 0.2f}, 0.3f, pane, 12);
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     builder.light(PointLightDesc{.position = {0.0f, 0.3f, 0.2f}, .intensity = Rgb(1.0f)});
     return std::move(builder.desc);
 }

@@ -36,7 +36,8 @@ SceneDesc spheres()
     builder.quad({-1.0f, -0.9f, 0.7f}, {1.0f, -0.9f, 0.7f}, {1.0f, -0.2f, 0.7f},
                  {-1.0f, -0.2f, 0.7f}, veil());
     builder.sphere({0.0f, 0.0f, 9.0f}, 0.5f, test::lambertian(Rgb(0.8f)));
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {sky}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {sky}}});
     return builder.desc;
 }
 
@@ -153,7 +154,8 @@ TEST_CASE("lights that are no environment stay visible", "[background]")
 {
     test::SceneBuilder builder;
     builder.quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}, test::emitter(Rgb(2.0f)));
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {sky}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {sky}}});
     const Scene scene(builder.desc);
     for (const IntegratorKind kind : of_camera_paths) {
         RenderOptions hidden = options(kind, Background::none);

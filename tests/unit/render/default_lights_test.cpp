@@ -19,7 +19,7 @@ const MaterialDesc wall = test::lambertian(Rgb(0.7f));
 
 TEST_CASE("the default environment is grey and 1 nit on average", "[default_lights]")
 {
-    const Image sky = default_environment().radiance;
+    const Image sky = default_environment().radiance.to_image();
     REQUIRE(sky.height > 1);
     double sum = 0.0;
     double weights = 0.0;
@@ -41,7 +41,7 @@ TEST_CASE("sides of a box that face different ways differ under the default envi
           "[default_lights]")
 {
     // The irradiance of a side, by all texels. Columns go from +z by -x and -z to +x.
-    const Image sky = default_environment().radiance;
+    const Image sky = default_environment().radiance.to_image();
     const auto irradiance = [&](Vec3 normal) {
         double sum = 0.0;
         for (int y = 0; y < sky.height; ++y) {
@@ -71,7 +71,7 @@ TEST_CASE("sides of a box that face different ways differ under the default envi
 TEST_CASE("there is no edge at the horizon of the default environment", "[default_lights]")
 {
     // The radiance changes there as it does a row above and a row below.
-    const Image sky = default_environment().radiance;
+    const Image sky = default_environment().radiance.to_image();
     const int below = sky.height / 2;
     for (int x = 0; x < sky.width; ++x) {
         const auto step = [&](int y) { return sky.at(x, y - 1).g - sky.at(x, y).g; };

@@ -270,6 +270,14 @@ void with_each_byte_changed(const std::string& name, T& value, const Check& chec
         with_each_byte_changed(name + ": width", width, check);
         with_each_byte_changed(name + ": height", height, check);
         with_each_byte_changed(name + ": pixels", pixels, check);
+    } else if constexpr (std::is_same_v<T, EnvironmentImage>) {
+        Image image;
+        const Check of_image = [&](const std::string& what, bool changes) {
+            value = image;
+            check(what, changes);
+        };
+        with_each_byte_changed(name, image, of_image);
+        value = {};
     } else if constexpr (std::is_same_v<T, TexelImage>) {
         auto& [width, height, bytes, channels, type] = value;
         with_each_byte_changed(name + ": width", width, check);

@@ -18,7 +18,7 @@ const CameraDesc outside = camera_at({0.5f, 1.5f, 4.0f}, {0, 0, 0}, 0.8f);
 EnvironmentLightDesc constant_sky(float radiance)
 {
     EnvironmentLightDesc sky;
-    sky.radiance = {1, 1, {Rgb(radiance)}};
+    sky.radiance = Image{1, 1, {Rgb(radiance)}};
     return sky;
 }
 

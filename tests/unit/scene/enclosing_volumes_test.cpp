@@ -137,7 +137,8 @@ TEST_CASE("light through nested bodies is absorbed by each over its own way", "[
 {
     // All of index 1, so that boundaries cannot be seen.
     SceneBuilder builder = cubes(1.0f, 1.0f);
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     const auto expected = [](float outer, float inner, int channel) {
         return std::exp(-of_outer[channel] * outer - of_inner[channel] * inner);
     };

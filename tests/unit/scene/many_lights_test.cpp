@@ -31,7 +31,8 @@ SceneDesc everything(std::uint64_t seed, int count)
                                      .azimuths = {0.0f},
                                      .intensities = {1.0f, 2.0f, 0.5f}});
     builder.light(ProfileLightDesc{.position = {0.2f, 0.5f, -0.3f}, .scale = Rgb(3.0f)});
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     return std::move(builder.desc);
 }
 
@@ -221,7 +222,8 @@ TEST_CASE("a lamp beside the sun is chosen often enough, however large the scene
                  test::lambertian(Rgb(0.5f)));
     builder.light(PointLightDesc{.position = {0.0f, 2.0f, 0.0f}, .intensity = Rgb(20.0f)});
     builder.light(DirectionalLightDesc{.direction = {0.3f, -1.0f, 0.2f}, .illuminance = Rgb(3.0f)});
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     const World world(std::move(builder.desc));
     const LightSampleContext below_lamp{.p = {0.5f, 0.0f, 0.0f}, .normal = Vec3(0.0f, 1.0f, 0.0f)};
     const auto p = [&](std::uint32_t id) {

@@ -79,7 +79,7 @@ TEST_CASE("a scene from the builder renders: a white furnace", "[builder]")
     moved[3] = {1.5f, 0.0f, 0.0f, 1.0f};
     builder.place(ball, material, moved).name = "right";
     builder.add(EnvironmentLightDesc{
-        .radiance = {.width = 1, .height = 1, .pixels = {Rgb(0.5f, 1.0f, 2.0f)}}});
+        .radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(0.5f, 1.0f, 2.0f)}}});
     CHECK(builder.desc().instances.size() == 2);
     const Scene scene(builder.take());
     CHECK(builder.desc().instances.empty());

@@ -21,7 +21,8 @@ SceneDesc good()
     builder.desc.meshes[0].name = "chair";
     builder.desc.images.push_back({.width = 1, .height = 1, .bytes = {1, 2, 3, 4}});
     builder.light(PointLightDesc{});
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     return std::move(builder.desc);
 }
 
@@ -171,7 +172,8 @@ TEST_CASE("lights and images", "[validate]")
         d.lights.emplace_back(SpotLightDesc{.inner_cone_angle = 0.7f, .outer_cone_angle = 0.6f});
     });
     check_refused("environment light 1: pixel (0, 0): radiance is -1", [](SceneDesc& d) {
-        std::get<EnvironmentLightDesc>(d.lights[1]).radiance.pixels[0].r = -1.0f;
+        std::get<EnvironmentLightDesc>(d.lights[1]).radiance =
+            Image{.width = 1, .height = 1, .pixels = {Rgb(-1.0f, 1.0f, 1.0f)}};
     });
     check_refused("there are 2 environment lights",
                   [](SceneDesc& d) { d.lights.push_back(d.lights[1]); });

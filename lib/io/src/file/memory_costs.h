@@ -19,8 +19,12 @@ constexpr std::uint64_t traced_triangle = 150;
 /// Placement of a mesh, and Embree's part of it.
 constexpr std::uint64_t placed_instance = 500;
 
-/// A pixel of an environment: in the description, in the light (where halves take less than this),
-/// and in its sampling table.
+/// A pixel of an environment of floats: in the description, in the light (where halves take less
+/// than this), and in its sampling table.
 constexpr std::uint64_t environment_pixel = sizeof(Rgb) + 2 * sizeof(float) + sizeof(std::uint16_t);
+
+/// A pixel of an environment of halves, which description and light share, and in its table.
+constexpr std::uint64_t compact_environment_pixel =
+    3 * sizeof(std::uint16_t) + sizeof(std::uint16_t);
 
 }  // namespace bdpt::io

@@ -48,7 +48,10 @@ LightPathCache::LightPathCache(const LightPathCounts& counts, const RenderOption
     : counts_(counts), kind_(options.sampling.sampler), seed_(options.sampling.seed)
 {
     if (counts.shared) {
-        chunks_.resize(static_cast<std::size_t>(chunks()));
+        chunks_.reserve(static_cast<std::size_t>(chunks()));
+        for (std::int64_t chunk = 0; chunk < chunks(); ++chunk) {
+            chunks_.emplace_back(*pool_);
+        }
     }
 }
 

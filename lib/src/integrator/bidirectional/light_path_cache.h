@@ -2,11 +2,13 @@
 
 #include "integrator/sample_schedule.h"
 #include "integrator/sample_start.h"
+#include "memory/huge_page_pool.h"
 #include "path/light_path_counts.h"
 #include "path/subpath.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -89,12 +91,21 @@ private:
         std::size_t vertices = 0;
         std::size_t bsdfs = 0;
     };
-    struct Chunk {
-        std::vector<TimeAndWavelength> moments;  // one per bundle
-        std::vector<PathEnd> path_ends;
-        std::vector<PathVertex> vertices;  // one path after another
-        std::vector<Bsdf> bsdfs;           // BSDFs of the connectible vertices, in order
+    template <typename T>
+    using PooledVector = std::vector<T, PoolAllocator<T>>;
+    /// In cache lines of its own, as threads fill different chunks.
+    struct alignas(HugePagePool::cache_line) Chunk {
+        PooledVector<TimeAndWavelength> moments;  // one per bundle
+        PooledVector<PathEnd> path_ends;
+        PooledVector<PathVertex> vertices;  // one path after another
+        PooledVector<Bsdf> bsdfs;           // BSDFs of the connectible vertices, in order
 
+        explicit Chunk(HugePagePool& pool)
+            : moments(PoolAllocator<TimeAndWavelength>(pool)),
+              path_ends(PoolAllocator<PathEnd>(pool)),
+              vertices(PoolAllocator<PathVertex>(pool)),
+              bsdfs(PoolAllocator<Bsdf>(pool))
+        {}
         [[nodiscard]] PathEnd path_begin(std::size_t path) const
         {
             return path == 0 ? PathEnd{} : path_ends[path - 1];
@@ -118,6 +129,7 @@ private:
     LightPathCounts counts_;
     SamplerKind kind_;
     std::uint64_t seed_;
+    std::unique_ptr<HugePagePool> pool_ = std::make_unique<HugePagePool>();
     std::vector<Chunk> chunks_;
 };
 

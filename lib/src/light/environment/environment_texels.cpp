@@ -4,83 +4,125 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace bdpt {
 namespace {
 
 constexpr float max_half = 65504.0f;
 
-/// Returns the nearest half float, ties to even, of a float in [0, 65504].
-std::uint16_t to_half(float value)
-{
-    constexpr float min_normal = 0x1p-14f;
-    if (value < min_normal) {
-        // Subnormal halves are multiples of 2^-24, and this sum rounds to them.
-        constexpr float magic = 0.5f;
-        return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(value + magic) -
-                                          std::bit_cast<std::uint32_t>(magic));
-    }
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    const std::uint32_t even = (bits >> 13U) & 1U;
-    return static_cast<std::uint16_t>((bits - (112U << 23U) + 0xfffU + even) >> 13U);
-}
-
-/// Returns approximately the geometric mean of all channels that are not black: the mean of their
+/// Computes approximately the geometric mean of all values that are not zero: the mean of their
 /// exponents. A sun does not change it.
-float usual_brightness(const Image& image)
-{
-    std::int64_t sum = 0;
-    std::int64_t count = 0;
-    for (const Rgb& pixel : image.pixels) {
-        for (int c = 0; c < 3; ++c) {
+class UsualBrightness {
+public:
+    void add(std::span<const float> values)
+    {
+        for (const float value : values) {
             const auto exponent =
-                static_cast<std::int64_t>(std::bit_cast<std::uint32_t>(pixel[c]) >> 23U);
-            sum += exponent;
-            count += exponent > 0 ? 1 : 0;
+                static_cast<std::int64_t>(std::bit_cast<std::uint32_t>(value) >> 23U);
+            sum_ += exponent;
+            count_ += exponent > 0 ? 1 : 0;
         }
     }
-    return count > 0 ? std::bit_cast<float>(static_cast<std::uint32_t>(sum / count) << 23U) : 0.0f;
-}
+    [[nodiscard]] float value() const
+    {
+        return count_ > 0 ? std::bit_cast<float>(static_cast<std::uint32_t>(sum_ / count_) << 23U)
+                          : 0.0f;
+    }
+
+private:
+    std::int64_t sum_ = 0;
+    std::int64_t count_ = 0;
+};
 
 }  // namespace
+
+float scale_of_halves(float greatest) noexcept
+{
+    float scale = 1.0f;
+    while (greatest / scale > max_half) {
+        scale *= 2.0f;
+    }
+    while (scale > 0x1p-100f && greatest / (0.5f * scale) <= max_half) {
+        scale *= 0.5f;
+    }
+    return scale;
+}
 
 EnvironmentTexels::EnvironmentTexels(const Image& image)
     : width_(image.width), height_(image.height)
 {
-    for (const Rgb& pixel : image.pixels) {
-        greatest_ = std::max({greatest_, pixel.r, pixel.g, pixel.b});
+    static_assert(sizeof(Rgb) == 3 * sizeof(float));
+    const auto row = 3 * static_cast<std::size_t>(width_);
+    const float* const begin = &image.pixels[0].r;
+    store([&](int y) { return std::span(begin + static_cast<std::size_t>(y) * row, row); });
+}
+
+EnvironmentTexels::EnvironmentTexels(const EnvironmentTexels& other, float factor)
+    : width_(other.width_), height_(other.height_)
+{
+    std::vector<float> values(3 * static_cast<std::size_t>(width_));
+    store([&](int y) {
+        for (int x = 0; x < width_; ++x) {
+            const Rgb texel = other(x, y) * factor;
+            for (int c = 0; c < 3; ++c) {
+                values[3 * static_cast<std::size_t>(x) + static_cast<std::size_t>(c)] = texel[c];
+            }
+        }
+        return std::span<const float>(values);
+    });
+}
+
+EnvironmentTexels::EnvironmentTexels(const Frame& frame, std::vector<std::uint16_t> halves)
+    : width_(frame.width),
+      height_(frame.height),
+      greatest_(frame.greatest),
+      scale_(frame.scale),
+      halves_(std::move(halves))
+{}
+
+void EnvironmentTexels::store(const Rows& rows)
+{
+    for (int y = 0; y < height_; ++y) {
+        for (const float value : rows(y)) {
+            greatest_ = std::max(greatest_, value);
+        }
     }
-    if (!encode(image)) {
+    scale_ = scale_of_halves(greatest_);
+    if (!encode(rows)) {
         halves_ = {};
         scale_ = 1.0f;
-        const float* const begin = &image.pixels[0].r;
-        floats_.assign(begin, begin + 3 * image.pixels.size());
+        for (int y = 0; y < height_; ++y) {
+            const std::span<const float> values = rows(y);
+            floats_.reserve(values.size() * static_cast<std::size_t>(height_));
+            floats_.insert(floats_.end(), values.begin(), values.end());
+        }
     }
 }
 
 /// Encodes the image as half floats; returns false if the error of a texel would exceed 1/2048 of
 /// its value and the visible threshold beside texels of usual brightness.
-bool EnvironmentTexels::encode(const Image& image)
+bool EnvironmentTexels::encode(const Rows& rows)
 {
-    static_assert(sizeof(Rgb) == 3 * sizeof(float));
-    // Scales the maximum to the range of halves, so that no texel is subnormal unnecessarily.
-    while (greatest_ / scale_ > max_half) {
-        scale_ *= 2.0f;
-    }
-    while (scale_ > 0x1p-100f && greatest_ / (0.5f * scale_) <= max_half) {
-        scale_ *= 0.5f;
-    }
     constexpr float relative = 0x1p-11f;
     constexpr float of_usual = 0x1p-16f;
-    const float unseen = of_usual * usual_brightness(image);
+    UsualBrightness usual;
+    for (int y = 0; y < height_; ++y) {
+        usual.add(rows(y));
+    }
+    const float unseen = of_usual * usual.value();
     const float inverse = 1.0f / scale_;
-    resize_in_huge_pages(halves_, 3 * image.pixels.size());
-    const float* const values = &image.pixels[0].r;
-    for (std::size_t i = 0; i < halves_.size(); ++i) {
-        halves_[i] = to_half(values[i] * inverse);
-        const float error = std::abs(decoded(halves_[i]) * scale_ - values[i]);
-        if (error > std::max(relative * values[i], unseen)) {
-            return false;
+    resize_in_huge_pages(halves_,
+                         3 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    std::uint16_t* half = halves_.data();
+    for (int y = 0; y < height_; ++y) {
+        for (const float value : rows(y)) {
+            *half = to_half(value * inverse);
+            const float error = std::abs(from_half(*half) * scale_ - value);
+            if (error > std::max(relative * value, unseen)) {
+                return false;
+            }
+            ++half;
         }
     }
     return true;

@@ -1,6 +1,7 @@
 #include "light/painted/painted_environment.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace bdpt {
@@ -47,13 +48,11 @@ EnvironmentLightDesc painted_environment(const PaintedSize& size,
         elevation.add({-step.sine, step.cosine});
     }
     const double mean = sum / weights;
-    EnvironmentLightDesc result;
-    result.radiance.width = 2 * size.rows;
-    result.radiance.height = size.rows;
+    Image image{.width = 2 * size.rows, .height = size.rows, .pixels = {}};
     for (const double value : values) {
-        result.radiance.pixels.emplace_back(static_cast<float>(value / mean));
+        image.pixels.emplace_back(static_cast<float>(value / mean));
     }
-    return result;
+    return {.radiance = std::move(image)};
 }
 
 double smooth_step(double x)

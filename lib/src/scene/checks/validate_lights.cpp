@@ -83,6 +83,26 @@ void check(const LightProfile& profile, const std::string& item)
     }
 }
 
+void check_image(const std::string& item, const Image& image)
+{
+    if (image.width < 1 || image.height < 1 ||
+        image.pixels.size() != area(image.width, image.height)) {
+        fail(item, ": image of ", image.width, " x ", image.height, " with ", image.pixels.size(),
+             " pixels");
+    }
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const Rgb& pixel = image.pixels[i];
+        const float least = std::min({pixel.r, pixel.g, pixel.b});
+        if (least >= 0.0f && pixel.r + pixel.g + pixel.b <= any_positive) {
+            continue;  // formatting the position would dominate the time
+        }
+        const auto column = i % static_cast<std::size_t>(image.width);
+        const auto row = i / static_cast<std::size_t>(image.width);
+        check_color(item + ": pixel (" + std::to_string(column) + ", " + std::to_string(row) + ")",
+                    "radiance", pixel, any_positive);
+    }
+}
+
 void check_rotation(const std::string& item, const Mat3& m)
 {
     constexpr float rounding = 1e-4f;
@@ -151,23 +171,11 @@ struct OwnCheck {
 
     void operator()(const EnvironmentLightDesc& light) const
     {
-        const Image& image = light.radiance;
-        if (image.width < 1 || image.height < 1 ||
-            image.pixels.size() != area(image.width, image.height)) {
-            fail(item, ": image of ", image.width, " x ", image.height, " with ",
-                 image.pixels.size(), " pixels");
-        }
-        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-            const Rgb& pixel = image.pixels[i];
-            const float least = std::min({pixel.r, pixel.g, pixel.b});
-            if (least >= 0.0f && pixel.r + pixel.g + pixel.b <= any_positive) {
-                continue;  // formatting the position would dominate the time
-            }
-            const auto column = i % static_cast<std::size_t>(image.width);
-            const auto row = i / static_cast<std::size_t>(image.width);
-            check_color(
-                item + ": pixel (" + std::to_string(column) + ", " + std::to_string(row) + ")",
-                "radiance", pixel, any_positive);
+        // Compact texels are finite and not negative.
+        if (!light.radiance.texels()) {
+            const Image none;
+            const Image* const image = light.radiance.floats();
+            check_image(item, image != nullptr ? *image : none);
         }
         if (!all_finite(&light.world_from_environment[0][0], 9)) {
             fail(item, ": rotation is not finite");

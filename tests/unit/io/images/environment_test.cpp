@@ -23,9 +23,11 @@ namespace {
 /// Writes an EXR file whose channel values are given pixel by pixel.
 void write_exr_channels(const std::filesystem::path& file, const Imath::Box2i& display,
                         const Imath::Box2i& data, Imf::PixelType type,
-                        const std::map<std::string, std::vector<float>>& channels)
+                        const std::map<std::string, std::vector<float>>& channels,
+                        Imf::Compression compression = Imf::ZIP_COMPRESSION)
 {
     Imf::Header header(display, data);
+    header.compression() = compression;
     std::map<std::string, std::vector<half>> halves;
     Imf::FrameBuffer buffer;
     const auto width = static_cast<std::size_t>(data.max.x - data.min.x + 1);
@@ -76,9 +78,9 @@ TEST_CASE("RGB environments are read in half and in single precision")
         const LoadedEnvironment loaded =
             load_exr(box(0, 0, 1, 0), box(0, 0, 1, 0), type,
                      {{"R", {1, 2}}, {"G", {3, 4}}, {"B", {0.5f, 60000}}, {"A", {0, 0}}});
-        const Image& image = loaded.light.radiance;
-        REQUIRE(image.width == 2);
-        REQUIRE(image.height == 1);
+        const EnvironmentImage& image = loaded.light.radiance;
+        REQUIRE(image.width() == 2);
+        REQUIRE(image.height() == 1);
         CHECK(image.at(0, 0) == Rgb(1, 3, 0.5f));
         CHECK(image.at(1, 0) == Rgb(2, 4, type == Imf::HALF ? float(half(60000.0f)) : 60000.0f));
         CHECK(loaded.warnings.empty());
@@ -88,6 +90,63 @@ TEST_CASE("RGB environments are read in half and in single precision")
     CHECK(load_exr(box(0, 0, 0, 0), box(0, 0, 0, 0), Imf::FLOAT,
                    {{"R", {1e9f}}, {"G", {1e-9f}}, {"B", {0}}})
               .light.radiance.at(0, 0) == Rgb(1e9f, 1e-9f, 0));
+}
+
+TEST_CASE("environments of halves and of shared exponents take 6 bytes per texel", "[memory]")
+{
+    const std::vector<float> values{1, 2, 0.125f, -3, 5, 6, 7, 60001};
+    for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT}) {
+        const TempFolder folder;
+        write_exr_channels(folder.path() / "sky.exr", box(0, 0, 3, 1), box(0, 0, 3, 1), type,
+                           {{"R", values}, {"G", values}, {"B", values}});
+        MemoryBudget memory({.bytes = 1000000, .source = "the test"});
+        const LoadedEnvironment loaded = load_environment(folder.path() / "sky.exr", {}, &memory);
+        const bool exact = type == Imf::HALF;  // 60001 is none
+        CHECK(loaded.light.radiance.bytes() == (exact ? 6U : 12U) * values.size());
+        CHECK(memory.spent() == (exact ? 8U : 22U) * values.size());
+        CHECK(loaded.light.radiance.at(2, 0) == Rgb(0.125f));
+        CHECK(loaded.light.radiance.at(3, 0) == Rgb(0));
+        CHECK(loaded.light.radiance.at(2, 1) == Rgb(7));
+        CHECK(warns(loaded.warnings, {"pixel (3, 0): -3", "and 2 more"}));
+    }
+    const TempFolder folder;
+    const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n";
+    const std::string rows = "\x80\x40\x20\x81\x90\x80\x80\x80";
+    const auto compact = folder.write("sky.hdr", head + "\n-Y 1 +X 2\n" + rows);
+    CHECK(load_environment(compact).light.radiance.bytes() == 12);
+    const auto upwards = folder.write("up.hdr", head + "\n+Y 2 +X 1\n" + rows);
+    CHECK(load_environment(upwards).light.radiance.at(0, 0) == Rgb(0.5625f, 0.5f, 0.5f));
+    const auto divided = folder.write("divided.hdr", head + "EXPOSURE=3\n\n-Y 1 +X 2\n" + rows);
+    CHECK(load_environment(divided).light.radiance.bytes() == 24);
+    // A range that no scale of halves has.
+    const auto wide =
+        folder.write("wide.hdr", head + "\n-Y 2 +X 1\n" + "\x81\x40\x20\x30\x80\x80\x80\xc0");
+    const EnvironmentImage image = load_environment(wide).light.radiance;
+    CHECK(image.bytes() == 24);
+    CHECK(image.at(0, 0).r == std::ldexp(129.0f, 0x30 - 136));
+}
+
+TEST_CASE("tall environments of halves are read in parts, whatever their compression")
+{
+    constexpr int width = 5;
+    constexpr int height = 600;
+    std::vector<float> values;
+    for (int i = 0; i < width * height; ++i) {
+        values.push_back(static_cast<float>(i % 2000));
+    }
+    for (const Imf::Compression compression :
+         {Imf::NO_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
+        const TempFolder folder;
+        write_exr_channels(folder.path() / "sky.exr", box(3, -4, 7, 595), box(3, -4, 7, 595),
+                           Imf::HALF, {{"Y", values}}, compression);
+        const EnvironmentImage image = load_environment(folder.path() / "sky.exr").light.radiance;
+        REQUIRE(image.height() == height);
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                REQUIRE(image.at(x, y) == Rgb(values[static_cast<std::size_t>(y * width + x)]));
+            }
+        }
+    }
 }
 
 TEST_CASE("luminance alone is grey, with chroma it is coloured")
@@ -111,13 +170,13 @@ TEST_CASE("luminance alone is grey, with chroma it is coloured")
 
 TEST_CASE("the data window is put into the display window")
 {
-    const Image image = load_exr(box(10, 20, 13, 21), box(11, 21, 14, 22), Imf::FLOAT,
-                                 {{"R", {1, 2, 3, 4, 5, 6, 7, 8}},
-                                  {"G", {1, 2, 3, 4, 5, 6, 7, 8}},
-                                  {"B", {1, 2, 3, 4, 5, 6, 7, 8}}})
-                            .light.radiance;
-    REQUIRE(image.width == 4);
-    REQUIRE(image.height == 2);
+    const EnvironmentImage image = load_exr(box(10, 20, 13, 21), box(11, 21, 14, 22), Imf::FLOAT,
+                                            {{"R", {1, 2, 3, 4, 5, 6, 7, 8}},
+                                             {"G", {1, 2, 3, 4, 5, 6, 7, 8}},
+                                             {"B", {1, 2, 3, 4, 5, 6, 7, 8}}})
+                                       .light.radiance;
+    REQUIRE(image.width() == 4);
+    REQUIRE(image.height() == 2);
     CHECK(image.at(0, 0) == Rgb(0));
     CHECK(image.at(3, 0) == Rgb(0));
     CHECK(image.at(0, 1) == Rgb(0));
@@ -157,9 +216,9 @@ TEST_CASE("Radiance images are read")
     const auto file =
         folder.write("sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n" + pixels);
     const LoadedEnvironment loaded = load_environment(file);
-    const Image& image = loaded.light.radiance;
-    REQUIRE(image.width == 2);
-    REQUIRE(image.height == 2);
+    const EnvironmentImage& image = loaded.light.radiance;
+    REQUIRE(image.width() == 2);
+    REQUIRE(image.height() == 2);
     CHECK(image.at(0, 0) == Rgb(1.0f, 0.5f, 0.25f));
     CHECK(image.at(1, 0) == Rgb(0.5f));
     CHECK(image.at(0, 1) == Rgb(0));
@@ -218,7 +277,7 @@ TEST_CASE("a dark environment that is packed a thousandfold is read")
     write_exr_channels(file, box(0, 0, 4095, 2047), box(0, 0, 4095, 2047), Imf::HALF,
                        {{"Y", dark}});
     REQUIRE(dark.size() * sizeof(Rgb) > 1000 * std::filesystem::file_size(file));
-    CHECK(load_environment(file).light.radiance.width == 4096);
+    CHECK(load_environment(file).light.radiance.width() == 4096);
 }
 
 }  // namespace bdpt::test::environment_test

@@ -175,7 +175,7 @@ TEST_CASE("an environment for screens is sRGB-encoded", "[picture]")
     TexelImage image{.width = 2, .height = 1, .bytes = {255, 0, 188, 0, 64, 255}, .channels = 3};
     write_png(folder / "sky.png", image, {});
     const LoadedEnvironment sky = load_environment(folder / "sky.png");
-    const Image& radiance = sky.light.radiance;
+    const Image radiance = sky.light.radiance.to_image();
     REQUIRE(radiance.width == 2);
     CHECK(radiance.pixels[0].x == 1.0f);
     CHECK(radiance.pixels[0].y == 0.0f);

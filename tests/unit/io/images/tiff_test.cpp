@@ -94,22 +94,23 @@ TEST_CASE("TIFF environments of floats are read")
 {
     const std::vector<float> values{1, 2, 3, 1e9f, 1e-9f, 0.1f};
     const LoadedEnvironment rgb = load(floats(2, 1, 3, values).bytes());
-    CHECK(rgb.light.radiance.pixels == std::vector<Rgb>{Rgb(1, 2, 3), Rgb(1e9f, 1e-9f, 0.1f)});
+    CHECK(rgb.light.radiance.to_image().pixels ==
+          std::vector<Rgb>{Rgb(1, 2, 3), Rgb(1e9f, 1e-9f, 0.1f)});
     CHECK(rgb.warnings.empty());
     // Colours are taken as they are, whatever alpha is.
     const std::vector<float> with_alpha{1, 2, 3, 0, 4, 5, 6, 0.5f};
-    CHECK(load(floats(2, 1, 4, with_alpha).bytes()).light.radiance.pixels ==
+    CHECK(load(floats(2, 1, 4, with_alpha).bytes()).light.radiance.to_image().pixels ==
           std::vector<Rgb>{Rgb(1, 2, 3), Rgb(4, 5, 6)});
-    CHECK(load(floats(2, 1, 2, {7, 0.5f, 3, 0}).bytes()).light.radiance.pixels ==
+    CHECK(load(floats(2, 1, 2, {7, 0.5f, 3, 0}).bytes()).light.radiance.to_image().pixels ==
           std::vector<Rgb>{Rgb(7), Rgb(3)});
-    CHECK(load(floats(2, 1, 1, {7, -1}).bytes()).light.radiance.pixels ==
+    CHECK(load(floats(2, 1, 1, {7, -1}).bytes()).light.radiance.to_image().pixels ==
           std::vector<Rgb>{Rgb(7), Rgb(0)});
     CHECK(warns(load(floats(2, 1, 1, {7, -1}).bytes()).warnings, {"pixel (1, 0): -1"}));
 
     Tiff half = floats(2, 1, 3, {});
     half.pixels = bytes_of<std::uint16_t>({0x3c00, 0x4000, 0x4200, 0x7bff, 0, 0x3800});
     half.bits = 16;
-    CHECK(load(half.bytes()).light.radiance.pixels ==
+    CHECK(load(half.bytes()).light.radiance.to_image().pixels ==
           std::vector<Rgb>{Rgb(1, 2, 3), Rgb(65504, 0, 0.5f)});
 }
 
@@ -135,7 +136,7 @@ TEST_CASE("TIFF environments are refused by their header, before they are decode
     check_refusal(huge.bytes(), ErrorCode::invalid_input, "limit is 16384 a side");
     Tiff tiled = floats(2, 2, 3, std::vector<float>(16 * 16 * 3, 1.0f));
     tiled.tile = 16;
-    CHECK(load(tiled.bytes()).light.radiance.pixels == std::vector<Rgb>(4, Rgb(1)));
+    CHECK(load(tiled.bytes()).light.radiance.to_image().pixels == std::vector<Rgb>(4, Rgb(1)));
     tiled.tile = 16000;
     check_refusal(tiled.bytes(), ErrorCode::invalid_input, "16000 x 16000 pixels");
     ReadLimits limits;

@@ -233,19 +233,20 @@ std::optional<EnvironmentLightDesc> read_image_based_light(const tinygltf::Model
                     fmt::format("{}/specularImages: a cube of {} sides, but it must have 6", place,
                                 sides.size()));
     }
-    EnvironmentLightDesc desc;
+    Image radiance;
     try {
         CubeMap cube = read_cube(model, sides, place + "/specularImages/0", context);
-        desc.radiance = flatten(std::move(cube), place, context);
+        radiance = flatten(std::move(cube), place, context);
     } catch (const UnreadableCube& error) {
         context.warn("an image of the environment cannot be read; the environment is left out",
                      error.what());
         return std::nullopt;
     }
     const float intensity = read_intensity(light, place, context);
-    for (Rgb& pixel : desc.radiance.pixels) {
+    for (Rgb& pixel : radiance.pixels) {
         pixel *= intensity;
     }
+    EnvironmentLightDesc desc{.radiance = std::move(radiance)};
     if (light.Has("rotation")) {
         std::vector<double> xyzw;
         for (const tinygltf::Value& number : light.Get("rotation").Get<tinygltf::Value::Array>()) {

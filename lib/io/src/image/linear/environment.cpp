@@ -14,28 +14,69 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace bdpt::io {
 
 namespace {
 
-/// Makes pixels finite and non-negative.
-void mend_pixels(Image& image, Warnings& warnings)
+std::uint64_t count_pixels(int width, int height)
 {
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+}
+
+/// Makes the pixels of row `y` finite and non-negative.
+void mend_row(std::span<Rgb> row, int y, Warnings& warnings)
+{
+    for (std::size_t x = 0; x < row.size(); ++x) {
         for (int c = 0; c < 3; ++c) {
-            float& value = image.pixels[i][c];
+            float& value = row[x][c];
             if (std::isfinite(value) && value >= 0.0f) {
                 continue;
             }
-            const auto width = static_cast<std::size_t>(image.width);
             warnings.add("negative, infinite and NaN values are treated as 0",
-                         fmt::format("pixel ({}, {}): {}", i % width, i / width, value));
+                         fmt::format("pixel ({}, {}): {}", x, y, value));
             value = 0.0f;
         }
     }
+}
+
+/// The result of reading; nullopt if the image has to be read as floats.
+struct CompactEnvironment {
+    std::optional<EnvironmentImage> image;
+    Warnings warnings;
+};
+
+/// Reads a file whose texels are compact row by row, without an image of floats, which would take
+/// twice their memory.
+CompactEnvironment read_compact(ByteView bytes, const ReadLimits& limits,
+                                const MemoryBudget* memory)
+{
+    CompactEnvironment result;
+    std::optional<EnvironmentImageBuilder> builder;
+    int y = 0;
+    const RowSink sink{.begin =
+                           [&](int width, int height) {
+                               if (memory != nullptr) {
+                                   memory->check("the environment", count_pixels(width, height) *
+                                                                        compact_environment_pixel);
+                               }
+                               builder.emplace(width, height);
+                           },
+                       .add =
+                           [&](std::span<Rgb> row) {
+                               mend_row(row, y++, result.warnings);
+                               return builder->add_row(row);
+                           }};
+    const bool complete = is_exr(bytes) ? read_half_exr_rows(bytes, limits, result.warnings, sink)
+                                        : is_hdr(bytes) && read_hdr_rows(bytes, limits, sink);
+    if (complete) {
+        result.image = builder->finish();
+    }
+    return result;
 }
 
 Image read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
@@ -61,6 +102,18 @@ Image read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
                             kind ? fmt::format(", but {}", *kind) : std::string()));
 }
 
+Image read_floats(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
+                  const MemoryBudget* memory)
+{
+    Image image = read_any(bytes, limits, warnings, memory);
+    const auto width = static_cast<std::size_t>(image.width);
+    for (int y = 0; y < image.height; ++y) {
+        mend_row(std::span(image.pixels).subspan(static_cast<std::size_t>(y) * width, width), y,
+                 warnings);
+    }
+    return image;
+}
+
 LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limits,
                        MemoryBudget* memory)
 {
@@ -70,18 +123,23 @@ LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limi
         return known ? limits.file_bytes : start.size();
     };
     const Bytes bytes = read_named(file, limits.file_bytes, worth, memory);
-    Warnings warnings;
+    auto [compact, warnings] = read_compact(bytes, limits, memory);
     LoadedEnvironment loaded;
-    loaded.light.radiance = read_any(bytes, limits, warnings, memory);
-    if (memory != nullptr) {
-        const std::uint64_t pixels = loaded.light.radiance.pixels.size();
-        memory->spend("the environment", pixels * environment_pixel);
+    if (compact) {
+        loaded.light.radiance = *std::move(compact);
+    } else {
+        warnings = {};
+        loaded.light.radiance = read_floats(bytes, limits, warnings, memory);
     }
-    mend_pixels(loaded.light.radiance, warnings);
-    const Image& image = loaded.light.radiance;
-    if (image.width != 2 * image.height && image.width * image.height != 1) {
+    const EnvironmentImage& image = loaded.light.radiance;
+    if (memory != nullptr) {
+        memory->spend("the environment",
+                      count_pixels(image.width(), image.height()) *
+                          (compact ? compact_environment_pixel : environment_pixel));
+    }
+    if (image.width() != 2 * image.height() && image.width() * image.height() != 1) {
         warnings.add("an equirectangular image should be twice as wide as high",
-                     fmt::format("{} x {} pixels", image.width, image.height));
+                     fmt::format("{} x {} pixels", image.width(), image.height()));
     }
     loaded.warnings = warnings.lines();
     return loaded;

@@ -26,6 +26,7 @@
 #include <cstring>
 #include <exception>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -85,15 +86,12 @@ Window checked_size(const Imath::Box2i& box, const ReadLimits& limits, const Mem
     return window;
 }
 
-/// Reads the channels in single precision, whatever their type in the file.
-std::vector<Rgb> read_channels(Imf::InputFile& input, const ColorChannels& colors,
-                               const Imath::Box2i& box, const Window& window)
+/// Reads the channels of the part `box` in single precision, whatever their type in the file.
+void read_part(Imf::InputFile& input, const ColorChannels& colors, const Imath::Box2i& box,
+               std::span<Rgb> pixels)
 {
-    std::vector<Rgb> pixels(
-        static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height),
-        Rgb(0.0f));
     Imf::FrameBuffer buffer;
-    const std::size_t row = sizeof(Rgb) * static_cast<std::size_t>(window.width);
+    const std::size_t row = sizeof(Rgb) * static_cast<std::size_t>(box.max.x - box.min.x + 1);
     for (std::size_t c = 0; c < colors.names.size() && !colors.names[c].empty(); ++c) {
         auto* const base = reinterpret_cast<char*>(&pixels[0][static_cast<int>(c)]);
         buffer.insert(colors.names[c].c_str(),
@@ -106,6 +104,15 @@ std::vector<Rgb> read_channels(Imf::InputFile& input, const ColorChannels& color
             pixel = Rgb(pixel[0]);
         }
     }
+}
+
+std::vector<Rgb> read_channels(Imf::InputFile& input, const ColorChannels& colors,
+                               const Imath::Box2i& box, const Window& window)
+{
+    std::vector<Rgb> pixels(
+        static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height),
+        Rgb(0.0f));
+    read_part(input, colors, box, pixels);
     return pixels;
 }
 
@@ -206,6 +213,51 @@ ColorChannels choose_channels(const Imf::ChannelList& channels,
     return *colors;
 }
 
+/// Tests whether all channels of the colours are half floats.
+bool are_halves(const Imf::ChannelList& channels, const ColorChannels& colors)
+{
+    return !colors.chroma &&
+           std::all_of(colors.names.begin(), colors.names.end(), [&](const std::string& name) {
+               return name.empty() || channels.findChannel(name.c_str())->type == Imf::HALF;
+           });
+}
+
+bool read_half_rows(ByteView file, const ReadLimits& limits, Warnings& warnings,
+                    const RowSink& sink)
+{
+    check_exr_header(file, limits);
+    MemoryStream stream(file);
+    Imf::InputFile input(stream, 0);
+    const Imf::Header& header = input.header();
+    const Imath::Box2i box = header.dataWindow();
+    if ((header.hasType() && Imf::isDeepData(header.type())) || box != header.displayWindow()) {
+        return false;
+    }
+    const ColorChannels colors = choose_channels(header.channels(), std::nullopt, warnings);
+    if (!are_halves(header.channels(), colors)) {
+        return false;
+    }
+    const Window size = checked_size(box, limits, nullptr);
+    sink.begin(size.width, size.height);
+    // Whole blocks of any compression, so that none is decoded twice.
+    constexpr int rows_of_part = 256;
+    const auto width = static_cast<std::size_t>(size.width);
+    std::vector<Rgb> pixels(width * static_cast<std::size_t>(std::min(rows_of_part, size.height)));
+    for (int y = 0; y < size.height; y += rows_of_part) {
+        const int rows = std::min(rows_of_part, size.height - y);
+        const Imath::Box2i part({box.min.x, box.min.y + y}, {box.max.x, box.min.y + y + rows - 1});
+        std::fill(pixels.begin(), pixels.end(), Rgb(0.0f));
+        read_part(input, colors, part,
+                  std::span(pixels).first(width * static_cast<std::size_t>(rows)));
+        for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
+            if (!sink.add(std::span(pixels).subspan(row * width, width))) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 ExrImage read(ByteView file, const std::optional<std::string>& layer, const ReadLimits& limits,
               Warnings& warnings, const MemoryBudget* memory)
 {
@@ -228,6 +280,21 @@ ExrImage read(ByteView file, const std::optional<std::string>& layer, const Read
             .attributes = read_attributes(header)};
 }
 
+/// Calls `work`, and throws the exceptions of OpenEXR as errors.
+template <typename Work>
+auto with_own_errors(const Work& work)
+{
+    try {
+        return work();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        std::string what = error.what();
+        std::replace(what.begin(), what.end(), '\n', ' ');
+        throw Error(ErrorCode::invalid_input, "OpenEXR: " + what);
+    }
+}
+
 }  // namespace
 
 bool is_exr(ByteView file)
@@ -238,15 +305,13 @@ bool is_exr(ByteView file)
 ExrImage read_exr(ByteView file, const std::optional<std::string>& layer, const ReadLimits& limits,
                   Warnings& warnings, const MemoryBudget* memory)
 {
-    try {
-        return read(file, layer, limits, warnings, memory);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& error) {
-        std::string what = error.what();
-        std::replace(what.begin(), what.end(), '\n', ' ');
-        throw Error(ErrorCode::invalid_input, "OpenEXR: " + what);
-    }
+    return with_own_errors([&] { return read(file, layer, limits, warnings, memory); });
+}
+
+bool read_half_exr_rows(ByteView file, const ReadLimits& limits, Warnings& warnings,
+                        const RowSink& sink)
+{
+    return with_own_errors([&] { return read_half_rows(file, limits, warnings, sink); });
 }
 
 }  // namespace bdpt::io

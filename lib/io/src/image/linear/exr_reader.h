@@ -2,6 +2,7 @@
 
 #include "file/bytes.h"
 #include "file/warnings.h"
+#include "image/linear/row_sink.h"
 
 #include <bdpt/image.h>
 #include <bdpt/io/memory_budget.h>
@@ -34,5 +35,11 @@ struct ExrImage {
 [[nodiscard]] ExrImage read_exr(ByteView file, const std::optional<std::string>& layer,
                                 const ReadLimits& limits, Warnings& warnings,
                                 const MemoryBudget* memory = nullptr);
+
+/// Passes the rows of an image of half floats, whose data fill the display window, in blocks from
+/// the top, without memory for all of them, until `add` returns false. Returns whether all have
+/// been passed; false without any for another image. Throws like `read_exr`.
+[[nodiscard]] bool read_half_exr_rows(ByteView file, const ReadLimits& limits, Warnings& warnings,
+                                      const RowSink& sink);
 
 }  // namespace bdpt::io

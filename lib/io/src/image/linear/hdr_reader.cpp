@@ -87,4 +87,28 @@ Image read_hdr(ByteView file, const ReadLimits& limits, Warnings& warnings,
     return image;
 }
 
+bool read_hdr_rows(ByteView file, const ReadLimits& limits, const RowSink& sink)
+{
+    const HdrHeader header = read_hdr_header(file);
+    const bool is_usual = header.outer.name == 'Y' && !header.outer.ascends &&
+                          header.inner.ascends && header.exposure == HdrHeader{}.exposure;
+    if (!is_usual) {
+        return false;
+    }
+    check_image_size(header.width(), header.height(), sizeof(Rgb), limits);
+    sink.begin(header.width(), header.height());
+    std::vector<Rgbe> line(static_cast<std::size_t>(header.width()));
+    std::vector<Rgb> row(line.size());
+    HdrScanlines scanlines(file.subspan(header.size));
+    for (int y = 0; y < header.height(); ++y) {
+        scanlines.read(line);
+        std::transform(line.begin(), line.end(), row.begin(),
+                       [&](const Rgbe& pixel) { return decode_radiance(pixel, header.exposure); });
+        if (!sink.add(row)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace bdpt::io

@@ -2,6 +2,7 @@
 
 #include "file/bytes.h"
 #include "file/warnings.h"
+#include "image/linear/row_sink.h"
 
 #include <bdpt/image.h>
 #include <bdpt/io/memory_budget.h>
@@ -17,5 +18,10 @@ namespace bdpt::io {
 /// limit), unsupported (pixels other than 32-bit_rle_rgbe).
 [[nodiscard]] Image read_hdr(ByteView file, const ReadLimits& limits, Warnings& warnings,
                              const MemoryBudget* memory = nullptr);
+
+/// Passes the rows of the image from the top, each valid during the call, without memory for all of
+/// them, until `add` returns false. Returns whether all have been passed; false without any for
+/// another orientation or an exposure. Throws like `read_hdr`.
+[[nodiscard]] bool read_hdr_rows(ByteView file, const ReadLimits& limits, const RowSink& sink);
 
 }  // namespace bdpt::io

@@ -79,16 +79,16 @@ TEST_CASE("wrong names and values are told as the command tells them", "[job]")
     CHECK(message("spp", 1.5).starts_with("/spp: must be a whole number"));
     CHECK(message("spp", "64").starts_with("/spp: must be a whole number"));
     CHECK(message("spp", std::nan("")).starts_with("/spp: must be "));
-    CHECK(message("sp", nullptr).find("is no option of a job") != std::string::npos);
+    CHECK(message("sp", nullptr).find("is not an option of a job") != std::string::npos);
     CHECK(message("file", nullptr).starts_with("/file: must be "));
     CHECK(message("spp", {64}).starts_with("/spp: must be a text, a number"));
     CHECK(message("half", 7).starts_with("/half: must be "));
     CHECK(message("integrator", "ptt") ==
           R"(/integrator: must be pt, nee, mis, lt, bdpt, vcm or auto, but is "ptt")");
     CHECK(message("output", {"a.exr", {1, 2}}).starts_with("/output/1: must be a text"));
-    CHECK(message("plan", "plan.json") == R"(/"plan": is no option of a job)");
-    CHECK(message("quiet", true) == R"(/"quiet": is no option of a job)");
-    CHECK(message("a\"b\n", 1).find("is no option of a job") != std::string::npos);
+    CHECK(message("plan", "plan.json") == R"(/"plan": is not an option of a job)");
+    CHECK(message("quiet", true) == R"(/"quiet": is not an option of a job)");
+    CHECK(message("a\"b\n", 1).find("is not an option of a job") != std::string::npos);
     CHECK(message("file", "other.json").starts_with("/file: must be a scene, .gltf or .glb"));
     CHECK_THROWS_AS(RenderJob("other.json"), Error);
 }

@@ -64,14 +64,14 @@ install_and_move() {
 # check_names FOLDER PATH...: fails if a file in FOLDER contains one of the paths, where others could place code that we
 # then run. Debug information may.
 check_names() {
-  local folder=$1 file paths=() found=""
+  local folder=$1 file pattern found=""
   shift
-  paths=("${@/#/-e}")
+  pattern=$(printf '|\\Q%s\\E(?![-\\w])' "${@%/}")  # Not /src/project-config.
   while IFS= read -r file; do
     cp "$file" "$WORK/no-debug"
     strip --strip-debug "$WORK/no-debug" 2>/dev/null || true  # Other files are checked as they are.
-    if grep -qaF "${paths[@]}" "$WORK/no-debug"; then
-      found+=" $file ($(grep -aoF "${paths[@]}" "$WORK/no-debug" | sort | uniq -c | sort -rn | sed -n 1p))"
+    if LC_ALL=C grep -qaP "${pattern:1}" "$WORK/no-debug"; then
+      found+=" $file ($(LC_ALL=C grep -aoP "${pattern:1}" "$WORK/no-debug" | sort | uniq -c | sort -rn | sed -n 1p))"
     fi
   done < <(find "$folder" -type f)
   rm -f "$WORK/no-debug"
@@ -238,8 +238,7 @@ make_wheel() {
   for name in CMakeLists.txt pyproject.toml LICENSE README.md CHANGELOG.md apps cmake docs lib; do
     cp -r "$SOURCE/$name" "$folder/source/"
   done
-  # clang++ takes two thirds of the time of g++ without optimization.
-  CXX=${FUZZER_CXX:-$CXX} TMPDIR=$folder/tmp CMAKE_BUILD_PARALLEL_LEVEL=2 "${pip[@]}" wheel "$folder/source" --no-deps -w "$folder" \
+  TMPDIR=$folder/tmp CMAKE_BUILD_PARALLEL_LEVEL=2 "${pip[@]}" wheel "$folder/source" --no-deps -w "$folder" \
     --config-settings=cmake.build-type=Debug --config-settings=cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0 \
     --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER"
   rm -rf "$folder/source" "$folder/tmp"

@@ -325,7 +325,7 @@ def check_connection(window, server):
     picture = window.codes()
     server.kill()
     window.wait("document.documentElement.dataset.connection === 'lost'")
-    expect("gone" in window.text("gone"), f"a server that was killed is told: {window.text('gone')}")
+    expect("Connection lost" in window.text("gone"), f"a server that was killed is told: {window.text('gone')}")
     expect(len(set(window.codes())) > 20 and len(picture) > 0, "and the last picture stays")
 
 

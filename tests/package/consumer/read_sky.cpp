@@ -15,7 +15,7 @@ int main(int argc, char** argv)
         return 2;
     }
     const std::filesystem::path file(argv[1]);
-    const bdpt::Image sky = bdpt::io::load_environment(file).light.radiance;
+    const bdpt::Image sky = bdpt::io::load_environment(file).light.radiance.to_image();
     if (sky.width != 1 || sky.height != 1 || sky.at(0, 0) != bdpt::Rgb(1.0f)) {
         std::printf("%d x %d pixels, red %g\n", sky.width, sky.height, sky.at(0, 0).r);
         return 1;

@@ -1,7 +1,7 @@
 #include <bdpt/error.h>
 #include <bdpt/io/part_file.h>
 #include <bdpt/noise.h>
-#include <bdpt/part/render_part.h>
+#include <bdpt/part/render_result.h>
 #include <bdpt/render.h>
 #include <fmt/core.h>
 #include <nanobind/stl/filesystem.h>
@@ -164,13 +164,11 @@ Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kw
     control.time_limit = arguments.goal.seconds;
     control.noise_goal = arguments.goal.noise.value_or(0.0);
     const Unlocked unlocked;
-    PartResult done = render_part(task.scene(scene), task.camera, arguments.options, {}, control);
-    result.part = std::move(done.part);
-    result.seconds = done.seconds;
+    result.part = bdpt::render(task.scene(scene), task.camera, arguments.options, control);
     return result;
 }
 
-std::vector<Layer> all_layers(const RenderPart& part)
+std::vector<Layer> all_layers(const RenderResult& part)
 {
     return app::develop_layers(part.film, part.aovs, part.ids);
 }
@@ -204,7 +202,7 @@ void with_file_options(const Render& render, SaveArguments asked, std::span<cons
 {
     io::ImageMetadata metadata = render.notes.metadata;
     metadata.samples_per_pixel = render.part.samples.count();
-    metadata.render_seconds = render.seconds;
+    metadata.render_seconds = render.part.seconds;
     metadata.created = std::chrono::system_clock::now();
     if (!asked.display.backdrop) {
         asked.display.backdrop = render.backdrop;
@@ -235,11 +233,10 @@ nb::object to_srgb(const Render& render, const nb::kwargs& options)
 {
     const std::vector<fs::path> file{"image.png"};  // never written
     nb::object array;
-    with_file_options(
-        render, understand_save(to_words(options, Call::save)), file,
-        [&](app::ImageFileOptions how) {
-            array = to_array(app::screen_image(render.part.film.develop(), std::move(how)));
-        });
+    with_file_options(render, understand_save(to_words(options, Call::save)), file,
+                      [&](app::ImageFileOptions how) {
+                          array = to_array(app::screen_image(render.part.image(), std::move(how)));
+                      });
     return array;
 }
 
@@ -250,7 +247,7 @@ Render read_part(const fs::path& file)
     io::MemoryBudget memory(app::memory_limit(std::nullopt));
     io::merge_part(render.part, info, &memory);
     render.backdrop = app::display_of_parts(info, {}).backdrop;
-    render.seconds = info.notes.metadata.render_seconds;
+    render.part.seconds = info.notes.metadata.render_seconds;
     return render;
 }
 
@@ -261,14 +258,14 @@ void save_file(const Render& render, const fs::path& file, const SaveArguments& 
     if (app::is_part_name(file)) {
         io::PartNotes notes = render.notes;
         notes.metadata.samples_per_pixel = render.part.samples.count();
-        notes.metadata.render_seconds = render.seconds;
+        notes.metadata.render_seconds = render.part.seconds;
         notes.metadata.created = std::chrono::system_clock::now();
         io::write_part(file, render.part, notes, io::OldPart::replace);
         return;
     }
     with_file_options(render, asked, files, [&](app::ImageFileOptions how) {
         app::Attempts attempts;
-        app::write_image_files(files, render.part.film.develop(), std::move(how), attempts);
+        app::write_image_files(files, render.part.image(), std::move(how), attempts);
         attempts.finish();
     });
 }
@@ -348,7 +345,7 @@ void bind_render(nb::module_& module)
     nb::class_<Render>(module, "Render",
                        "Result of a render: sums of samples, which add up exactly.")
         .def_prop_ro(
-            "image", [](const Render& render) { return to_array(render.part.film.develop()); },
+            "image", [](const Render& render) { return to_array(render.part.image()); },
             nb::rv_policy::reference,
             "Linear radiance [nit], Rec. 709: an array of float32 (height, width, 3), row 0 at the "
             "top.")
@@ -375,7 +372,6 @@ void bind_render(nb::module_& module)
             [](Render& render, const Render& other) -> Render& {
                 const Unlocked unlocked;
                 merge(render.part, other.part);
-                render.seconds += other.seconds;
                 return render;
             },
             nb::arg("other"), nb::rv_policy::reference,
@@ -397,7 +393,7 @@ void bind_render(nb::module_& module)
             "__array__",
             [](const Render& render, const nb::object& dtype, const nb::object& copy) {
                 static_cast<void>(copy);  // it is always a copy
-                const nb::object image = nb::cast(to_array(render.part.film.develop()));
+                const nb::object image = nb::cast(to_array(render.part.image()));
                 return dtype.is_none() ? image : image.attr("astype")(dtype);
             },
             nb::arg("dtype").none() = nb::none(), nb::arg("copy").none() = nb::none(),

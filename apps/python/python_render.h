@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bdpt/io/part_file.h>
-#include <bdpt/part/render_part.h>
+#include <bdpt/part/render_result.h>
 #include <bdpt/render.h>
 #include <nanobind/nanobind.h>
 
@@ -17,10 +17,9 @@ namespace bdpt::python {
 
 /// The result of a render so far.
 struct Render {
-    RenderPart part;
+    RenderResult part;
     io::PartNotes notes;
     std::optional<app::Backdrop> backdrop{};
-    double seconds = 0.0;
     std::vector<std::filesystem::path> inputs{};  ///< files that must not be overwritten
 };
 

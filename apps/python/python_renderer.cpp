@@ -53,11 +53,9 @@ public:
     /// Moves all samples out.
     [[nodiscard]] Render take()
     {
-        result_.seconds = renderer_->seconds();
         return {.part = renderer_->take(),
                 .notes = result_.notes,
                 .backdrop = result_.backdrop,
-                .seconds = result_.seconds,
                 .inputs = result_.inputs};
     }
 

@@ -44,7 +44,7 @@ void read_file(std::string_view bytes)
     const MemoryFile file(bytes);
     const PartInfo info = read_part_info(file.path());
     fuzz::promise(!info.samples.empty(), "parts have samples");
-    RenderPart part;
+    RenderResult part;
     merge_part(part, info);
     fuzz::promise(part.samples == info.samples && part.identity == info.identity,
                   "a part is what it says that it is");

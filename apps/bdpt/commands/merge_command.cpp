@@ -3,7 +3,7 @@
 #include <bdpt/error.h>
 #include <bdpt/io/part_file.h>
 #include <bdpt/noise.h>
-#include <bdpt/part/render_part.h>
+#include <bdpt/part/render_result.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -79,7 +79,7 @@ std::string message_of_missing(const MergeArguments& asked, const Plan& plan,
 }
 
 /// Returns the noise of the sum, with the samples that it lacks for the requested noise, if any.
-ordered_json judge_noise(const MergeArguments& arguments, const RenderPart& sum,
+ordered_json judge_noise(const MergeArguments& arguments, const RenderResult& sum,
                          const PartInfo& part, Console& console)
 {
     const double noise = estimate_noise(sum.film);
@@ -165,7 +165,7 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
     const DisplayArguments display = display_of_parts(parts.front(), arguments.display);
     check_transparency(display, arguments.outputs);
     check_backplate(display);
-    RenderPart sum;
+    RenderResult sum;
     io::MemoryBudget memory(memory_limit(std::nullopt));
     for (const PartInfo& part : parts) {
         io::merge_part(sum, part, &memory);

@@ -113,7 +113,7 @@ std::int64_t measured_tasks(const PlanArguments& arguments, RenderOptions option
     RenderControl control;
     control.time_limit = max_seconds;
     const RenderResult result = render(stage.scene, stage.camera, options, control);
-    const auto done = static_cast<double>(result.samples.end - result.samples.begin);
+    const auto done = static_cast<double>(result.samples.count());
     const double seconds = result.seconds / done;
     const double start = stage.load_seconds + stage.build_seconds;
     console.note(

@@ -84,14 +84,14 @@ Goal goal_from_now(Goal goal, const Progress& progress, std::int64_t before)
     return goal;
 }
 
-/// Calls `render_part`; errors about `part` are reported with the name of its file.
-PartResult render_or_blame(const PreparedScene& stage, const RenderOptions& options,
-                           RenderPart part, const RenderControl& control,
-                           const RenderArguments& arguments)
+/// Calls `continue_render`; errors about `part` are reported with the name of its file.
+RenderResult render_or_blame(const PreparedScene& stage, const RenderOptions& options,
+                             RenderResult part, const RenderControl& control,
+                             const RenderArguments& arguments)
 {
     const bool goes_on = !part.samples.empty();
     try {
-        return render_part(stage.scene, stage.camera, options, std::move(part), control);
+        return continue_render(stage.scene, stage.camera, options, std::move(part), control);
     } catch (const Error& error) {
         if (!goes_on || error.code() != ErrorCode::invalid_input) {
             throw;
@@ -101,13 +101,13 @@ PartResult render_or_blame(const PreparedScene& stage, const RenderOptions& opti
     }
 }
 
-PartResult render_stage(const RenderArguments& arguments, const PreparedScene& stage,
-                        const io::PartNotes& notes, const RenderSession& session,
-                        std::optional<PartKeeper>& keeper)
+RenderResult render_stage(const RenderArguments& arguments, const PreparedScene& stage,
+                          const io::PartNotes& notes, const RenderSession& session,
+                          std::optional<PartKeeper>& keeper)
 {
     Interrupt& interrupt = session.interrupt;
     const RenderOptions& options = arguments.options;
-    RenderPart part;
+    RenderResult part;
     RenderControl control;
     control.stop = interrupt.stop_token();
     control.time_limit = arguments.goal.seconds;
@@ -119,7 +119,7 @@ PartResult render_stage(const RenderArguments& arguments, const PreparedScene& s
     if (session.display != nullptr) {
         session.display->begin_image(name_in_viewer(arguments));
     }
-    control.on_part = [&](const RenderPart& now) {
+    control.on_part = [&](const RenderResult& now) {
         if (keeper && !interrupt.stopped_by()) {  // otherwise it is written in a moment
             const bool asked = interrupt.take_checkpoint_request();
             keeper->after_pass(now, asked ? Checkpoint::now : Checkpoint::when_due);
@@ -131,10 +131,10 @@ PartResult render_stage(const RenderArguments& arguments, const PreparedScene& s
     control.on_progress = [&, before = part.samples.count()](const Progress& progress) {
         session.console.progress(progress, goal_from_now(arguments.goal, progress, before));
     };
-    PartResult result = render_or_blame(stage, options, std::move(part), control, arguments);
+    RenderResult result = render_or_blame(stage, options, std::move(part), control, arguments);
     session.console.end_progress();
     if (session.display != nullptr) {
-        session.display->finish(result.part.film);
+        session.display->finish(result.film);
     }
     return result;
 }
@@ -321,25 +321,22 @@ std::optional<JobImage> render_view(const RenderArguments& asked, const Prepared
     tell_findings(console, stage);
     const bool is_first = !is_one_of_many(arguments) || arguments.sequence_view->index == 0;
     if (light_beyond > 0.0 && is_first) {  // about the same for all images
-        console.note(fmt::format(
-            "about {:.2g} % of the light is missing: its paths have more than {} edges "
-            "(--max-depth)",
-            100.0 * light_beyond, arguments.options.transport.max_depth));
+        console.note(
+            fmt::format("about {:.2g} % of the light is missing: its paths have more than {} edges "
+                        "(--max-depth)",
+                        100.0 * light_beyond, arguments.options.transport.max_depth));
     }
     const io::ImageMetadata metadata = make_metadata(arguments, stage, settings);
     if (arguments.rates && arguments.rates->saved) {
         save_rates(*arguments.rates->saved, *arguments.options.sampling.rates, metadata);
     }
-    PartResult done = render_stage(arguments, stage, part_notes(arguments, metadata, session.words),
-                                   session, keeper);
+    const RenderResult result = render_stage(
+        arguments, stage, part_notes(arguments, metadata, session.words), session, keeper);
     const bool stopped = interrupt.stopped_by().has_value();
     Attempts attempts;
     if (keeper) {
-        attempts.run([&] { keeper->finish(done.part); });
+        attempts.run([&] { keeper->finish(result); });
     }
-    const double cpu_seconds = done.part.cpu_seconds;
-    const std::string samples = done.part.samples.text();
-    const RenderResult result = to_result(std::move(done));
     warn_of_defects(console, result.film.defects());
     if (result.profile) {
         console.event("profile", profile_json(*result.profile));
@@ -347,7 +344,7 @@ std::optional<JobImage> render_view(const RenderArguments& asked, const Prepared
     }
 
     const auto writing_start = std::chrono::steady_clock::now();
-    const Image image = result.film.develop();
+    const Image image = result.image();
     report_clamp(console, result.film, image);
     const ImageFileOptions options =
         image_file_options(arguments, stage, result, metadata, session);
@@ -382,8 +379,8 @@ std::optional<JobImage> render_view(const RenderArguments& asked, const Prepared
                            {"limit", stage.memory.limit().source}};
         if (arguments.part) {
             stats["part"] = {{"file", arguments.part->file.string()},
-                             {"samples", samples},
-                             {"cpu_seconds", cpu_seconds}};
+                             {"samples", result.samples.text()},
+                             {"cpu_seconds", result.cpu_seconds}};
         }
         attempts.run([&] { write_stats_file(*arguments.stats, stats); });
     }

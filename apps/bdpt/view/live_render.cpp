@@ -59,7 +59,7 @@ bool LiveRender::advance(const PassStops& stops)
     return true;
 }
 
-Matte shown_matte(const RenderArguments& arguments, const RenderPart& part)
+Matte shown_matte(const RenderArguments& arguments, const RenderResult& part)
 {
     return arguments.display.backdrop ? find_matte(part.aovs.develop(part.film)) : Matte{};
 }
@@ -90,7 +90,7 @@ std::optional<CoarsePicture> coarse_picture(const RenderArguments& arguments,
     if (now.stop_requested()) {
         return std::nullopt;
     }
-    CoarsePicture picture{.image = result.film.develop()};
+    CoarsePicture picture{.image = result.image()};
     if (arguments.display.backdrop) {
         picture.matte = find_matte(result.aovs.develop(result.film));
     }

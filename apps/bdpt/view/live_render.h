@@ -48,7 +48,7 @@ private:
 
 /// Returns the opacity towards the background that `arguments` request, by the films of `part`;
 /// empty without one.
-[[nodiscard]] Matte shown_matte(const RenderArguments& arguments, const RenderPart& part);
+[[nodiscard]] Matte shown_matte(const RenderArguments& arguments, const RenderResult& part);
 
 struct CoarsePicture {
     Image image;

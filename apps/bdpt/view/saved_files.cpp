@@ -34,7 +34,7 @@ ImageFileOptions file_options(const LiveRender& render, const PreparedScene& sta
                               const std::optional<io::Denoiser>& denoiser)
 {
     const RenderArguments& arguments = render.arguments();
-    const RenderPart& part = render.renderer().part();
+    const RenderResult& part = render.renderer().result();
     const PixelRect& region = part.film.region();
     return {.exr = {.type = arguments.exr.channel_type,
                     .metadata = metadata(render, stage),

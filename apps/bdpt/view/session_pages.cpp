@@ -34,7 +34,7 @@ std::vector<Strategy> strategies_up_to(int edges)
 
 std::vector<Strategy> Session::known_strategies() const
 {
-    return strategies_ ? strategies_->renderer().part().strategies.strategies()
+    return strategies_ ? strategies_->renderer().result().strategies.strategies()
                        : strategies_up_to(std::min(strategy_edges,
                                                    scene_.arguments().options.transport.max_depth));
 }
@@ -63,7 +63,7 @@ void Session::begin_strategies()
         }
     }
     strategies_.emplace(std::move(arguments), scene_.stage());
-    const std::vector<Strategy>& there = strategies_->renderer().part().strategies.strategies();
+    const std::vector<Strategy>& there = strategies_->renderer().result().strategies.strategies();
     if (std::find(there.begin(), there.end(), strategy_) == there.end() && !there.empty()) {
         strategy_ = there.front();
     }
@@ -75,7 +75,7 @@ void Session::show(std::size_t slot)
         if (slot != 0 || !strategies_ || strategies_->renderer().samples() == 0) {
             return;
         }
-        const RenderPart& part = strategies_->renderer().part();
+        const RenderResult& part = strategies_->renderer().result();
         const std::vector<Strategy>& there = part.strategies.strategies();
         if (std::find(there.begin(), there.end(), strategy_) != there.end()) {
             const PixelRect& region = part.film.region();
@@ -89,7 +89,7 @@ void Session::show(std::size_t slot)
     if (!render || render->renderer().samples() == 0) {
         return;
     }
-    const Film& film = render->renderer().part().film;
+    const Film& film = render->renderer().result().film;
     const Size grid = scene_.stage().size;
     const std::int64_t samples = render->renderer().samples();
     if (layer_ == ViewLayer::noise) {
@@ -104,7 +104,7 @@ void Session::show(std::size_t slot)
             meter(image, &*render);
             tell(true);
         }
-        const Matte matte = shown_matte(render->arguments(), render->renderer().part());
+        const Matte matte = shown_matte(render->arguments(), render->renderer().result());
         send(slot, image, {.alpha = matte.alpha, .shadow = matte.shadow}, grid, film.region(),
              samples);
     }

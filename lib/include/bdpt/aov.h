@@ -9,7 +9,7 @@
 ///     const bdpt::AovSet aovs = {bdpt::Aov::alpha, bdpt::Aov::depth, bdpt::Aov::normal};
 ///     const bdpt::RenderResult result = bdpt::render(scene, camera, {.film = {.aovs = aovs}});
 ///     const std::vector<bdpt::Layer> layers = result.aovs.develop(result.film);
-///     bdpt::io::write_exr("layers.exr", result.film.develop(), layers, {});
+///     bdpt::io::write_exr("layers.exr", result.image(), layers, {});
 /// }
 /// @endcode
 

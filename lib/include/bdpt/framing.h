@@ -10,7 +10,7 @@
 ///     const bdpt::Vec3 center = 0.5f * (scene.bounds().min + scene.bounds().max);
 ///     const bdpt::CameraDesc back = bdpt::orbited(front, center, std::numbers::pi_v<float>);
 ///     const bdpt::RenderResult result = bdpt::render(scene, back, {});
-///     bdpt::io::write_exr("back.exr", result.film.develop(), {});
+///     bdpt::io::write_exr("back.exr", result.image(), {});
 /// }
 /// @endcode
 

@@ -10,21 +10,15 @@
 ///     control.noise_goal = 0.02;
 ///     const bdpt::RenderOptions options = {.sampling = {.samples = {0, 4096}}};
 ///     const bdpt::RenderResult result = bdpt::render(scene, camera, options, control);
-///     bdpt::io::write_exr("out.exr", result.film.develop(), {});
+///     bdpt::io::write_exr("out.exr", result.image(), {});
 /// }
 /// @endcode
 
 #include <bdpt/export.h>
-#include <bdpt/film/aov_film.h>
-#include <bdpt/film/film.h>
-#include <bdpt/film/id_film.h>
-#include <bdpt/film/strategy_film.h>
-#include <bdpt/part/render_part.h>
+#include <bdpt/part/render_result.h>
 #include <bdpt/path_contribution.h>
 #include <bdpt/render_options.h>
-#include <bdpt/render_stats.h>
 #include <bdpt/scene.h>
-#include <bdpt/time_profile.h>
 
 #include <cstdint>
 #include <functional>
@@ -64,7 +58,7 @@ struct RenderControl {
     /// render and reaches the caller.
     std::function<void(const Progress&)> on_progress;
     /// Called after `on_progress` with all samples so far: for checkpoints.
-    std::function<void(const RenderPart&)> on_part;
+    std::function<void(const RenderResult&)> on_part;
     /// Called for each path that contributes light to the film's region, on many threads at once;
     /// slows the render down.
     std::function<void(const PathContribution&)> on_path;
@@ -77,20 +71,6 @@ struct RenderControl {
     /// image slightly too dark or too bright on average: by far less than the noise, as all tiles
     /// decide together.
     double noise_goal = 0.0;
-};
-
-/// The result of render().
-struct RenderResult {
-    Film film;
-    AovFilm aovs;             ///< AOVs of the same samples; empty if none were requested
-    IdFilm ids;               ///< ids of the same samples; empty if none were requested
-    StrategyFilm strategies;  ///< images of the same samples; empty if none were requested
-    RenderStats stats;
-    /// The options that were used: IntegratorKind::automatic is replaced by the chosen integrator.
-    RenderOptions options;
-    SampleRange samples;  ///< samples in `film`; fewer than requested after a stop
-    double seconds = 0.0;
-    std::optional<TimeProfile> profile{};  ///< profile of the same samples, with Profiling::on
 };
 
 /// The choice of choose_integrator(), and the pilot's estimate about it.
@@ -135,28 +115,16 @@ struct IntegratorChoice {
                                               const RenderOptions& options,
                                               const RenderControl& control = {});
 
-/// The result of render_part().
-struct PartResult {
-    RenderPart part;          ///< `so_far` and the rendered samples
-    RenderOptions options{};  ///< as in `RenderResult`
-    double seconds = 0.0;     ///< time of this call
-    /// Profile of the samples of this call, with Profiling::on.
-    std::optional<TimeProfile> profile{};
-};
-
 /// Continues `so_far`, or begins if it has no samples: renders the missing samples of `options`
 /// into its films. If samples are missing, and the noise is above the goal if there is one, at
 /// least one pass is completed. Merged parts of a render are bit-identical to one render() of all
 /// their samples, however they were split. `control` observes the samples of this call. Throws like
 /// render(), and `Error` (invalid_input) if `so_far` belongs to another render; the message names
 /// the difference.
-[[nodiscard]] BDPT_EXPORT PartResult render_part(const Scene& scene, const CameraDesc& camera,
-                                                 const RenderOptions& options, RenderPart so_far,
-                                                 const RenderControl& control = {});
-
-/// Converts a part to the result of render(), for callers that do not continue it.
-/// `RenderResult::samples` is the first range of the part's samples.
-[[nodiscard]] BDPT_EXPORT RenderResult to_result(PartResult done);
+[[nodiscard]] BDPT_EXPORT RenderResult continue_render(const Scene& scene, const CameraDesc& camera,
+                                                       const RenderOptions& options,
+                                                       RenderResult so_far,
+                                                       const RenderControl& control = {});
 
 /// Returns the memory that the strategy images of this render take [bytes], including the developed
 /// layers; 0 if none are requested. Throws `Error` (usage) for options out of range.

@@ -16,7 +16,7 @@
 
 #include <bdpt/export.h>
 #include <bdpt/image.h>
-#include <bdpt/part/render_part.h>
+#include <bdpt/part/render_result.h>
 #include <bdpt/render.h>
 
 #include <cstdint>
@@ -52,29 +52,29 @@ public:
     void finish(const RenderControl& control = {});
     /// Adds samples of the same render that were rendered elsewhere. Throws `Error` (invalid_input)
     /// for samples of another render, and for samples that are already here.
-    Renderer& operator+=(const RenderPart& part);
+    Renderer& operator+=(const RenderResult& part);
 
     /// Returns the options, in which IntegratorKind::automatic is replaced by the chosen
     /// integrator.
     [[nodiscard]] const RenderOptions& options() const;
     /// Returns all samples so far.
-    [[nodiscard]] const RenderPart& part() const;
+    [[nodiscard]] const RenderResult& result() const;
     /// Returns the samples per pixel; their mean, with rates.
     [[nodiscard]] std::int64_t samples() const;
     /// Returns estimate_noise() of the film; infinite before there are two samples.
     [[nodiscard]] double noise() const;
     /// Returns the linear radiance [nit] of the rendered region; black before the first sample.
     [[nodiscard]] Image image() const;
-    /// Returns the time that calls of render() and finish() took [s].
+    /// Returns the time that rendering the samples took [s].
     [[nodiscard]] double seconds() const;
 
     /// Moves all rendered samples out; this renderer then has none.
-    [[nodiscard]] RenderPart take();
+    [[nodiscard]] RenderResult take();
 
 private:
-    friend PartResult render_part(const Scene& scene, const CameraDesc& camera,
-                                  const RenderOptions& options, RenderPart so_far,
-                                  const RenderControl& control);
+    friend RenderResult continue_render(const Scene& scene, const CameraDesc& camera,
+                                        const RenderOptions& options, RenderResult so_far,
+                                        const RenderControl& control);
     class Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -23,12 +23,12 @@ public:
     }
 
     /// Returns `samples` or less, so that a pass ends where the noise is measured.
-    [[nodiscard]] std::int64_t at_most(std::int64_t samples, const RenderPart& part) const
+    [[nodiscard]] std::int64_t at_most(std::int64_t samples, const RenderResult& part) const
     {
         const std::int64_t done = part.samples.count();
         return decides() ? std::min(samples, next_noise_look(done) - done) : samples;
     }
-    void look(const RenderPart& part)
+    void look(const RenderResult& part)
     {
         const std::int64_t count = part.samples.count();
         // A film with gaps is no prefix of the samples: whether it is measured must not depend on

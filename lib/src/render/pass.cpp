@@ -31,7 +31,7 @@ void count_samples(const SampleSchedule& schedule, const Tile& tile, SampleRange
 
 /// Renders the samples of the tile into all films.
 RenderStats render_tile(const Work& work, const RenderOptions& options, const Tile& tile,
-                        SampleRange samples, const Films& films, RenderPart& result)
+                        SampleRange samples, const Films& films, RenderResult& result)
 {
     RenderStats stats = work.integrator.render_tile(tile, samples, films);
     if (work.on_tile) {
@@ -47,7 +47,7 @@ RenderStats render_tile(const Work& work, const RenderOptions& options, const Ti
 }
 
 /// Renders the integrator's chunks, which all tiles share.
-void render_parts(const Work& work, SampleRange samples, RenderPart& result,
+void render_parts(const Work& work, SampleRange samples, RenderResult& result,
                   tbb::combinable<RenderStats>& stats_of_threads)
 {
     tbb::parallel_for(std::int64_t{0}, work.integrator.begin_pass(samples), [&](std::int64_t part) {
@@ -65,7 +65,7 @@ void render_parts(const Work& work, SampleRange samples, RenderPart& result,
 }
 
 void render_at_once(const Work& work, const RenderOptions& options, SampleRange samples,
-                    RenderPart& result)
+                    RenderResult& result)
 {
     // Each pixel of the whole image has its light path, and any of them can reach a crop.
     const PixelRect area =
@@ -110,7 +110,7 @@ void render_at_once(const Work& work, const RenderOptions& options, SampleRange 
 }  // namespace
 
 void render_pass(const Work& work, const RenderOptions& options, SampleRange samples,
-                 RenderPart& result)
+                 RenderResult& result)
 {
     const std::int64_t most = work.integrator.max_samples_in_pass();
     for (SampleRange some = samples; some.begin < samples.end; some.begin = some.end) {

@@ -4,7 +4,7 @@
 #include "profile/time_recorder.h"
 #include "render/aov_pass.h"
 
-#include <bdpt/part/render_part.h>
+#include <bdpt/part/render_result.h>
 #include <bdpt/path_contribution.h>
 #include <bdpt/render_options.h>
 
@@ -28,7 +28,7 @@ struct Work {
 /// if the integrator limits the samples per pass, in several passes. An abandoned pass leaves
 /// `result` with some of the samples, without recording them.
 void render_pass(const Work& work, const RenderOptions& options, SampleRange samples,
-                 RenderPart& result);
+                 RenderResult& result);
 
 /// Returns the layout of a render's film.
 [[nodiscard]] FilmLayout film_layout(const RenderOptions& options);

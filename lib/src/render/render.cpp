@@ -92,8 +92,8 @@ PixelCounts pixel_counts(const RenderOptions& options)
 }
 
 /// Returns a part of the render without any samples.
-RenderPart empty_part(Identity identity, const RenderOptions& options, const CameraDesc& camera,
-                      const AovPass& aov_pass)
+RenderResult empty_part(Identity identity, const RenderOptions& options, const CameraDesc& camera,
+                        const AovPass& aov_pass)
 {
     const FilmLayout layout = film_layout(options);
     return {.identity = std::move(identity),
@@ -106,7 +106,7 @@ RenderPart empty_part(Identity identity, const RenderOptions& options, const Cam
 }
 
 /// Checks that `part` is one of this render: files may claim so for films of others.
-void check_part(const RenderPart& part, const Identity& identity, const RenderOptions& options,
+void check_part(const RenderResult& part, const Identity& identity, const RenderOptions& options,
                 const CameraDesc& camera, const AovPass& aov_pass)
 {
     if (const auto what = difference(identity, part.identity)) {
@@ -121,24 +121,10 @@ void check_part(const RenderPart& part, const Identity& identity, const RenderOp
 
 }  // namespace
 
-RenderResult to_result(PartResult done)
-{
-    RenderPart& part = done.part;
-    return {.film = std::move(part.film),
-            .aovs = std::move(part.aovs),
-            .ids = std::move(part.ids),
-            .strategies = std::move(part.strategies),
-            .stats = part.stats,
-            .options = std::move(done.options),
-            .samples = part.samples.empty() ? SampleRange{} : part.samples.ranges().front(),
-            .seconds = done.seconds,
-            .profile = std::move(done.profile)};
-}
-
 RenderResult render(const Scene& scene, const CameraDesc& camera, const RenderOptions& options,
                     const RenderControl& control)
 {
-    return to_result(render_part(scene, camera, options, {}, control));
+    return continue_render(scene, camera, options, {}, control);
 }
 
 /// State shared by the calls of a render. Not movable: its members refer to each other.
@@ -157,24 +143,23 @@ public:
     }
 
     [[nodiscard]] const RenderOptions& options() const { return options_; }
-    [[nodiscard]] const RenderPart& part() const { return part_; }
+    [[nodiscard]] const RenderResult& result() const { return result_; }
     /// Begins without samples. Films take memory, so that they are created once, by this or
     /// go_on().
-    void begin() { part_ = empty_part(identity_, options_, camera_desc_, *aov_pass_); }
+    void begin() { result_ = empty_part(identity_, options_, camera_desc_, *aov_pass_); }
     /// Moves the part out. Nothing may be rendered afterwards before begin() or go_on().
-    [[nodiscard]] RenderPart take() { return std::move(part_); }
-    [[nodiscard]] double seconds() const { return seconds_; }
+    [[nodiscard]] RenderResult take() { return std::move(result_); }
 
     /// Continues with `part` in place of the current one.
-    void go_on(RenderPart part)
+    void go_on(RenderResult part)
     {
         check_part(part, identity_, options_, camera_desc_, *aov_pass_);
-        part_ = std::move(part);
+        result_ = std::move(part);
     }
-    void add(const RenderPart& part)
+    void add(const RenderResult& part)
     {
         check_part(part, identity_, options_, camera_desc_, *aov_pass_);
-        merge(part_, part);
+        merge(result_, part);
     }
 
     /// Returns the smallest range of samples from the first one that contains `count` missing ones.
@@ -183,7 +168,7 @@ public:
         SampleRange range{.begin = options_.sampling.samples.begin,
                           .end = options_.sampling.samples.begin};
         for (std::int64_t missing = count; missing > 0;
-             missing = count - part_.samples.missing(SampleSet(range)).count()) {
+             missing = count - result_.samples.missing(SampleSet(range)).count()) {
             range.end += missing;
         }
         return range;
@@ -191,8 +176,8 @@ public:
 
     /// Renders the missing samples of `wanted`. `start` is the start of the call, for its time
     /// limit.
-    std::optional<TimeProfile> run(SampleRange wanted_range, const RenderControl& control,
-                                   std::chrono::steady_clock::time_point start, double cpu_start);
+    void run(SampleRange wanted_range, const RenderControl& control,
+             std::chrono::steady_clock::time_point start, double cpu_start);
 
 private:
     RenderOptions options_;
@@ -202,35 +187,33 @@ private:
     std::shared_ptr<const LearnedLight> learned_;
     std::unique_ptr<Integrator> integrator_;
     std::optional<AovPass> aov_pass_;
-    RenderPart part_;
+    RenderResult result_;
     std::optional<PassSize> pass_size_;
-    double seconds_ = 0.0;
-    bool is_abandoned_ = false;  ///< `part_` has no films
+    bool is_abandoned_ = false;  ///< `result_` has no films
 };
 
-std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
-                                               const RenderControl& control,
-                                               std::chrono::steady_clock::time_point start,
-                                               double cpu_start)
+void Renderer::Impl::run(SampleRange wanted_range, const RenderControl& control,
+                         std::chrono::steady_clock::time_point start, double cpu_start)
 {
     if (std::exchange(is_abandoned_, false)) {
         begin();  // now, as a caller that abandons a render may not continue it
     }
     Threads threads(options_.system.threads);
+    result_.profile.reset();
     std::optional<TimeRecorder> times;
     if (control.profiling == Profiling::on) {
         times.emplace(options_.film.crop.value_or(whole_image(options_)));
     }
     const SampleSet wanted(wanted_range);
-    const std::int64_t total = part_.samples.missing(wanted).count();
-    const double cpu_before = part_.cpu_seconds;
-    const double seconds_before = seconds_;
+    const std::int64_t total = result_.samples.missing(wanted).count();
+    const double cpu_before = result_.cpu_seconds;
+    const double seconds_before = result_.seconds;
     std::int64_t done = 0;
     NoiseWatch noise(control, wanted_range);
-    threads.execute([&] { noise.look(part_); });
+    threads.execute([&] { noise.look(result_); });
     while (done < total && !noise.reached()) {
         const SampleRange pass =
-            next_pass(part_.samples, wanted, noise.at_most(pass_size_->samples(), part_));
+            next_pass(result_.samples, wanted, noise.at_most(pass_size_->samples(), result_));
         const double before = seconds_since(start);
         threads.execute([&] {
             render_pass({.integrator = *integrator_,
@@ -238,20 +221,20 @@ std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
                          .on_path = control.on_path,
                          .times = times ? &*times : nullptr,
                          .abandon = control.abandon},
-                        options_, pass, part_);
+                        options_, pass, result_);
             if (!control.abandon.stop_requested()) {
-                noise.look(part_);
+                noise.look(result_);
             }
         });
         if (control.abandon.stop_requested()) {
-            part_ = {};
+            result_ = {};
             is_abandoned_ = true;
-            return std::nullopt;
+            return;
         }
         done += pass.end - pass.begin;
         const double seconds = seconds_since(start);
-        seconds_ = seconds_before + seconds;
-        part_.cpu_seconds = cpu_before + cpu_seconds() - cpu_start;
+        result_.seconds = seconds_before + seconds;
+        result_.cpu_seconds = cpu_before + cpu_seconds() - cpu_start;
         if (control.on_progress) {
             control.on_progress({.samples_done = done,
                                  .samples_total = total,
@@ -260,7 +243,7 @@ std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
                                  .noise_samples = noise.samples()});
         }
         if (control.on_part) {
-            control.on_part(part_);
+            control.on_part(result_);
         }
         pass_size_->learn(pass.end - pass.begin, seconds - before);
         // Includes the time of `on_part`.
@@ -269,11 +252,14 @@ std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
             break;
         }
     }
-    return times ? std::optional(times->profile(done)) : std::nullopt;
+    if (times) {
+        result_.profile = times->profile(done);
+    }
 }
 
-PartResult render_part(const Scene& scene, const CameraDesc& camera, const RenderOptions& options,
-                       RenderPart so_far, const RenderControl& control)
+RenderResult continue_render(const Scene& scene, const CameraDesc& camera,
+                             const RenderOptions& options, RenderResult so_far,
+                             const RenderControl& control)
 {
     const auto start = std::chrono::steady_clock::now();
     const double cpu_start = cpu_seconds();
@@ -283,11 +269,8 @@ PartResult render_part(const Scene& scene, const CameraDesc& camera, const Rende
     } else {
         render.go_on(std::move(so_far));
     }
-    auto profile = render.run(options.sampling.samples, control, start, cpu_start);
-    return {.part = render.take(),
-            .options = render.options(),
-            .seconds = render.seconds(),
-            .profile = std::move(profile)};
+    render.run(options.sampling.samples, control, start, cpu_start);
+    return render.take();
 }
 
 Renderer::Renderer(const Scene& scene, const CameraDesc& camera, const RenderOptions& options)
@@ -309,17 +292,16 @@ void Renderer::render(std::int64_t samples, const RenderControl& control)
                                      : ", but with rates of samples a multiple of " +
                                            std::to_string(SampleRates::group)));
     }
-    static_cast<void>(
-        impl_->run(impl_->next(samples), control, std::chrono::steady_clock::now(), cpu_seconds()));
+    impl_->run(impl_->next(samples), control, std::chrono::steady_clock::now(), cpu_seconds());
 }
 
 void Renderer::finish(const RenderControl& control)
 {
-    static_cast<void>(impl_->run(options().sampling.samples, control,
-                                 std::chrono::steady_clock::now(), cpu_seconds()));
+    impl_->run(options().sampling.samples, control, std::chrono::steady_clock::now(),
+               cpu_seconds());
 }
 
-Renderer& Renderer::operator+=(const RenderPart& part)
+Renderer& Renderer::operator+=(const RenderResult& part)
 {
     impl_->add(part);
     return *this;
@@ -330,34 +312,34 @@ const RenderOptions& Renderer::options() const
     return impl_->options();
 }
 
-const RenderPart& Renderer::part() const
+const RenderResult& Renderer::result() const
 {
-    return impl_->part();
+    return impl_->result();
 }
 
 std::int64_t Renderer::samples() const
 {
-    return part().samples.count();
+    return result().samples.count();
 }
 
 double Renderer::noise() const
 {
-    return estimate_noise(part().film);
+    return estimate_noise(result().film);
 }
 
 Image Renderer::image() const
 {
-    return part().film.develop();
+    return result().image();
 }
 
 double Renderer::seconds() const
 {
-    return impl_->seconds();
+    return result().seconds;
 }
 
-RenderPart Renderer::take()
+RenderResult Renderer::take()
 {
-    RenderPart taken = impl_->take();
+    RenderResult taken = impl_->take();
     impl_->begin();
     return taken;
 }

@@ -97,13 +97,13 @@ void render_group(const Scene& scene, const MovingCamera& camera, const RenderOp
     RenderOptions without_aovs = options;
     without_aovs.film.aovs = {};
     const AovPass no_aovs(scene.world(), camera, without_aovs);
-    RenderPart part{.identity = {},
-                    .samples = {},
-                    .film = Film(film_layout(options)),
-                    .aovs = {},
-                    .ids = {},
-                    .strategies = {},
-                    .stats = {}};
+    RenderResult part{.identity = {},
+                      .samples = {},
+                      .film = Film(film_layout(options)),
+                      .aovs = {},
+                      .ids = {},
+                      .strategies = {},
+                      .stats = {}};
     const std::function<void(const PathContribution&)> nobody;
     render_pass({.integrator = *integrator,
                  .aov_pass = no_aovs,

@@ -285,13 +285,13 @@ TEST_CASE("light pilot: the image is right whatever was learned", "[pilot]")
                 options.sampling.seed = seed * 3 + k;
                 options.sampling.samples.end = 8;
                 const auto integrator = make_integrator(world, camera, options, tables[k]);
-                RenderPart part{.identity = {},
-                                .samples = {},
-                                .film = Film(film_layout(options)),
-                                .aovs = {},
-                                .ids = {},
-                                .strategies = {},
-                                .stats = {}};
+                RenderResult part{.identity = {},
+                                  .samples = {},
+                                  .film = Film(film_layout(options)),
+                                  .aovs = {},
+                                  .ids = {},
+                                  .strategies = {},
+                                  .stats = {}};
                 const AovPass no_aovs(world, camera, options);
                 const std::function<void(const PathContribution&)> nobody;
                 render_pass({.integrator = *integrator, .aov_pass = no_aovs, .on_path = nobody},

@@ -180,9 +180,9 @@ TEST_CASE("a stop from another thread ends one render, and what it has is right"
     REQUIRE(stopped.has_value());
     REQUIRE(whole.has_value());
     CHECK(same(*whole, alone(scene, short_one)));
-    REQUIRE(stopped->samples.end > 0);
-    REQUIRE(stopped->samples.end < endless.sampling.samples.end);
-    endless.sampling.samples.end = stopped->samples.end;
+    REQUIRE(stopped->samples.end() > 0);
+    REQUIRE(stopped->samples.end() < endless.sampling.samples.end);
+    endless.sampling.samples.end = stopped->samples.end();
     CHECK(same(*stopped, alone(scene, endless)));
 }
 
@@ -196,8 +196,8 @@ TEST_CASE("a stop that was requested before still gives one pass", "[concurrency
     RenderOptions o = options(IntegratorKind::pt, 7);
     o.sampling.samples = {.begin = 10, .end = 1'000'000'000};
     const RenderResult result = render(scene, test::room_camera(), o, control);
-    CHECK(result.samples.begin == 10);
-    CHECK(result.samples.end == 11);
+    CHECK(result.samples.ranges().front().begin == 10);
+    CHECK(result.samples.end() == 11);
     CHECK(result.film.sample_count() == 1);
 }
 

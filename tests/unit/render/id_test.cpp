@@ -248,14 +248,14 @@ TEST_CASE("counts of ids are the same for any threads, tiles, parts, crops and i
     const auto part = [&](std::int64_t begin, std::int64_t end) {
         RenderOptions other = o;
         other.sampling.samples = {.begin = begin, .end = end};
-        return render_part(scene, view, other, {}).part;
+        return render(scene, view, other);
     };
-    RenderPart sum = part(9, 16);
+    RenderResult sum = part(9, 16);
     merge(sum, part(0, 2));
     CHECK_FALSE(sum.ids == whole.ids);
     merge(sum, part(2, 9));
     CHECK(sum.ids == whole.ids);
-    CHECK(render_part(scene, view, o, part(3, 5)).part.ids == whole.ids);
+    CHECK(continue_render(scene, view, o, part(3, 5)).ids == whole.ids);
 
     RenderOptions cropped = o;
     cropped.film.crop = PixelRect{.x0 = 7, .y0 = 5, .x1 = 15, .y1 = 13};
@@ -308,10 +308,10 @@ TEST_CASE("names are in the identity of a render whose images show them", "[ids]
     CHECK(differs(repainted, {Aov::object}).empty());
     CHECK(differs(repainted, {Aov::alpha}).empty());
     // Parts whose names differ do not merge, whatever their pixels have.
-    RenderPart part = render_part(Scene(builder.desc), camera, options(), {}).part;
+    RenderResult part = render(Scene(builder.desc), camera, options());
     RenderOptions later = options();
     later.sampling.samples = {.begin = 16, .end = 17};
-    CHECK_THROWS_AS(merge(part, render_part(Scene(swapped), camera, later, {}).part), Error);
+    CHECK_THROWS_AS(merge(part, render(Scene(swapped), camera, later)), Error);
 }
 
 TEST_CASE("names that are too long for the header of a part are refused", "[ids]")

@@ -266,7 +266,7 @@ TEST_CASE("a render that stops and goes on stops at the same level of noise", "[
     const RenderResult whole = render(scene, room_camera(), o, until(goal));
     std::mt19937 engine(11);
     for (int trial = 0; trial < 3; ++trial) {
-        RenderPart part;
+        RenderResult part;
         for (std::int64_t before = -1; before != part.samples.count();) {
             before = part.samples.count();
             std::stop_source stop;
@@ -277,15 +277,16 @@ TEST_CASE("a render that stops and goes on stops at the same level of noise", "[
                     stop.request_stop();
                 }
             };
-            part = render_part(scene, room_camera(), o, std::move(part), control).part;
+            part = continue_render(scene, room_camera(), o, std::move(part), control);
         }
         CHECK(part.film == whole.film);
     }
     // More samples than it takes, from a render that did not look, stay as they are.
     o.sampling.samples.end = 2 * whole.film.sample_count();
-    RenderPart more = render_part(scene, room_camera(), o, {}).part;
-    const PartResult kept = render_part(scene, room_camera(), o, std::move(more), until(goal));
-    CHECK(kept.part.samples.count() == o.sampling.samples.end);
+    RenderResult more = render(scene, room_camera(), o);
+    const RenderResult kept =
+        continue_render(scene, room_camera(), o, std::move(more), until(goal));
+    CHECK(kept.samples.count() == o.sampling.samples.end);
     CHECK_THROWS_AS(render(scene, room_camera(), o, until(-1.0)), Error);
     CHECK_THROWS_AS(render(scene, room_camera(), o, until(std::nan(""))), Error);
 }

@@ -315,10 +315,10 @@ TEST_CASE("a stop ends the render after a whole pass", "[render]")
         }
     };
     const RenderResult stopped = render(scene, test::room_camera(), o, control);
-    REQUIRE(stopped.samples.end >= 3);
-    REQUIRE(stopped.samples.end < 1000000);
-    CHECK(stopped.film.sample_count() == stopped.samples.end);
-    o.sampling.samples.end = stopped.samples.end;
+    REQUIRE(stopped.samples.end() >= 3);
+    REQUIRE(stopped.samples.end() < 1000000);
+    CHECK(stopped.film.sample_count() == stopped.samples.end());
+    o.sampling.samples.end = stopped.samples.end();
     CHECK(film_of(scene, o) == stopped.film);
 }
 
@@ -336,8 +336,8 @@ TEST_CASE("progress counts the samples of its own range", "[render]")
     };
     const RenderResult result = render(scene, test::room_camera(), o, control);
     CHECK(done == 12);
-    CHECK(result.samples.begin == 1000);
-    CHECK(result.samples.end == 1012);
+    CHECK(result.samples.ranges().front().begin == 1000);
+    CHECK(result.samples.end() == 1012);
 }
 
 TEST_CASE("what a progress callback throws reaches the caller", "[render]")
@@ -359,8 +359,8 @@ TEST_CASE("a time limit ends the render early, but not before one pass", "[rende
     RenderControl control;
     control.time_limit = 0.0;
     const RenderResult result = render(scene, test::room_camera(), o, control);
-    CHECK(result.samples.end >= 1);
-    CHECK(result.samples.end < 1000000);
+    CHECK(result.samples.end() >= 1);
+    CHECK(result.samples.end() < 1000000);
 }
 
 }  // namespace bdpt::purity_test

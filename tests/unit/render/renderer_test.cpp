@@ -30,7 +30,7 @@ RenderOptions options(IntegratorKind integrator)
     return result;
 }
 
-bool same_bits(const RenderPart& a, const RenderPart& b)
+bool same_bits(const RenderResult& a, const RenderResult& b)
 {
     return a.samples == b.samples && a.identity == b.identity &&
            a.film.develop().pixels == b.film.develop().pixels &&
@@ -57,7 +57,7 @@ TEST_CASE("a pass that is abandoned leaves nothing behind", "[render]")
         RenderOptions asked = options(kind);
         asked.system.tile_size = 4;
         asked.bidirectional.light_paths = 0.5;  // which all pixels share
-        const RenderPart whole = render_part(scene, room_camera(), asked, {}).part;
+        const RenderResult whole = render(scene, room_camera(), asked);
         Renderer renderer(scene, room_camera(), asked);
         renderer.render(4);
         // In the middle of a pass: paths are told of while tiles are rendered.
@@ -72,9 +72,9 @@ TEST_CASE("a pass that is abandoned leaves nothing behind", "[render]")
         renderer.render(8, control);
         CHECK(paths > 0);
         CHECK(renderer.samples() == 0);
-        CHECK(renderer.part().film.sample_count() == 0);
+        CHECK(renderer.result().film.sample_count() == 0);
         renderer.finish();
-        CHECK(same_bits(renderer.part(), whole));
+        CHECK(same_bits(renderer.result(), whole));
         CHECK(render(scene, room_camera(), asked, control).film.sample_count() == 0);
     }
 }
@@ -85,7 +85,7 @@ TEST_CASE("a render that is held has the bits of one at once, however it grows",
     for (const IntegratorKind kind : {IntegratorKind::mis, IntegratorKind::automatic,
                                       IntegratorKind::bdpt, IntegratorKind::vcm}) {
         const RenderOptions asked = options(kind);
-        const RenderPart whole = render_part(scene, room_camera(), asked, {}).part;
+        const RenderResult whole = render(scene, room_camera(), asked);
         Renderer renderer(scene, room_camera(), asked);
         CHECK(renderer.options().integrator ==
               chosen_options(scene, room_camera(), asked).integrator);
@@ -97,9 +97,9 @@ TEST_CASE("a render that is held has the bits of one at once, however it grows",
             renderer.render(more);
         }
         CHECK(renderer.samples() == 8);
-        CHECK(renderer.noise() == estimate_noise(renderer.part().film));
+        CHECK(renderer.noise() == estimate_noise(renderer.result().film));
         renderer.finish();
-        CHECK(same_bits(renderer.part(), whole));
+        CHECK(same_bits(renderer.result(), whole));
         CHECK(renderer.image().pixels == whole.film.develop().pixels);
         renderer.finish();  // nothing is missing
         CHECK(renderer.samples() == 16);
@@ -115,7 +115,7 @@ TEST_CASE("a render that is held goes on beyond the samples of its options", "[r
     Renderer renderer(scene, room_camera(), asked);
     renderer.render(12);
     asked.sampling.samples = {.begin = 4, .end = 16};
-    CHECK(same_bits(renderer.part(), render_part(scene, room_camera(), asked, {}).part));
+    CHECK(same_bits(renderer.result(), render(scene, room_camera(), asked)));
 }
 
 TEST_CASE("samples from elsewhere are added to a render that is held, and gaps are filled",
@@ -123,20 +123,20 @@ TEST_CASE("samples from elsewhere are added to a render that is held, and gaps a
 {
     const Scene scene = room();
     RenderOptions asked = options(IntegratorKind::bdpt);
-    const RenderPart whole = render_part(scene, room_camera(), asked, {}).part;
+    const RenderResult whole = render(scene, room_camera(), asked);
     asked.sampling.samples = {.begin = 3, .end = 9};
-    const RenderPart elsewhere = render_part(scene, room_camera(), asked, {}).part;
+    const RenderResult elsewhere = render(scene, room_camera(), asked);
     asked.sampling.samples = {.begin = 0, .end = 16};
     Renderer renderer(scene, room_camera(), asked);
     renderer.render(1);
     renderer += elsewhere;
-    CHECK(renderer.part().samples == SampleSet::parse("0:1,3:9"));
+    CHECK(renderer.result().samples == SampleSet::parse("0:1,3:9"));
     CHECK(message_of([&] { renderer += elsewhere; }).find("both have the samples 3:9") !=
           std::string::npos);
     renderer.render(4);
-    CHECK(renderer.part().samples == SampleSet::parse("0:11"));
+    CHECK(renderer.result().samples == SampleSet::parse("0:11"));
     renderer.render(5);
-    CHECK(same_bits(renderer.part(), whole));
+    CHECK(same_bits(renderer.result(), whole));
 
     asked.transport.max_depth = 4;
     Renderer other(scene, room_camera(), asked);
@@ -151,11 +151,11 @@ TEST_CASE("what a render that is held gives away is gone, and it begins anew", "
     Renderer first(scene, room_camera(), options(IntegratorKind::mis));
     first.render(3);
     Renderer renderer = std::move(first);
-    const RenderPart taken = renderer.take();
+    const RenderResult taken = renderer.take();
     CHECK(taken.samples.count() == 3);
     CHECK(renderer.samples() == 0);
     renderer.render(3);
-    CHECK(same_bits(renderer.part(), taken));
+    CHECK(same_bits(renderer.result(), taken));
 }
 
 TEST_CASE("a render that is held is stopped and refused like others", "[render]")

@@ -127,11 +127,11 @@ TEST_CASE("renders with rates are pure", "[rates]")
         other.film.crop = PixelRect{5, 3, 24, 20};
         check_region(image_of(scene, other).film.develop(), whole.film.develop(), *other.film.crop);
 
-        RenderPart parts;
+        RenderResult parts;
         for (const std::int64_t begin : {8, 0}) {
             other = o;
             other.sampling.samples = {.begin = begin, .end = begin + 8};
-            RenderPart part = render_part(scene, room_camera(), other, {}).part;
+            RenderResult part = render(scene, room_camera(), other);
             if (begin == 8) {
                 parts = std::move(part);
             } else {
@@ -152,9 +152,9 @@ TEST_CASE("a render with rates stops between groups of rounds, and goes on", "[r
         o.sampling.samples.end = 40;
         RenderControl control;
         control.time_limit = 0.0;  // one pass
-        RenderPart part = render_part(scene, room_camera(), o, {}, control).part;
+        RenderResult part = render(scene, room_camera(), o, control);
         CHECK(part.samples.text() == "0:8");
-        part = render_part(scene, room_camera(), o, std::move(part)).part;
+        part = continue_render(scene, room_camera(), o, std::move(part));
         CHECK(part.samples.text() == "0:40");
         CHECK(part.film == image_of(scene, o).film);
     }
@@ -222,9 +222,9 @@ TEST_CASE("parts with other rates are refused by name", "[rates]")
     const Scene scene = room();
     const RenderOptions plain = options(IntegratorKind::mis);
     const RenderOptions o = with(plain, random_rates(1));
-    const RenderPart part = render_part(scene, room_camera(), o, {}).part;
+    const RenderResult part = render(scene, room_camera(), o);
     for (const RenderOptions& other : {with(plain, random_rates(2)), plain}) {
-        RenderPart others = render_part(scene, room_camera(), other, {}).part;
+        RenderResult others = render(scene, room_camera(), other);
         try {
             merge(others, part);
             FAIL("merged");
@@ -303,7 +303,7 @@ TEST_CASE("any image has rates", "[rates]")
         CHECK(rates->mean() <= 1.0);
         CHECK(rates->mean() >= 0.75);
         o.sampling.rates = rates;
-        CHECK(image_of(scene, o).samples.end == 16);
+        CHECK(image_of(scene, o).samples.end() == 16);
     }
     // All black.
     const SampleRates none =

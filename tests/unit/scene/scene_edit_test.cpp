@@ -284,7 +284,7 @@ std::vector<NamedEdit> edits()
     };
 }
 
-RenderPart rendered(const Scene& scene, IntegratorKind integrator)
+RenderResult rendered(const Scene& scene, IntegratorKind integrator)
 {
     RenderOptions options;
     options.integrator = integrator;
@@ -293,7 +293,7 @@ RenderPart rendered(const Scene& scene, IntegratorKind integrator)
     options.film.aovs = {Aov::depth, Aov::albedo};
     options.sampling.samples = {0, 2};
     options.transport.max_depth = 6;
-    return render_part(scene, room_camera(), options, {}).part;
+    return render(scene, room_camera(), options);
 }
 
 void check_same(const Scene& scene, const Scene& built)
@@ -310,8 +310,8 @@ void check_same(const Scene& scene, const Scene& built)
     CHECK(a.emissive_triangles == b.emissive_triangles);
     CHECK(a.lights == b.lights);
     for (const IntegratorKind integrator : {IntegratorKind::mis, IntegratorKind::bdpt}) {
-        const RenderPart one = rendered(scene, integrator);
-        const RenderPart other = rendered(built, integrator);
+        const RenderResult one = rendered(scene, integrator);
+        const RenderResult other = rendered(built, integrator);
         CHECK(one.identity == other.identity);
         CHECK(one.film.develop().pixels == other.film.develop().pixels);
         CHECK(one.aovs.develop(one.film).at(1).values ==
@@ -338,7 +338,7 @@ std::string message_of(const std::function<void()>& call)
 TEST_CASE("an edited scene has the bits of one that is built from its description", "[edit]")
 {
     const Scene scene(all_kinds());
-    const RenderPart before = rendered(scene, IntegratorKind::bdpt);
+    const RenderResult before = rendered(scene, IntegratorKind::bdpt);
     for (const NamedEdit& edit : edits()) {
         CAPTURE(edit.name);
         SharedSceneDesc desc = scene.description();
@@ -350,7 +350,7 @@ TEST_CASE("an edited scene has the bits of one that is built from its descriptio
         Scene edited = scene.edited(desc);
         check_same(edited, Scene(desc.copy()));
     }
-    const RenderPart after = rendered(scene, IntegratorKind::bdpt);
+    const RenderResult after = rendered(scene, IntegratorKind::bdpt);
     CHECK(before.film.develop().pixels == after.film.develop().pixels);
     CHECK(before.identity == after.identity);
 }
@@ -358,7 +358,7 @@ TEST_CASE("an edited scene has the bits of one that is built from its descriptio
 TEST_CASE("edits of edited scenes have their bits, too, when the scenes before are gone", "[edit]")
 {
     Scene scene(all_kinds());
-    const RenderPart first_part = rendered(scene, IntegratorKind::bdpt);
+    const RenderResult first_part = rendered(scene, IntegratorKind::bdpt);
     const SharedSceneDesc first_desc = scene.description();
     for (const NamedEdit& edit : edits()) {
         CAPTURE(edit.name);
@@ -371,7 +371,7 @@ TEST_CASE("edits of edited scenes have their bits, too, when the scenes before a
         check_same(scene, Scene(desc.copy()));
     }
     scene = scene.edited(first_desc);
-    const RenderPart again = rendered(scene, IntegratorKind::bdpt);
+    const RenderResult again = rendered(scene, IntegratorKind::bdpt);
     CHECK(first_part.film.develop().pixels == again.film.develop().pixels);
     CHECK(first_part.identity == again.identity);
 }
@@ -423,7 +423,7 @@ TEST_CASE("one material, instance or environment is replaced by a call", "[edit]
 TEST_CASE("edits that no scene can have are refused as when it is built", "[edit]")
 {
     const Scene scene(all_kinds());
-    const RenderPart before = rendered(scene, IntegratorKind::mis);
+    const RenderResult before = rendered(scene, IntegratorKind::mis);
     const std::vector<std::pair<std::function<void(SharedSceneDesc&)>, std::string>> cases{
         {of_material("floor", [](auto& m) { m.base_color.x = 2.0f; }),
          "material 0 \"floor\": base colour is 2, not in [0, 1]"},

@@ -136,7 +136,7 @@ std::vector<fs::path> merged_files(const MergeArguments& arguments)
 }
 
 void write_merged_files(const MergeArguments& arguments, const DisplayArguments& display,
-                        const io::Denoiser* denoiser, const RenderPart& part, io::PartNotes notes)
+                        const io::Denoiser* denoiser, const RenderResult& part, io::PartNotes notes)
 {
     notes.metadata.samples_per_pixel = part.samples.count();
     notes.metadata.render_seconds = part.cpu_seconds;
@@ -161,7 +161,7 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
                                      .y = layout.region.y0,
                                      .full_width = layout.width,
                                      .full_height = layout.height};
-    const Image image = part.film.develop();
+    const Image image = part.image();
     const ImageFileOptions options{
         .exr = {.type = arguments.exr.channel_type,
                 .metadata = std::move(notes.metadata),

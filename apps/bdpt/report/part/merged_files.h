@@ -2,7 +2,7 @@
 
 #include <bdpt/io/denoise.h>
 #include <bdpt/io/part_file.h>
-#include <bdpt/part/render_part.h>
+#include <bdpt/part/render_result.h>
 
 #include <filesystem>
 #include <span>
@@ -31,6 +31,7 @@ void check_strategies(const MergeArguments& arguments, const io::PartInfo& part)
 /// Writes `part` to the files of `arguments`, images by `display`, denoised if there is a denoiser.
 /// Throws `Error` (output).
 void write_merged_files(const MergeArguments& arguments, const DisplayArguments& display,
-                        const io::Denoiser* denoiser, const RenderPart& part, io::PartNotes notes);
+                        const io::Denoiser* denoiser, const RenderResult& part,
+                        io::PartNotes notes);
 
 }  // namespace bdpt::app

@@ -50,10 +50,10 @@ bool PartKeeper::is_complete(SampleRange samples) const
            there_->samples.contains(SampleSet(samples));
 }
 
-RenderPart PartKeeper::start(const Identity& identity, io::PartNotes notes)
+RenderResult PartKeeper::start(const Identity& identity, io::PartNotes notes)
 {
     notes_ = std::move(notes);
-    RenderPart part;
+    RenderResult part;
     if (const auto what = planned_ ? difference(identity, *planned_) : std::nullopt) {
         throw Error(ErrorCode::invalid_input, fmt::format("{}: is the plan of another render: {}",
                                                           choice_.plan->string(), *what));
@@ -69,12 +69,12 @@ RenderPart PartKeeper::start(const Identity& identity, io::PartNotes notes)
     io::merge_part(part, *there_);
     written_ = part.samples;
     console_.event("part", {{"file", choice_.file.string()}, {"samples", written_.text()}});
-    console_.detail(fmt::format("resuming {}: it has the samples {}", choice_.file.string(),
-                                written_.text()));
+    console_.detail(
+        fmt::format("resuming {}: it has the samples {}", choice_.file.string(), written_.text()));
     return part;
 }
 
-void PartKeeper::after_pass(const RenderPart& part, Checkpoint checkpoint)
+void PartKeeper::after_pass(const RenderResult& part, Checkpoint checkpoint)
 {
     if (checkpoint == Checkpoint::when_due && Clock::now() - last_ < interval_) {
         return;
@@ -93,14 +93,14 @@ void PartKeeper::after_pass(const RenderPart& part, Checkpoint checkpoint)
     }
 }
 
-void PartKeeper::finish(const RenderPart& part)
+void PartKeeper::finish(const RenderResult& part)
 {
     if (written_ != part.samples) {
         write(part);
     }
 }
 
-void PartKeeper::write(const RenderPart& part)
+void PartKeeper::write(const RenderResult& part)
 {
     const Clock::time_point start = Clock::now();
     const io::PartWrite write = io::write_part(choice_.file, part, notes_, old_);

@@ -2,7 +2,7 @@
 
 #include <bdpt/io/part_file.h>
 #include <bdpt/part/identity.h>
-#include <bdpt/part/render_part.h>
+#include <bdpt/part/render_result.h>
 
 #include <chrono>
 #include <cstdint>
@@ -30,17 +30,17 @@ public:
     /// Returns the part to continue; without samples if the render begins. `identity` is that of
     /// the render, `notes` are written into the file. Throws `Error` (invalid_input) if the file is
     /// a part of another render, or the plan is one of another.
-    [[nodiscard]] RenderPart start(const Identity& identity, io::PartNotes notes);
+    [[nodiscard]] RenderResult start(const Identity& identity, io::PartNotes notes);
     /// Writes a checkpoint if the last one is old enough; called between passes. A failure is only
     /// a warning, as there will be another checkpoint.
-    void after_pass(const RenderPart& part, Checkpoint checkpoint);
+    void after_pass(const RenderResult& part, Checkpoint checkpoint);
     /// Writes the samples that are not in the file yet. Throws `Error` (output).
-    void finish(const RenderPart& part);
+    void finish(const RenderResult& part);
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    void write(const RenderPart& part);
+    void write(const RenderResult& part);
 
     PartChoice choice_;
     Console& console_;

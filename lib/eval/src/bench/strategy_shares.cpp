@@ -164,7 +164,7 @@ void measure_strategies(const BenchScene& scene, const BenchOptions& options,
         RenderControl stop;
         stop.stop = control.stop;
         const RenderResult result = render(scene.scene, scene.camera, setup.options, stop);
-        if (result.samples.end < *samples) {
+        if (result.samples.end() < *samples) {
             return;
         }
         const std::vector<Strategy>& strategies = result.strategies.strategies();

@@ -93,7 +93,7 @@ std::optional<TimeSplit> measure(const TrialSetup& setup, const BenchGoals& goal
                    static_cast<double>(progress.samples_total));
     };
     const RenderResult result = render(setup.scene.scene, setup.scene.camera, options, control);
-    if (result.samples.end < options.sampling.samples.end) {
+    if (result.samples.end() < options.sampling.samples.end) {
         return std::nullopt;
     }
     const TimeProfile& profile = result.profile.value();

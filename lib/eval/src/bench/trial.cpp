@@ -34,7 +34,7 @@ std::optional<TimedRender> render_range(const TrialSetup& setup, SampleRange sam
     RenderResult result = render(setup.scene.scene, setup.scene.camera, options, control);
     const double used = cpu_seconds() - cpu;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - wall;
-    if (result.samples.end < samples.end) {
+    if (result.samples.end() < samples.end) {
         return std::nullopt;
     }
     return TimedRender{
@@ -118,7 +118,7 @@ std::optional<Checkpoint> measure_once(const TrialSetup& setup, std::int64_t sam
     Checkpoint point{.samples = samples,
                      .cpu_seconds = std::max(timed->cpu_seconds, min_seconds),
                      .wall_seconds = timed->wall_seconds};
-    judge(timed->result.film.develop(), reference, bench_scale(reference.image), point);
+    judge(timed->result.image(), reference, bench_scale(reference.image), point);
     return point;
 }
 

@@ -9,7 +9,7 @@
 ///     const std::vector<bdpt::Layer> layers = result.ids.develop(result.film);
 ///     bdpt::io::ExrOptions options;
 ///     options.manifests = result.ids.manifests();
-///     bdpt::io::write_exr("ids.exr", result.film.develop(), layers, options);
+///     bdpt::io::write_exr("ids.exr", result.image(), layers, options);
 /// }
 /// @endcode
 

@@ -10,7 +10,7 @@
 ///                                          .bidirectional = {.strategy_depth = 5}};
 ///     const bdpt::RenderResult result = bdpt::render(scene, camera, options);
 ///     const std::vector<bdpt::Layer> layers = result.strategies.develop();
-///     bdpt::io::write_exr("strategies.exr", result.film.develop(), layers, {});
+///     bdpt::io::write_exr("strategies.exr", result.image(), layers, {});
 /// }
 /// @endcode
 

@@ -6,7 +6,7 @@
 /// @code{.cpp}
 /// void write_exposed(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
 /// {
-///     const bdpt::Image image = bdpt::render(scene, camera, {}).film.develop();
+///     const bdpt::Image image = bdpt::render(scene, camera, {}).image();
 ///     const double level = bdpt::light_level(bdpt::white_cards(scene, camera));
 ///     const float exposure = bdpt::light_exposure(level).value_or(0.0f);
 ///     bdpt::io::write_png("exposed.png", bdpt::io::tone_map(image, exposure), {});

@@ -10,7 +10,7 @@
 ///     const bdpt::SampleRates rates = bdpt::sample_rates(scene, camera, options);
 ///     options.sampling.rates = std::make_shared<const bdpt::SampleRates>(rates);
 ///     const bdpt::RenderResult result = bdpt::render(scene, camera, options);
-///     bdpt::io::write_exr("adaptive.exr", result.film.develop(), {});
+///     bdpt::io::write_exr("adaptive.exr", result.image(), {});
 /// }
 /// @endcode
 

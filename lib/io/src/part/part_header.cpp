@@ -240,7 +240,7 @@ PartHeader read(const JsonValue& json)
 
 }  // namespace
 
-PartHeader make_part_header(const RenderPart& part, const PartNotes& notes)
+PartHeader make_part_header(const RenderResult& part, const PartNotes& notes)
 {
     return {.identity = part.identity,
             .samples = part.samples,
@@ -297,7 +297,7 @@ PartHeader parse_part_header(std::string_view text)
     }
 }
 
-RenderPart make_part(const PartHeader& header)
+RenderResult make_part(const PartHeader& header)
 {
     return {.identity = header.identity,
             .samples = {},

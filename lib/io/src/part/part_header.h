@@ -4,7 +4,7 @@
 #include <bdpt/film/film.h>
 #include <bdpt/film/id_film.h>
 #include <bdpt/io/part_file.h>
-#include <bdpt/part/render_part.h>
+#include <bdpt/part/render_result.h>
 #include <bdpt/render_stats.h>
 
 #include <string>
@@ -29,7 +29,7 @@ struct PartHeader {
     PartNotes notes;
 };
 
-[[nodiscard]] PartHeader make_part_header(const RenderPart& part, const PartNotes& notes);
+[[nodiscard]] PartHeader make_part_header(const RenderResult& part, const PartNotes& notes);
 
 [[nodiscard]] std::string to_text(const PartHeader& header);
 
@@ -37,6 +37,6 @@ struct PartHeader {
 [[nodiscard]] PartHeader parse_part_header(std::string_view text);
 
 /// Creates a part without samples that has films as `header` describes.
-[[nodiscard]] RenderPart make_part(const PartHeader& header);
+[[nodiscard]] RenderResult make_part(const PartHeader& header);
 
 }  // namespace bdpt::io

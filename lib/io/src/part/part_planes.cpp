@@ -31,7 +31,7 @@ std::size_t compute_offset(int rank)
 
 }  // namespace
 
-PlaneRow::PlaneRow(const RenderPart& part, const IdRanks& ranks)
+PlaneRow::PlaneRow(const RenderResult& part, const IdRanks& ranks)
     : left_(part.film.region().x0),
       width_(static_cast<std::size_t>(part.film.width())),
       film_(Film::plane_names()),
@@ -80,7 +80,7 @@ std::span<const ExactSum::Words> PlaneRow::plane_sums(std::size_t plane) const
     return {words_.data() + plane * width_, width_};
 }
 
-void PlaneRow::take(const RenderPart& part, int row)
+void PlaneRow::take(const RenderResult& part, int row)
 {
     std::size_t plane = 0;
     const auto take_planes = [&](const auto& film, std::size_t count) {
@@ -98,7 +98,7 @@ void PlaneRow::take(const RenderPart& part, int row)
     }
 }
 
-void PlaneRow::add_to(RenderPart& part, int row, std::int64_t samples) const
+void PlaneRow::add_to(RenderResult& part, int row, std::int64_t samples) const
 {
     std::size_t plane = 0;
     const auto add_planes = [&](auto& film, std::size_t count) {

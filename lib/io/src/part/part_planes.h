@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/part/render_part.h>
+#include <bdpt/part/render_result.h>
 
 #include <OpenEXR/ImfFrameBuffer.h>
 
@@ -17,17 +17,17 @@ namespace bdpt::io {
 class PlaneRow {
 public:
     /// `part` has the films; `ranks`: ranks of ids that there are planes for.
-    PlaneRow(const RenderPart& part, const IdRanks& ranks);
+    PlaneRow(const RenderResult& part, const IdRanks& ranks);
 
     /// Returns the names of the channels.
     [[nodiscard]] std::vector<std::string> channels() const;
     /// Returns a frame buffer that refers to this object.
     [[nodiscard]] Imf::FrameBuffer frame_buffer();
     /// Copies row `row` of the films, counted from the top of the region.
-    void take(const RenderPart& part, int row);
+    void take(const RenderResult& part, int row);
     /// Adds the row to the films of `part`; the planes hold `samples` samples. Throws `Error`
     /// (invalid_input) for ids that no film has.
-    void add_to(RenderPart& part, int row, std::int64_t samples) const;
+    void add_to(RenderResult& part, int row, std::int64_t samples) const;
 
 private:
     [[nodiscard]] std::span<ExactSum::Words> plane_sums(std::size_t plane);

@@ -124,7 +124,7 @@ void check_planes(const Imf::Header& exr, const PartHeader& header, const Sealed
     pixel.layout.width = 1;
     pixel.layout.height = 1;
     pixel.layout.region = {.x0 = 0, .y0 = 0, .x1 = 1, .y1 = 1};
-    const RenderPart small = make_part(pixel);
+    const RenderResult small = make_part(pixel);
     const std::vector<std::string> wanted = PlaneRow(small, header.ranks).channels();
     const bool all = std::all_of(wanted.begin(), wanted.end(), [&exr](const std::string& name) {
         return exr.channels().findChannel(name) != nullptr;
@@ -147,7 +147,7 @@ void spend_films(MemoryBudget& memory, const Imf::Header& exr, const PixelRect& 
                      static_cast<std::uint64_t>(region.height()));
 }
 
-void merge_header(RenderPart& part, const PartHeader& header)
+void merge_header(RenderResult& part, const PartHeader& header)
 {
     if (part.samples.empty()) {
         part = make_part(header);
@@ -211,7 +211,7 @@ PartInfo read_part_info(const std::filesystem::path& path)
     });
 }
 
-void merge_part(RenderPart& part, const PartInfo& info, MemoryBudget* memory)
+void merge_part(RenderResult& part, const PartInfo& info, MemoryBudget* memory)
 {
     with_part_file(info.file, [&](Imf::MultiPartInputFile& exr, const SealedFile& file) {
         if (file.hash() != info.hash) {

@@ -38,7 +38,7 @@ Imf::Header make_header(const FilmLayout& layout, const char* name)
     return header;
 }
 
-Imf::Header image_header(const RenderPart& part, const PartNotes& notes)
+Imf::Header image_header(const RenderResult& part, const PartNotes& notes)
 {
     const FilmLayout& layout = part.film.layout();
     Imf::Header header = make_header(layout, "image");
@@ -54,7 +54,7 @@ Imf::Header image_header(const RenderPart& part, const PartNotes& notes)
     return header;
 }
 
-Imf::Header sums_header(const RenderPart& part, const PartNotes& notes, const PlaneRow& row)
+Imf::Header sums_header(const RenderResult& part, const PartNotes& notes, const PlaneRow& row)
 {
     Imf::Header header = make_header(part.film.layout(), "sums");
     // Single-line blocks: memory does not grow with channels times lines.
@@ -83,7 +83,7 @@ void write_image(Imf::MultiPartOutputFile& file, const Film& film)
     output.writePixels(film.height());
 }
 
-void write_sums(Imf::MultiPartOutputFile& file, const RenderPart& part, PlaneRow& row)
+void write_sums(Imf::MultiPartOutputFile& file, const RenderResult& part, PlaneRow& row)
 {
     Imf::OutputPart output(file, 1);
     output.setFrameBuffer(row.frame_buffer());
@@ -95,7 +95,7 @@ void write_sums(Imf::MultiPartOutputFile& file, const RenderPart& part, PlaneRow
 
 /// Tests whether the existing file is ahead of `part`. Throws `Error` (output) if it belongs to
 /// another render.
-bool is_ahead(const std::filesystem::path& file, const RenderPart& part)
+bool is_ahead(const std::filesystem::path& file, const RenderResult& part)
 {
     std::optional<PartInfo> there;
     try {
@@ -113,7 +113,7 @@ bool is_ahead(const std::filesystem::path& file, const RenderPart& part)
 
 }  // namespace
 
-PartWrite write_part(const std::filesystem::path& file, const RenderPart& part,
+PartWrite write_part(const std::filesystem::path& file, const RenderResult& part,
                      const PartNotes& notes, OldPart old)
 {
     OutputFile output(file);

@@ -37,7 +37,7 @@ Scene named_box()
     return Scene(std::move(builder.desc));
 }
 
-RenderPart part_of(SampleRange samples)
+RenderResult part_of(SampleRange samples)
 {
     RenderOptions o;
     o.integrator = IntegratorKind::pt;
@@ -47,7 +47,7 @@ RenderPart part_of(SampleRange samples)
     o.film.aovs = {Aov::alpha, Aov::object, Aov::material};
     o.transport.max_depth = 1;
     o.sampling.samples = samples;
-    return render_part(named_box(), test::room_camera(), o, {}).part;
+    return render(named_box(), test::room_camera(), o);
 }
 
 PartNotes notes()
@@ -57,9 +57,9 @@ PartNotes notes()
     return result;
 }
 
-RenderPart read(const std::filesystem::path& file)
+RenderResult read(const std::filesystem::path& file)
 {
-    RenderPart part;
+    RenderResult part;
     merge_part(part, read_part_info(file));
     return part;
 }
@@ -79,10 +79,10 @@ TEST_CASE("parts hold all ids with their counts and names", "[part][ids]")
 {
     const ScratchFolder folder;
     const auto file = folder / "a.part.exr";
-    const RenderPart whole = part_of({.begin = 0, .end = 9});
+    const RenderResult whole = part_of({.begin = 0, .end = 9});
     REQUIRE(whole.ids.ranks()[0] >= 3);
     write_part(file, whole, notes(), OldPart::replace);
-    const RenderPart again = read(file);
+    const RenderResult again = read(file);
     CHECK(again.ids.ranks() == whole.ids.ranks());
     CHECK(again.ids.names()[1] == whole.ids.names()[1]);
     // The name that is no UTF-8 comes back as another one, with the id that pixels have.
@@ -97,7 +97,7 @@ TEST_CASE("parts hold all ids with their counts and names", "[part][ids]")
     write_part(folder / "b.part.exr", again, notes(), OldPart::replace);
     CHECK(test::read_text(folder / "b.part.exr") == test::read_text(file));
 
-    RenderPart sum;
+    RenderResult sum;
     const std::vector<SampleRange> ranges{
         {.begin = 4, .end = 9}, {.begin = 0, .end = 1}, {.begin = 1, .end = 4}};
     for (const SampleRange& range : ranges) {
@@ -148,7 +148,7 @@ TEST_CASE("a part whose ids lie is refused", "[part][ids]")
         mutant[engine() % mutant.size()] = static_cast<char>(engine() % 256);
         write_sealed(mutant);
         try {
-            const RenderPart part = read(file);
+            const RenderResult part = read(file);
             static_cast<void>(part.ids.develop(part.film));
         } catch (const Error& error) {
             CHECK(error.code() == ErrorCode::invalid_input);
@@ -160,7 +160,7 @@ TEST_CASE("images of ids have the metadata of Cryptomatte", "[ids]")
 {
     const ScratchFolder folder;
     const auto file = folder / "a.exr";
-    const RenderPart part = part_of({.begin = 0, .end = 2});
+    const RenderResult part = part_of({.begin = 0, .end = 2});
     ExrOptions options;
     options.type = ExrChannelType::half_float;
     options.manifests = part.ids.manifests();

@@ -49,11 +49,11 @@ RenderOptions options()
     return result;
 }
 
-RenderPart part_of(const RenderOptions& options, SampleRange samples)
+RenderResult part_of(const RenderOptions& options, SampleRange samples)
 {
     RenderOptions o = options;
     o.sampling.samples = samples;
-    return render_part(lit_box(), test::room_camera(), o, {}).part;
+    return render(lit_box(), test::room_camera(), o);
 }
 
 PartNotes notes()
@@ -72,7 +72,7 @@ PartNotes notes()
     return result;
 }
 
-void check_equal(const RenderPart& a, const RenderPart& b)
+void check_equal(const RenderResult& a, const RenderResult& b)
 {
     CHECK(a.identity == b.identity);
     CHECK(a.samples == b.samples);
@@ -97,7 +97,7 @@ Error error_of(const std::filesystem::path& file)
 {
     try {
         const PartInfo info = read_part_info(file);
-        RenderPart part;
+        RenderResult part;
         merge_part(part, info);
     } catch (const Error& error) {
         CHECK(std::string(error.what()).starts_with(file.string() + ": "));
@@ -116,7 +116,7 @@ TEST_CASE("a part file holds all of a part", "[part]")
         RenderOptions o = options();
         o.integrator = kind;
         o.bidirectional.strategy_depth = kind == IntegratorKind::pt ? 0 : 3;
-        RenderPart part = part_of(o, {.begin = 0, .end = 3});
+        RenderResult part = part_of(o, {.begin = 0, .end = 3});
         part.film.add_sample(5, 7, 2, Rgb(std::nanf("")));
         part.film.add_sample(5, 7, 2, Rgb(1e30f));
         REQUIRE(part.film.clamp_loss().contributions > 0);
@@ -134,7 +134,7 @@ TEST_CASE("a part file holds all of a part", "[part]")
         CHECK(info.notes.metadata.camera.name == "front");
         CHECK(info.notes.metadata.camera.world_from_camera ==
               test::room_camera().world_from_camera);
-        RenderPart read;
+        RenderResult read;
         merge_part(read, info);
         check_equal(read, part);
         // And so does a file of what was read.
@@ -148,7 +148,7 @@ TEST_CASE("a part file holds all of a part", "[part]")
 TEST_CASE("any viewer sees the image of a part file", "[part]")
 {
     const ScratchFolder folder;
-    const RenderPart part = part_of(options(), {.begin = 0, .end = 2});
+    const RenderResult part = part_of(options(), {.begin = 0, .end = 2});
     write_part(folder / "a.part.exr", part, notes(), OldPart::replace);
     const test::ExrFile exr = test::read_exr(folder / "a.part.exr");
     CHECK(exr.image.pixels == part.film.develop().pixels);
@@ -160,10 +160,10 @@ TEST_CASE("any viewer sees the image of a part file", "[part]")
 TEST_CASE("merging files of parts is rendering all of their samples", "[part]")
 {
     const ScratchFolder folder;
-    const RenderPart whole = part_of(options(), {.begin = 0, .end = 7});
+    const RenderResult whole = part_of(options(), {.begin = 0, .end = 7});
     const std::vector<SampleRange> ranges{
         {.begin = 4, .end = 7}, {.begin = 0, .end = 1}, {.begin = 1, .end = 4}};
-    RenderPart sum;
+    RenderResult sum;
     for (const SampleRange& range : ranges) {
         write_part(folder / "a.part.exr", part_of(options(), range), notes(), OldPart::replace);
         merge_part(sum, read_part_info(folder / "a.part.exr"));
@@ -266,7 +266,7 @@ TEST_CASE("a part file that lies about itself is refused before it costs memory"
         write_sealed(file, mutant);
         try {
             const PartInfo info = read_part_info(file);
-            RenderPart part;
+            RenderResult part;
             merge_part(part, info);
         } catch (const Error& error) {
             CHECK(error.code() == ErrorCode::invalid_input);
@@ -288,7 +288,7 @@ TEST_CASE("parts of other renders and samples that come twice are refused by nam
     const ScratchFolder folder;
     const auto file = folder / "a.part.exr";
     write_part(file, part_of(options(), {.begin = 0, .end = 2}), notes(), OldPart::replace);
-    const auto message = [&](RenderPart part) {
+    const auto message = [&](RenderResult part) {
         try {
             merge_part(part, read_part_info(file));
         } catch (const Error& error) {
@@ -305,7 +305,7 @@ TEST_CASE("parts of other renders and samples that come twice are refused by nam
 
     const PartInfo info = read_part_info(file);
     write_part(file, part_of(options(), {.begin = 0, .end = 3}), notes(), OldPart::replace);
-    RenderPart part;
+    RenderResult part;
     try {
         merge_part(part, info);
         FAIL("merged");
@@ -319,9 +319,9 @@ TEST_CASE("a part file that is ahead stays, and that of another render does", "[
 {
     const ScratchFolder folder;
     const auto file = folder / "a.part.exr";
-    const RenderPart more = part_of(options(), {.begin = 0, .end = 4});
-    const RenderPart fewer = part_of(options(), {.begin = 0, .end = 2});
-    const RenderPart others = part_of(options(), {.begin = 3, .end = 5});
+    const RenderResult more = part_of(options(), {.begin = 0, .end = 4});
+    const RenderResult fewer = part_of(options(), {.begin = 0, .end = 2});
+    const RenderResult others = part_of(options(), {.begin = 3, .end = 5});
     const auto samples = [&] { return read_part_info(file).samples.text(); };
     CHECK(write_part(file, fewer, notes(), OldPart::keep_if_more) == PartWrite::written);
     CHECK(write_part(file, more, notes(), OldPart::keep_if_more) == PartWrite::written);
@@ -332,7 +332,7 @@ TEST_CASE("a part file that is ahead stays, and that of another render does", "[
 
     RenderOptions o = options();
     o.sampling.seed = 4;
-    const RenderPart foreign = part_of(o, {.begin = 0, .end = 9});
+    const RenderResult foreign = part_of(o, {.begin = 0, .end = 9});
     try {
         write_part(file, foreign, notes(), OldPart::keep_if_more);
         FAIL("written");
@@ -353,7 +353,7 @@ TEST_CASE("a part that cannot be written leaves the one before", "[part]")
     const ScratchFolder folder;
     const auto file = folder / "a.part.exr";
     write_part(file, part_of(options(), {.begin = 0, .end = 2}), notes(), OldPart::keep_if_more);
-    const RenderPart more = part_of(options(), {.begin = 0, .end = 4});
+    const RenderResult more = part_of(options(), {.begin = 0, .end = 4});
     rlimit before{};
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
     rlimit small = before;

@@ -30,8 +30,7 @@ PartHeader header()
     options.film.aovs = {Aov::albedo, Aov::object, Aov::material};
     options.bidirectional.strategy_depth = 2;
     options.sampling.samples = {.begin = 0, .end = 2};
-    const RenderPart part =
-        render_part(Scene(std::move(builder.desc)), test::room_camera(), options, {}).part;
+    const RenderResult part = render(Scene(std::move(builder.desc)), test::room_camera(), options);
     PartNotes notes{.goal = SampleSet({.begin = 0, .end = 64}), .metadata = {}, .command = {"x"}};
     notes.metadata.frame = FrameNumber{.number = 3, .per_second = 24.0};
     notes.metadata.camera = test::room_camera();

@@ -102,16 +102,16 @@ TEST_CASE("a part file holds how many samples pixels took", "[rates]")
     options.film.aovs = {Aov::sample_count, Aov::depth};
     options.transport.max_depth = 3;
     options.sampling.rates = std::make_shared<const SampleRates>(all_rates(13, 7));
-    RenderPart sum;
+    RenderResult sum;
     for (const std::int64_t begin : {0, 8}) {
         options.sampling.samples = {.begin = begin, .end = begin + 8};
-        const RenderPart part = render_part(scene, test::room_camera(), options, {}).part;
+        const RenderResult part = render(scene, test::room_camera(), options);
         const auto file = folder / ("part" + std::to_string(begin) + ".exr");
         CHECK(write_part(file, part, {}, OldPart::keep_if_more) == PartWrite::written);
         merge_part(sum, read_part_info(file));
     }
     options.sampling.samples = {.begin = 0, .end = 16};
-    const RenderPart whole = render_part(scene, test::room_camera(), options, {}).part;
+    const RenderResult whole = render(scene, test::room_camera(), options);
     CHECK(sum.aovs == whole.aovs);
     CHECK(sum.film.develop().pixels == whole.film.develop().pixels);
     const std::vector<Layer> layers = sum.aovs.develop(sum.film);

@@ -6,7 +6,7 @@
 /// @code{.cpp}
 /// void write_denoised(const bdpt::RenderResult& result)
 /// {
-///     const bdpt::Image noisy = result.film.develop();
+///     const bdpt::Image noisy = result.image();
 ///     const bdpt::io::Denoiser denoiser;  // opens Open Image Denoise
 ///     bdpt::io::write_exr("clean.exr", denoiser.denoise({.image = noisy}), {});
 /// }

@@ -10,7 +10,7 @@
 ///     metadata.version = BDPT_VERSION;
 ///     metadata.scene = "room.glb";
 ///     metadata.samples_per_pixel = result.film.sample_count();
-///     bdpt::io::write_exr("out.exr", result.film.develop(), {.metadata = metadata});
+///     bdpt::io::write_exr("out.exr", result.image(), {.metadata = metadata});
 /// }
 /// @endcode
 

@@ -4,9 +4,9 @@
 /// Keeps the samples of a render in files, to go on later or to merge those of several machines.
 ///
 /// @code{.cpp}
-/// bdpt::RenderPart merged(const std::vector<std::filesystem::path>& files)
+/// bdpt::RenderResult merged(const std::vector<std::filesystem::path>& files)
 /// {
-///     bdpt::RenderPart sum;
+///     bdpt::RenderResult sum;
 ///     for (const std::filesystem::path& file : files) {
 ///         bdpt::io::merge_part(sum, bdpt::io::read_part_info(file));
 ///     }
@@ -19,7 +19,7 @@
 #include <bdpt/io/memory_budget.h>
 #include <bdpt/part/content_hash.h>
 #include <bdpt/part/identity.h>
-#include <bdpt/part/render_part.h>
+#include <bdpt/part/render_result.h>
 #include <bdpt/part/sample_set.h>
 
 #include <cstdint>
@@ -65,7 +65,7 @@ enum class PartWrite : std::uint8_t {
 /// Writes `part` as an OpenEXR file of two parts, atomically: the image, for any viewer, and its
 /// sums, from which renders continue. Camera samples and splats are stored in one. Throws `Error`:
 /// output, also if the existing file is a part of another render and `old` is not `replace`.
-BDPT_EXPORT PartWrite write_part(const std::filesystem::path& file, const RenderPart& part,
+BDPT_EXPORT PartWrite write_part(const std::filesystem::path& file, const RenderResult& part,
                                  const PartNotes& notes, OldPart old);
 
 /// Checks that a part file is intact and reads all but its sums. Throws `Error`: not_found;
@@ -77,6 +77,7 @@ BDPT_EXPORT PartWrite write_part(const std::filesystem::path& file, const Render
 /// `read_part_info` and `merge`, and invalid_input if the file has changed since `info` was read.
 /// After a failure the contents of `part` are invalid. The films of a part without samples are
 /// taken from `memory`, if given.
-BDPT_EXPORT void merge_part(RenderPart& part, const PartInfo& info, MemoryBudget* memory = nullptr);
+BDPT_EXPORT void merge_part(RenderResult& part, const PartInfo& info,
+                            MemoryBudget* memory = nullptr);
 
 }  // namespace bdpt::io

@@ -6,7 +6,7 @@
 /// @code{.cpp}
 /// void write_sheet(const bdpt::RenderResult& result)  // rendered with a strategy_depth
 /// {
-///     const float exposure = bdpt::io::automatic_exposure(result.film.develop());
+///     const float exposure = bdpt::io::automatic_exposure(result.image());
 ///     const auto sheet = bdpt::eval::contact_sheet(result.strategies, exposure);
 ///     bdpt::io::write_png("strategies.png", sheet, {});
 /// }

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test::render_part_test {
+namespace bdpt::test::render_result_test {
 namespace {
 
 RenderOptions options()
@@ -46,12 +46,12 @@ std::vector<RenderOptions> kinds()
     return result;
 }
 
-RenderPart part_of(const Scene& scene, RenderOptions options, SampleRange samples, int threads)
+RenderResult part_of(const Scene& scene, RenderOptions options, SampleRange samples, int threads)
 {
     options.sampling.samples = samples;
     options.system.threads = threads;
     options.system.tile_size = 3 + threads;
-    return render_part(scene, room_camera(), options, {}).part;
+    return render(scene, room_camera(), options);
 }
 
 /// The message of the `Error` that `call` throws.
@@ -73,23 +73,24 @@ TEST_CASE("parts of a render, merged in any order, are the render", "[part]")
     std::mt19937 engine(3);
     for (const RenderOptions& o : kinds()) {
         const RenderResult whole = render(scene, room_camera(), o);
-        std::vector<RenderPart> parts;
+        std::vector<RenderResult> parts;
         for (int i = 0; i < 8; ++i) {
             parts.push_back(part_of(scene, o, {.begin = 2 * i, .end = 2 * i + 2}, 1 + i % 3));
         }
         std::shuffle(parts.begin(), parts.end(), engine);
-        RenderPart sum = std::move(parts.back());
+        RenderResult sum = std::move(parts.back());
         parts.pop_back();
-        for (const RenderPart& part : parts) {
+        for (const RenderResult& part : parts) {
             merge(sum, part);
         }
         CHECK(sum.samples.text() == "0:16");
         CHECK(sum.film == whole.film);
-        CHECK(sum.film.develop().pixels == whole.film.develop().pixels);
+        CHECK(sum.image().pixels == whole.film.develop().pixels);
         CHECK(sum.aovs == whole.aovs);
         CHECK(sum.strategies == whole.strategies);
         CHECK(sum.stats.paths == whole.stats.paths);
         CHECK(sum.cpu_seconds > 0.0);
+        CHECK(sum.seconds > parts.front().seconds);
     }
 }
 
@@ -98,22 +99,25 @@ TEST_CASE("a render goes on where a part ends, and fills its gaps", "[part]")
     const Scene scene = room();
     for (const RenderOptions& o : kinds()) {
         const RenderResult whole = render(scene, room_camera(), o);
-        RenderPart part = part_of(scene, o, {.begin = 3, .end = 5}, 2);
+        RenderResult part = part_of(scene, o, {.begin = 3, .end = 5}, 2);
         merge(part, part_of(scene, o, {.begin = 9, .end = 10}, 1));
         std::vector<std::int64_t> counts;
         RenderControl control;
-        control.on_part = [&](const RenderPart& now) {
+        control.on_part = [&](const RenderResult& now) {
             CHECK(now.film.sample_count() == now.samples.count());
             counts.push_back(now.samples.count());
         };
-        const double before = part.cpu_seconds;
-        const PartResult result = render_part(scene, room_camera(), o, std::move(part), control);
-        CHECK(result.part.samples.text() == "0:16");
-        CHECK(result.part.film == whole.film);
-        CHECK(result.part.aovs == whole.aovs);
-        CHECK(result.part.strategies == whole.strategies);
-        CHECK(result.part.stats.paths == whole.stats.paths);
-        CHECK(result.part.cpu_seconds > before);
+        const double cpu_seconds = part.cpu_seconds;
+        const double seconds = part.seconds;
+        const RenderResult result =
+            continue_render(scene, room_camera(), o, std::move(part), control);
+        CHECK(result.samples.text() == "0:16");
+        CHECK(result.film == whole.film);
+        CHECK(result.aovs == whole.aovs);
+        CHECK(result.strategies == whole.strategies);
+        CHECK(result.stats.paths == whole.stats.paths);
+        CHECK(result.cpu_seconds > cpu_seconds);
+        CHECK(result.seconds > seconds);
         REQUIRE(counts.size() >= 3);  // before, between and behind what there was
         CHECK(counts.front() > 3);
         CHECK(counts.back() == 16);
@@ -123,27 +127,28 @@ TEST_CASE("a render goes on where a part ends, and fills its gaps", "[part]")
 TEST_CASE("what is there is not rendered again", "[part]")
 {
     const Scene scene = room();
-    RenderPart part = part_of(scene, options(), {.begin = 0, .end = 16}, 2);
+    RenderResult part = part_of(scene, options(), {.begin = 0, .end = 16}, 2);
     RenderControl control;
     control.on_progress = [](const Progress&) { FAIL("there is nothing to do"); };
     RenderOptions fewer = options();
     fewer.sampling.samples = {.begin = 2, .end = 9};
-    const PartResult result = render_part(scene, room_camera(), fewer, std::move(part), control);
-    CHECK(result.part.samples.text() == "0:16");
+    const RenderResult result =
+        continue_render(scene, room_camera(), fewer, std::move(part), control);
+    CHECK(result.samples.text() == "0:16");
 }
 
 TEST_CASE("a stop leaves a part that can be gone on with", "[part]")
 {
     const Scene scene = room();
     const RenderResult whole = render(scene, room_camera(), options());
-    RenderPart part;
+    RenderResult part;
     int calls = 0;
     while (part.samples.count() < 16) {
         std::stop_source stop;
         stop.request_stop();
         RenderControl control;
         control.stop = stop.get_token();
-        part = render_part(scene, room_camera(), options(), std::move(part), control).part;
+        part = continue_render(scene, room_camera(), options(), std::move(part), control);
         CHECK(part.samples.count() == ++calls);
     }
     CHECK(part.film == whole.film);
@@ -152,8 +157,8 @@ TEST_CASE("a stop leaves a part that can be gone on with", "[part]")
 TEST_CASE("samples that both parts have are refused", "[part]")
 {
     const Scene scene = room();
-    RenderPart part = part_of(scene, options(), {.begin = 0, .end = 4}, 1);
-    const RenderPart other = part_of(scene, options(), {.begin = 3, .end = 6}, 1);
+    RenderResult part = part_of(scene, options(), {.begin = 0, .end = 4}, 1);
+    const RenderResult other = part_of(scene, options(), {.begin = 3, .end = 6}, 1);
     CHECK(message_of([&] { merge(part, other); }).find("3:4") != std::string::npos);
     CHECK(part.samples.text() == "0:4");
     CHECK(part.film.sample_count() == 4);
@@ -172,14 +177,14 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
                            const std::function<void(RenderOptions&)>& change_options) {
         RenderOptions o = options();
         o.sampling.samples = {.begin = 0, .end = 1};
-        RenderPart part = render_part(Scene(desc), room_camera(), o, {}).part;
+        RenderResult part = render(Scene(desc), room_camera(), o);
         SceneDesc other = desc;
         change_scene(other);
         CameraDesc camera = room_camera();
         change_camera(camera);
         o.sampling.samples = {.begin = 0, .end = 2};
         change_options(o);
-        static_cast<void>(render_part(Scene(other), camera, o, std::move(part)));
+        static_cast<void>(continue_render(Scene(other), camera, o, std::move(part)));
     };
     const auto no_scene = [](SceneDesc&) {};
     const auto no_camera = [](CameraDesc&) {};
@@ -254,29 +259,29 @@ TEST_CASE("a part that has the identity of a render and other films is refused",
     RenderOptions o = options();
     o.film.aovs = {Aov::albedo, Aov::object};
     o.bidirectional.strategy_depth = 3;
-    const RenderPart sound = part_of(scene, o, {.begin = 0, .end = 2}, 1);
-    const auto refused = [&](const std::function<void(RenderPart&)>& change) {
-        RenderPart part = part_of(scene, o, {.begin = 0, .end = 2}, 1);
+    const RenderResult sound = part_of(scene, o, {.begin = 0, .end = 2}, 1);
+    const auto refused = [&](const std::function<void(RenderResult&)>& change) {
+        RenderResult part = part_of(scene, o, {.begin = 0, .end = 2}, 1);
         change(part);
         return message_of(
-            [&] { static_cast<void>(render_part(scene, room_camera(), o, std::move(part))); });
+            [&] { static_cast<void>(continue_render(scene, room_camera(), o, std::move(part))); });
     };
     const std::string message = "the part's films are not those of its render";
     const PixelRect& region = sound.film.region();
-    CHECK(refused([&](RenderPart& part) {
+    CHECK(refused([&](RenderResult& part) {
               FilmLayout layout = part.film.layout();
               ++layout.width;
               part.film = Film(layout);
           }) == message);
-    CHECK(refused([&](RenderPart& part) { part.aovs = AovFilm(region, AovSet{Aov::object}); }) ==
+    CHECK(refused([&](RenderResult& part) { part.aovs = AovFilm(region, AovSet{Aov::object}); }) ==
           message);
-    CHECK(refused([&](RenderPart& part) {
+    CHECK(refused([&](RenderResult& part) {
               part.aovs = AovFilm(region, o.film.aovs, PixelCounts::own);
           }) == message);
-    CHECK(refused([&](RenderPart& part) { part.ids = IdFilm(region, o.film.aovs, {}); }) ==
+    CHECK(refused([&](RenderResult& part) { part.ids = IdFilm(region, o.film.aovs, {}); }) ==
           message);
-    CHECK(refused([&](RenderPart& part) { part.strategies = StrategyFilm(); }) == message);
+    CHECK(refused([&](RenderResult& part) { part.strategies = StrategyFilm(); }) == message);
 }
 
 }  // namespace
-}  // namespace bdpt::test::render_part_test
+}  // namespace bdpt::test::render_result_test

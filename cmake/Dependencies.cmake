@@ -30,7 +30,7 @@ if(BDPT_BUILD_IO)
   find_package(nlohmann_json CONFIG REQUIRED)
   find_package(fmt CONFIG REQUIRED)
 
-  # Uses only the header of tinygltf, with the system's JSON library and without its image code.
+  # Uses only the structs of tinygltf.
   find_path(BDPT_TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 
   # Looks for decoders of compressed meshes; without them bdpt refuses such files with an error that names the decoder.

@@ -66,7 +66,6 @@ target_sources(bdpt_io PRIVATE
   src/gltf/document/model.cpp
   src/gltf/document/prepass.cpp
   src/gltf/document/selection.cpp
-  src/gltf/document/tinygltf.cpp
   # glTF: node transforms over time
   src/gltf/animation/animation.cpp
   src/gltf/animation/instancing.cpp
@@ -120,13 +119,6 @@ target_include_directories(bdpt_io SYSTEM PRIVATE ${BDPT_TINYGLTF_INCLUDE_DIR})
 target_link_libraries(bdpt_io PRIVATE
   OpenEXR::OpenEXR Imath::Imath JPEG::JPEG WebP::webp WebP::webpdemux TBB::tbb $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt
   ${CMAKE_DL_LIBS})
-
-# tinygltf receives checked JSON and buffers from memory; it opens no files and decodes no images.
-target_compile_definitions(bdpt_io PRIVATE
-  TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE TINYGLTF_NO_EXTERNAL_IMAGE TINYGLTF_NO_FS
-  TINYGLTF_NO_INCLUDE_JSON)
-# Silences warnings of the third-party implementation.
-set_source_files_properties(src/gltf/document/tinygltf.cpp PROPERTIES COMPILE_OPTIONS "-w")
 
 # OpenImageIO is in a module that is loaded for the first TIFF image (src/image/linear/oiio_library.h).
 add_library(bdpt_oiio MODULE src/oiio_module/oiio_module.cpp)

@@ -66,7 +66,7 @@ void check_accessors(const CheckedGltf& checked)
 
 }  // namespace
 
-/// All checks before tinygltf, and the decoders of compressed meshes: what passes them is sound.
+/// All checks of a document, and the decoders of compressed meshes: what passes them is sound.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     static const fuzz::InputFile input;

@@ -100,6 +100,7 @@ TEST_CASE("extras of a camera describe its lens")
     };
     CHECK(lens({{"lensRadius", 0.25}, {"focusDistance", 4}}).lens_radius == 0.25f);
     CHECK(lens({{"lensRadius", 0.25}, {"focusDistance", 4}}).focus_distance == 4.0f);
+    CHECK(lens({{"lensRadius", 0.25}, {"focusDistance", 3000000000}}).focus_distance == 3e9f);
     // 24 mm / (2 * 4)
     CHECK(lens({{"fStop", 4}}).lens_radius == Approx(0.003));
     CHECK(lens({{"fStop", 4}}).focus_distance == 1.0f);

@@ -59,7 +59,7 @@ std::vector<glm::dmat4> instance_transforms(const tinygltf::Model& model, std::s
 {
     const tinygltf::ExtensionMap& extensions = model.nodes[node].extensions;
     const auto found = extensions.find(instancing_extension);
-    if (found == extensions.end() || !found->second.Has("attributes")) {
+    if (found == extensions.end() || found->second.Get("attributes").Keys().empty()) {
         return {glm::dmat4(1.0)};
     }
     const tinygltf::Value& attributes = found->second.Get("attributes");

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "file/load_context.h"
-#include "gltf/document/tinygltf.h"
 
 #include <glm/mat4x4.hpp>
+#include <tiny_gltf.h>
 
 #include <cstddef>
 #include <optional>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "gltf/document/tinygltf.h"
-
 #include <bdpt/types.h>
+
+#include <tiny_gltf.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -8,10 +8,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,218 +22,239 @@ namespace bdpt::io {
 
 namespace {
 
-/// Converts integers beyond `int` to floating point, as tinygltf holds integers within extensions
-/// as `int`.
-void widen_integers(Json& value)
-{
-    if (value.is_structured()) {
-        for (Json& element : value) {
-            widen_integers(element);
+constexpr int no_index = -1;
+
+struct AccessorType {
+    std::string_view name;
+    int type = 0;  // of tinygltf
+};
+
+constexpr std::array accessor_types{
+    AccessorType{"SCALAR", TINYGLTF_TYPE_SCALAR}, AccessorType{"VEC2", TINYGLTF_TYPE_VEC2},
+    AccessorType{"VEC3", TINYGLTF_TYPE_VEC3},     AccessorType{"VEC4", TINYGLTF_TYPE_VEC4},
+    AccessorType{"MAT2", TINYGLTF_TYPE_MAT2},     AccessorType{"MAT3", TINYGLTF_TYPE_MAT3},
+    AccessorType{"MAT4", TINYGLTF_TYPE_MAT4}};
+
+/// Copies checked JSON to structs of tinygltf: all members that the loader reads.
+struct Reader {
+    /// Copies members of an object, given as names and targets; targets of absent members keep
+    /// their defaults.
+    template <typename T, typename... Others>
+    static void members(const Json& object, std::string_view name, T& target, Others&&... others)
+    {
+        if (const auto found = object.find(name); found != object.end()) {
+            read(*found, target);
         }
-    } else if (value.is_number_unsigned() &&
-               value.get<std::uint64_t>() > std::numeric_limits<int>::max()) {
-        value = value.get<double>();
-    } else if (value.is_number_integer() && !value.is_number_unsigned() &&
-               value.get<std::int64_t>() < std::numeric_limits<int>::min()) {
-        value = value.get<double>();
-    }
-}
-
-/// Calls `visit` with each element of a top-level array.
-template <typename Visit>
-void for_each(Json& document, const char* section, const Visit& visit)
-{
-    const auto found = document.find(section);
-    if (found == document.end()) {
-        return;
-    }
-    for (Json& element : *found) {
-        visit(element);
-    }
-}
-
-/// Removes the images from the document, as tinygltf would decode the data in their URIs, and
-/// returns them.
-std::vector<tinygltf::Image> take_images(Json& document)
-{
-    std::vector<tinygltf::Image> images;
-    for_each(document, "images", [&images](Json& image) {
-        tinygltf::Image& taken = images.emplace_back();
-        if (image.contains("uri")) {
-            taken.uri = std::move(image["uri"].get_ref<std::string&>());
-        } else if (image.contains("bufferView")) {
-            taken.bufferView = image["bufferView"].get<int>();
+        if constexpr (sizeof...(others) > 0) {
+            members(object, std::forward<Others>(others)...);
         }
-    });
-    document.erase("images");
-    return images;
-}
-
-/// Calls `visit` with each light of an extension of the document.
-template <typename Visit>
-void for_each_light(Json& document, const char* extension, const Visit& visit)
-{
-    const auto extensions = document.find("extensions");
-    if (extensions != document.end() && extensions->contains(extension)) {
-        for_each((*extensions)[extension], "lights", visit);
     }
-}
 
-// tinygltf drops empty values within extensions, so that later elements of an array move. So each
-// light keeps a member, and members that are not read are dropped.
-
-Json reduced_profile(Json& light)
-{
-    if (light.contains("bufferView") && !light.contains("uri")) {
-        return {{"bufferView", light["bufferView"]}};
+    /// Reads an index or a code; none if it is above the limit of `int`.
+    static void read(const Json& json, int& value)
+    {
+        const auto number = json.get<std::uint64_t>();
+        value = number <= std::numeric_limits<int>::max() ? static_cast<int>(number) : no_index;
     }
-    return {{"uri", light.contains("uri") ? std::move(light["uri"]) : Json("")}};
-}
-
-/// Reduces an environment to the first level of its cube, if that has any side.
-Json reduced_environment(Json& light)
-{
-    Json reduced{{"intensity", light.value("intensity", 1.0)}};
-    Json& levels = light["specularImages"];
-    if (!levels.empty() && !levels[0].empty()) {
-        reduced["specularImages"] = Json::array({std::move(levels[0])});
+    static void read(const Json& json, std::size_t& value) { json.get_to(value); }
+    static void read(const Json& json, double& value) { json.get_to(value); }
+    static void read(const Json& json, bool& value) { json.get_to(value); }
+    /// Reads a text. Not all are checked; others than strings are ignored.
+    static void read(const Json& json, std::string& value)
+    {
+        if (json.is_string()) {
+            json.get_to(value);
+        }
     }
-    if (light.contains("rotation")) {
-        reduced["rotation"] = std::move(light["rotation"]);
-        widen_integers(reduced["rotation"]);
+    static void read(const Json& json, std::map<std::string, int>& values)
+    {
+        for (const auto& item : json.items()) {
+            read(item.value(), values[item.key()]);
+        }
     }
-    return reduced;
-}
-
-// tinygltf drops incomplete channels, and refuses the document for incomplete samplers. The loader
-// reads neither, so missing members become -1.
-
-Json reduced_channel(const Json& channel)
-{
-    Json reduced{{"sampler", -1}, {"target", {{"node", -1}, {"path", ""}}}};
-    const Json& target = channel["target"];
-    if (target.contains("node") && target["path"].is_string()) {
-        reduced["target"] = {{"node", target["node"]}, {"path", target["path"]}};
+    template <typename T>
+    static void read(const Json& json, std::vector<T>& values)
+    {
+        values = std::vector<T>(json.size());
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            read(json[i], values[i]);
+        }
     }
-    const auto sampler = channel.find("sampler");
-    if (sampler != channel.end() &&
-        sampler->get<std::uint64_t>() <= std::numeric_limits<int>::max()) {
-        reduced["sampler"] = *sampler;
+
+    // Free-form values: extensions and extras. Numbers that are no `int` are floating-point.
+
+    static void read(const Json& json, tinygltf::Value& value)
+    {
+        if (json.is_object()) {
+            tinygltf::ExtensionMap members;
+            read(json, members);
+            value = tinygltf::Value(std::move(members));
+        } else if (json.is_array()) {
+            std::vector<tinygltf::Value> elements;
+            read(json, elements);
+            value = tinygltf::Value(std::move(elements));
+        } else if (json.is_string()) {
+            value = tinygltf::Value(json.get<std::string>());
+        } else if (json.is_boolean()) {
+            value = tinygltf::Value(json.get<bool>());
+        } else if (json.is_number()) {
+            const auto number = json.get<double>();
+            const bool fits = json.is_number_integer() &&
+                              number >= std::numeric_limits<int>::min() &&
+                              number <= std::numeric_limits<int>::max();
+            value = fits ? tinygltf::Value(static_cast<int>(number)) : tinygltf::Value(number);
+        }
     }
-    return reduced;
-}
-
-Json reduced_sampler(const Json& sampler)
-{
-    Json reduced{{"input", sampler.value("input", -1)}, {"output", sampler.value("output", -1)}};
-    if (sampler.contains("interpolation") && sampler["interpolation"].is_string()) {
-        reduced["interpolation"] = sampler["interpolation"];
-    }
-    return reduced;
-}
-
-/// Drops extensions, which tinygltf would copy into each sampler.
-Json reduced_animation(Json& animation)
-{
-    Json reduced = Json::object();
-    for_each(animation, "channels",
-             [&](const Json& channel) { reduced["channels"].push_back(reduced_channel(channel)); });
-    for_each(animation, "samplers",
-             [&](const Json& sampler) { reduced["samplers"].push_back(reduced_sampler(sampler)); });
-    return reduced;
-}
-
-void simplify_animations(Json& document, std::span<const std::size_t> played)
-{
-    std::size_t index = 0;
-    for_each(document, "animations", [&](Json& animation) {
-        const bool plays = std::find(played.begin(), played.end(), index++) != played.end();
-        animation = plays ? reduced_animation(animation) : Json::object();
-    });
-}
-
-/// Prepares the document for tinygltf: buffers are named by their index and come from memory;
-/// members that the loader does not read are removed; members that tinygltf requires, but the
-/// loader does not, are added.
-void simplify(Json& document)
-{
-    std::size_t index = 0;
-    for_each(document, "buffers",
-             [&index](Json& buffer) { buffer["uri"] = std::to_string(index++); });
-    for_each(document, "meshes", [](Json& mesh) {
-        for (Json& primitive : mesh["primitives"]) {
-            Json& attributes = primitive["attributes"];
-            attributes.erase(indices_attribute);
-            if (primitive.contains("indices")) {
-                attributes[indices_attribute] = primitive["indices"];
-                primitive.erase("indices");
+    static void read(const Json& json, tinygltf::ExtensionMap& members)
+    {
+        for (const auto& item : json.items()) {
+            if (!item.value().is_null()) {
+                read(item.value(), members[item.key()]);
             }
         }
-    });
-    for_each(document, "cameras", [](Json& camera) {
-        if (camera.contains("perspective")) {
-            camera["perspective"].emplace("znear", 0.1);
-        }
-        if (camera.contains("orthographic")) {
-            for (const char* name : {"xmag", "ymag", "znear", "zfar"}) {
-                camera["orthographic"].emplace(name, 1.0);
-            }
-        }
-    });
-    for_each(document, "nodes", [](Json& node) {
-        if (node.contains("extensions") && node["extensions"].contains("EXT_lights_ies")) {
-            widen_integers(node["extensions"]["EXT_lights_ies"]);
-        }
-    });
-    for_each(document, "materials", [](Json& material) {
-        if (material.contains("extensions")) {
-            widen_integers(material["extensions"]);
-        }
-    });
-    for_each_light(document, "EXT_lights_ies", [](Json& light) { light = reduced_profile(light); });
-    for_each_light(document, "EXT_lights_image_based",
-                   [](Json& light) { light = reduced_environment(light); });
-}
-
-/// Passes the buffers that have been read to tinygltf. Each is taken once.
-tinygltf::FsCallbacks memory_files(std::vector<Bytes>& buffers)
-{
-    tinygltf::FsCallbacks callbacks{};
-    callbacks.FileExists = [](const std::string&, void*) { return true; };
-    callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
-    callbacks.ReadWholeFile = [](Bytes* bytes, std::string*, const std::string& path, void* user) {
-        auto& all = *static_cast<std::vector<Bytes>*>(user);
-        // The names are those given by simplify().
-        *bytes = std::move(all.at(std::stoul(path.substr(path.rfind('/') + 1))));
-        return true;
-    };
-    callbacks.WriteWholeFile = [](std::string*, const std::string&, const Bytes&, void*) {
-        return false;
-    };
-    // Newer versions ask for the size first.
-    const auto add_size_callback = [](auto& newer) {
-        if constexpr (requires { newer.GetFileSizeInBytes; }) {
-            newer.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& path,
-                                          void* user) {
-                const auto& all = *static_cast<std::vector<Bytes>*>(user);
-                *size = all.at(std::stoul(path.substr(path.rfind('/') + 1))).size();
-                return true;
-            };
-        }
-    };
-    add_size_callback(callbacks);
-    callbacks.user_data = &buffers;
-    return callbacks;
-}
-
-std::string one_line(std::string text)
-{
-    while (!text.empty() && text.back() == '\n') {
-        text.pop_back();
     }
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
+
+    // Geometry
+
+    static void read(const Json& json, tinygltf::BufferView& view)
+    {
+        members(json, "buffer", view.buffer, "byteOffset", view.byteOffset, "byteLength",
+                view.byteLength, "byteStride", view.byteStride);
+    }
+    static void read(const Json& json, tinygltf::Accessor& accessor)
+    {
+        members(json, "bufferView", accessor.bufferView, "byteOffset", accessor.byteOffset,
+                "componentType", accessor.componentType, "count", accessor.count, "normalized",
+                accessor.normalized);
+        const auto* const type =
+            std::find_if(accessor_types.begin(), accessor_types.end(),
+                         [&](const AccessorType& known) { return json["type"] == known.name; });
+        accessor.type = type->type;
+        accessor.sparse = {};
+        const auto sparse = json.find("sparse");
+        accessor.sparse.isSparse = sparse != json.end();
+        if (accessor.sparse.isSparse) {
+            auto& indices = accessor.sparse.indices;
+            auto& values = accessor.sparse.values;
+            members(*sparse, "count", accessor.sparse.count);
+            members((*sparse)["indices"], "bufferView", indices.bufferView, "byteOffset",
+                    indices.byteOffset, "componentType", indices.componentType);
+            members((*sparse)["values"], "bufferView", values.bufferView, "byteOffset",
+                    values.byteOffset);
+        }
+    }
+    static void read(const Json& json, tinygltf::Primitive& primitive)
+    {
+        primitive.mode = TINYGLTF_MODE_TRIANGLES;
+        members(json, "attributes", primitive.attributes, "indices", primitive.indices, "material",
+                primitive.material, "mode", primitive.mode, "targets", primitive.targets,
+                "extensions", primitive.extensions);
+    }
+    static void read(const Json& json, tinygltf::Mesh& mesh)
+    {
+        members(json, "name", mesh.name, "primitives", mesh.primitives, "weights", mesh.weights);
+    }
+    static void read(const Json& json, tinygltf::Skin& skin)
+    {
+        members(json, "inverseBindMatrices", skin.inverseBindMatrices, "joints", skin.joints);
+    }
+
+    // Nodes and their animations
+
+    static void read(const Json& json, tinygltf::Node& node)
+    {
+        members(json, "name", node.name, "children", node.children, "mesh", node.mesh, "skin",
+                node.skin, "camera", node.camera, "matrix", node.matrix, "translation",
+                node.translation, "rotation", node.rotation, "scale", node.scale, "weights",
+                node.weights, "extensions", node.extensions);
+    }
+    static void read(const Json& json, tinygltf::Scene& scene)
+    {
+        members(json, "nodes", scene.nodes, "extensions", scene.extensions);
+    }
+    static void read(const Json& json, tinygltf::AnimationChannel& channel)
+    {
+        members(json, "sampler", channel.sampler);
+        if (const auto target = json.find("target"); target != json.end()) {
+            members(*target, "node", channel.target_node, "path", channel.target_path);
+        }
+    }
+    static void read(const Json& json, tinygltf::AnimationSampler& sampler)
+    {
+        members(json, "input", sampler.input, "output", sampler.output, "interpolation",
+                sampler.interpolation);
+    }
+    static void read(const Json& json, tinygltf::Animation& animation)
+    {
+        members(json, "channels", animation.channels, "samplers", animation.samplers);
+    }
+
+    // Materials
+
+    static void read(const Json& json, tinygltf::Image& image)
+    {
+        members(json, "uri", image.uri, "bufferView", image.bufferView);
+    }
+    static void read(const Json& json, tinygltf::Sampler& sampler)
+    {
+        members(json, "wrapS", sampler.wrapS, "wrapT", sampler.wrapT);
+    }
+    static void read(const Json& json, tinygltf::Texture& texture)
+    {
+        members(json, "source", texture.source, "sampler", texture.sampler, "extensions",
+                texture.extensions);
+    }
+    static void read(const Json& json, tinygltf::TextureInfo& info)
+    {
+        members(json, "index", info.index, "texCoord", info.texCoord, "extensions",
+                info.extensions);
+    }
+    static void read(const Json& json, tinygltf::NormalTextureInfo& info)
+    {
+        members(json, "index", info.index, "texCoord", info.texCoord, "scale", info.scale,
+                "extensions", info.extensions);
+    }
+    static void read(const Json& json, tinygltf::PbrMetallicRoughness& pbr)
+    {
+        members(json, "baseColorFactor", pbr.baseColorFactor, "baseColorTexture",
+                pbr.baseColorTexture, "metallicFactor", pbr.metallicFactor, "roughnessFactor",
+                pbr.roughnessFactor, "metallicRoughnessTexture", pbr.metallicRoughnessTexture);
+    }
+    static void read(const Json& json, tinygltf::Material& material)
+    {
+        material.emissiveFactor = {0.0, 0.0, 0.0};
+        members(json, "name", material.name, "doubleSided", material.doubleSided, "alphaMode",
+                material.alphaMode, "alphaCutoff", material.alphaCutoff, "emissiveFactor",
+                material.emissiveFactor, "emissiveTexture", material.emissiveTexture,
+                "normalTexture", material.normalTexture, "pbrMetallicRoughness",
+                material.pbrMetallicRoughness, "extensions", material.extensions);
+    }
+
+    // Cameras and lights
+
+    static void read(const Json& json, tinygltf::PerspectiveCamera& camera)
+    {
+        members(json, "yfov", camera.yfov, "aspectRatio", camera.aspectRatio);
+    }
+    static void read(const Json& json, tinygltf::OrthographicCamera& camera)
+    {
+        members(json, "xmag", camera.xmag, "ymag", camera.ymag);
+    }
+    static void read(const Json& json, tinygltf::Camera& camera)
+    {
+        members(json, "name", camera.name, "type", camera.type, "perspective", camera.perspective,
+                "orthographic", camera.orthographic, "extras", camera.extras);
+    }
+    static void read(const Json& json, tinygltf::SpotLight& spot)
+    {
+        members(json, "innerConeAngle", spot.innerConeAngle, "outerConeAngle", spot.outerConeAngle);
+    }
+    static void read(const Json& json, tinygltf::Light& light)
+    {
+        members(json, "name", light.name, "type", light.type, "color", light.color, "intensity",
+                light.intensity, "range", light.range, "spot", light.spot, "extras", light.extras);
+    }
+};
 
 }  // namespace
 
@@ -271,30 +295,28 @@ const tinygltf::Value& find_light(const tinygltf::Model& model, const char* exte
 
 tinygltf::Model build_model(CheckedGltf checked, std::span<const std::size_t> played)
 {
+    const Json& document = checked.document;
     tinygltf::Model model;
-    std::vector<tinygltf::Image> images = take_images(checked.document);
-    std::size_t index = 0;
-    for_each(checked.document, "buffers", [&](const Json& buffer) {
-        checked.buffers[index++].resize(buffer["byteLength"].get<std::size_t>());
-    });
-    simplify(checked.document);
-    simplify_animations(checked.document, played);
-    const std::string text = checked.document.dump(-1, ' ', false, Json::error_handler_t::replace);
-    checked.document = nullptr;
-    if (text.size() > std::numeric_limits<unsigned>::max()) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("JSON of {} bytes is too long", text.size()));
+    Reader::members(document, "accessors", model.accessors, "bufferViews", model.bufferViews,
+                    "meshes", model.meshes, "skins", model.skins, "nodes", model.nodes, "scenes",
+                    model.scenes, "images", model.images, "samplers", model.samplers, "textures",
+                    model.textures, "materials", model.materials, "cameras", model.cameras,
+                    "extensions", model.extensions);
+    if (model.extensions.contains("KHR_lights_punctual")) {
+        Reader::members(document["extensions"]["KHR_lights_punctual"], "lights", model.lights);
     }
-    tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks(memory_files(checked.buffers));
-    std::string error;
-    std::string warning;
-    if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(),
-                                    static_cast<unsigned>(text.size()), "",
-                                    tinygltf::REQUIRE_VERSION)) {
-        throw Error(ErrorCode::invalid_input, "glTF: " + one_line(error));
+    if (document.contains("animations")) {
+        const Json& animations = document["animations"];
+        model.animations.resize(animations.size());
+        for (const std::size_t index : played) {
+            Reader::read(animations[index], model.animations[index]);
+        }
     }
-    model.images = std::move(images);
+    model.buffers.resize(checked.buffers.size());
+    for (std::size_t i = 0; i < model.buffers.size(); ++i) {
+        model.buffers[i].data = std::move(checked.buffers[i]);
+        model.buffers[i].data.resize(document["buffers"][i]["byteLength"].get<std::size_t>());
+    }
     return model;
 }
 

@@ -3,7 +3,8 @@
 #include "file/bytes.h"
 #include "file/load_context.h"
 #include "gltf/document/prepass.h"
-#include "gltf/document/tinygltf.h"
+
+#include <tiny_gltf.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -11,10 +12,6 @@
 #include <string>
 
 namespace bdpt::io {
-
-/// Name of a primitive's indices among its attributes: tinygltf refuses some valid indices in their
-/// own member.
-inline constexpr const char* indices_attribute = "INDICES";
 
 /// Returns light `index` of an extension of the document, which must have it.
 [[nodiscard]] const tinygltf::Value& find_light(const tinygltf::Model& model, const char* extension,
@@ -28,9 +25,7 @@ inline constexpr const char* indices_attribute = "INDICES";
 
 /// Converts a checked document to the structs of tinygltf, with all that the loader reads. Images
 /// have their `uri` as in the file, or their `bufferView`; nothing is decoded. Animations other
-/// than the `played` ones are empty; check_animations must have checked the played ones. See
-/// indices_attribute. Throws `Error` (invalid_input) for input that passes the checks but not
-/// tinygltf.
+/// than the `played` ones are empty; check_animations must have checked the played ones.
 [[nodiscard]] tinygltf::Model build_model(CheckedGltf checked, std::span<const std::size_t> played);
 
 }  // namespace bdpt::io

@@ -35,13 +35,13 @@ void check_finite(const PrimitiveReader& primitive, const std::vector<Vec3>& pos
 std::vector<std::uint32_t> read_checked_indices(const PrimitiveReader& primitive,
                                                 std::size_t vertices)
 {
-    const std::optional<int> accessor = primitive.attribute(indices_attribute);
-    if (!accessor) {
+    const int accessor = primitive.source().indices;
+    if (accessor < 0) {
         std::vector<std::uint32_t> indices(vertices);
         std::iota(indices.begin(), indices.end(), 0u);
         return indices;
     }
-    std::vector<std::uint32_t> indices = read_indices(primitive.model(), *accessor);
+    std::vector<std::uint32_t> indices = read_indices(primitive.model(), accessor);
     for (std::size_t i = 0; i < indices.size(); ++i) {
         if (indices[i] >= vertices) {
             primitive.fail("indices",
@@ -76,16 +76,22 @@ std::vector<Vec4> read_colors(const PrimitiveReader& primitive, std::size_t vert
     return colors;
 }
 
-/// Charges the memory of all attributes, morph targets included.
+/// Charges the memory of indices and all attributes, morph targets included.
 void spend(const PrimitiveReader& primitive, LoadContext& context)
 {
     constexpr std::uint64_t element_bytes = sizeof(Vec4);
+    const auto spend_one = [&](int accessor) {
+        const auto& described = primitive.model().accessors[static_cast<std::size_t>(accessor)];
+        context.budget.spend(primitive.id().pointer(), described.count, element_bytes);
+    };
     const auto spend_all = [&](const std::map<std::string, int>& attributes) {
         for (const auto& [semantic, accessor] : attributes) {
-            const auto& described = primitive.model().accessors[static_cast<std::size_t>(accessor)];
-            context.budget.spend(primitive.id().pointer(), described.count, element_bytes);
+            spend_one(accessor);
         }
     };
+    if (primitive.source().indices >= 0) {
+        spend_one(primitive.source().indices);
+    }
     spend_all(primitive.source().attributes);
     for (const auto& target : primitive.source().targets) {
         spend_all(target);

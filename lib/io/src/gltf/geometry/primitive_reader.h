@@ -2,10 +2,10 @@
 
 #include "file/load_context.h"
 #include "gltf/document/accessor.h"
-#include "gltf/document/tinygltf.h"
 #include "gltf/geometry/mesh.h"
 
 #include <fmt/format.h>
+#include <tiny_gltf.h>
 
 #include <cstddef>
 #include <map>

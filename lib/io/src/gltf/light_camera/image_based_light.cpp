@@ -206,7 +206,8 @@ float read_intensity(const tinygltf::Value& light, const std::string& place, Loa
 {
     // The divisor alpha is 255 at most.
     constexpr double most = std::numeric_limits<float>::max() / 256.0;
-    const double intensity = light.Get("intensity").GetNumberAsDouble();
+    const double intensity =
+        light.Has("intensity") ? light.Get("intensity").GetNumberAsDouble() : 1.0;
     if (!(intensity >= 0.0 && intensity <= most)) {
         context.warn("an out-of-range intensity of an environment is clamped",
                      fmt::format("{}/intensity: {}", place, intensity));

@@ -1,9 +1,10 @@
 #pragma once
 
 #include "file/load_context.h"
-#include "gltf/document/tinygltf.h"
 
 #include <bdpt/scene_desc.h>
+
+#include <tiny_gltf.h>
 
 #include <string>
 

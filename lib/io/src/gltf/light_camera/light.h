@@ -1,11 +1,11 @@
 #pragma once
 
 #include "file/load_context.h"
-#include "gltf/document/tinygltf.h"
 
 #include <bdpt/scene_desc.h>
 
 #include <glm/mat4x4.hpp>
+#include <tiny_gltf.h>
 
 #include <cstddef>
 #include <optional>

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "file/load_context.h"
-#include "gltf/document/tinygltf.h"
 #include "gltf/material/image_table.h"
 
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene_desc.h>
+
+#include <tiny_gltf.h>
 
 #include <functional>
 #include <vector>

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "file/load_context.h"
-#include "gltf/document/tinygltf.h"
 #include "gltf/material/texture.h"
 
 #include <bdpt/types.h>
+
+#include <tiny_gltf.h>
 
 #include <limits>
 #include <optional>

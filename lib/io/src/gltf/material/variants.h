@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gltf/document/tinygltf.h"
+#include <tiny_gltf.h>
 
 #include <cstddef>
 

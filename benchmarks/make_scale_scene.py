@@ -16,13 +16,16 @@ The file is a pure function of KIND and N.
 import argparse
 import array
 import math
+import pathlib
 import random
-import struct
 import sys
 import zlib
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
 import make_large_scene
 from make_large_scene import Glb, LAMP, WALLS, quads
+from png import png_file
 
 COUNTS = {"triangles": 10000000, "instances": 100000, "nodes": 100000, "textures": 1000, "panels": 10000, "lamps": 1000}
 WHITE = {"pbrMetallicRoughness": {"baseColorFactor": [0.7, 0.7, 0.7, 1], "metallicFactor": 0}}
@@ -91,12 +94,7 @@ def png(size, rng):
         noise = rng.randbytes(3 * size)
         rows += b"\0" + bytes(min(255, int(base[i % 3]) + (n & 7)) for i, n in enumerate(noise))
 
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    header = struct.pack(">2I5B", size, size, 8, 2, 0, 0, 0)
-    data = chunk(b"IDAT", zlib.compress(bytes(rows), 1))
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + data + chunk(b"IEND", b"")
+    return png_file(size, size, 2, zlib.compress(bytes(rows), 1))
 
 
 def panels_with_images(count):

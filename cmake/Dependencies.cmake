@@ -101,7 +101,3 @@ if(BDPT_BUILD_TESTS)
   find_package(Python3 COMPONENTS Interpreter REQUIRED)
   include(Catch)
 endif()
-
-if(BDPT_BUILD_BENCHMARKS)
-  find_package(benchmark CONFIG REQUIRED)
-endif()

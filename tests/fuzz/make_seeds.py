@@ -17,13 +17,12 @@ import sys
 import tempfile
 import zlib
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scenes"))
+from png import png_file
+
 CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
-
-
-def chunk(name, data):
-    body = name + data
-    return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
 
 
 def png(width, height, color_type=6):
@@ -31,8 +30,7 @@ def png(width, height, color_type=6):
     channels = {0: 1, 2: 3, 6: 4}[color_type]
     rows = b"".join(b"\0" + bytes((37 * (x + y * width) + 60 * c) % 256 for x in range(width) for c in range(channels))
                     for y in range(height))
-    head = struct.pack(">IIBBBBB", width, height, 8, color_type, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+    return png_file(width, height, color_type, zlib.compress(rows))
 
 
 def exr(width, height):

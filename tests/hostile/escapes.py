@@ -4,15 +4,16 @@ import json
 import pathlib
 import re
 import struct
+import sys
 import zlib
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scenes"))
+from png import png_file
 
 
 def png():
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(b"\0\xff\0\0")) + chunk(b"IEND", b""))
+    return png_file(1, 1, 2, zlib.compress(b"\0\xff\0\0"))
 
 
 def scene(buffer_uri, image_uri):

@@ -30,11 +30,6 @@ namespace bdpt {
     return {select(wide, across, along), select(wide, along, across)};
 }
 
-[[nodiscard]] constexpr AreaPdf disk_pdf()
-{
-    return {inv_pi};
-}
-
 /// Maps to cosine-weighted directions, z >= 0 [Malley's method].
 [[nodiscard]] inline Vec3 square_to_cosine_hemisphere(Vec2 u)
 {
@@ -63,11 +58,6 @@ namespace bdpt {
                                            : Vec2{sum, 2.0f * barycentrics.y};
 }
 
-[[nodiscard]] constexpr AreaPdf triangle_pdf(float area)
-{
-    return {1.0f / area};
-}
-
 /// Returns 1 - cos of an angle in [0, pi/2] from the square of its sine, precise for small angles.
 [[nodiscard]] inline float one_minus_cos(float sin_squared)
 {
@@ -89,16 +79,6 @@ namespace bdpt {
 [[nodiscard]] constexpr SolidAnglePdf cone_pdf(float one_minus_cos_max)
 {
     return {0.5f * inv_pi / one_minus_cos_max};
-}
-
-[[nodiscard]] inline Vec3 square_to_sphere(Vec2 u)
-{
-    return square_to_cone(u, 2.0f);
-}
-
-[[nodiscard]] constexpr SolidAnglePdf sphere_pdf()
-{
-    return {0.25f * inv_pi};
 }
 
 }  // namespace bdpt

@@ -8,11 +8,14 @@ import os
 import pathlib
 import random
 import resource
-import struct
 import subprocess
 import sys
 import tempfile
 import zlib
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "scenes"))
+from png import png_file
 
 COMMAND, SMOKE = sys.argv[1:3]
 
@@ -51,13 +54,7 @@ def run_in_child_process(function):
 
 
 def png(side):
-    rows = b"".join(b"\0" + random.randbytes(4 * side) for _ in range(side))
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 6, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(rows, 1)) + chunk(b"IEND", b""))
+    return png_file(side, side, 6, zlib.compress(b"".join(b"\0" + random.randbytes(4 * side) for _ in range(side)), 1))
 
 
 @run_in_child_process

@@ -66,7 +66,6 @@ TEST_CASE("square_to_disk is uniform")
         const Vec2 p = square_to_disk(u);
         return Vec2{p.x * p.x + p.y * p.y, turn_of(p.x, p.y)};
     });
-    CHECK(disk_pdf().value * pi == Approx(1.0));
     CHECK(square_to_disk({0.5f, 0.5f}) == Vec2{0.0f, 0.0f});
 }
 
@@ -89,7 +88,6 @@ TEST_CASE("square_to_triangle is uniform")
         const float rest = 1.0f - b.x;  // of area rest^2, and along it b.y is uniform
         return Vec2{rest * rest, rest > 0.0f ? b.y / rest : 0.0f};
     });
-    CHECK(triangle_pdf(0.25f).value == 4.0f);
 }
 
 TEST_CASE("square_to_cone is uniform from needles to the sphere")
@@ -109,9 +107,8 @@ TEST_CASE("square_to_cone is uniform from needles to the sphere")
     }
     CHECK(integral([](Vec3 w) { return w.z > 0.75f ? cone_pdf(0.25f).value : 0.0f; }) ==
           Approx(1.0).epsilon(1e-3));
-    CHECK(integral([](Vec3) { return sphere_pdf().value; }) == Approx(1.0));
-    CHECK(cone_pdf(2.0f).value == Approx(sphere_pdf().value));
-    CHECK(square_to_sphere({0.5f, 0.5f}) == Vec3{0.0f, 0.0f, 1.0f});
+    CHECK(integral([](Vec3) { return cone_pdf(2.0f).value; }) == Approx(1.0));
+    CHECK(square_to_cone({0.5f, 0.5f}, 2.0f) == Vec3{0.0f, 0.0f, 1.0f});
 }
 
 TEST_CASE("one_minus_cos keeps the digits of narrow cones")

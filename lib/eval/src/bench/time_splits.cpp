@@ -51,7 +51,7 @@ ordered_json split_json(const TimeSplit& split, const TimeProfile& profile)
             {"pixels", packed_bytes(time_map(profile.pixel_seconds))}};
 }
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& what)
+[[noreturn]] void refuse_split(const fs::path& file, const std::string& what)
 {
     throw Error(ErrorCode::invalid_input,
                 file.string() + ": " + what + "; delete it to measure it again");
@@ -70,10 +70,10 @@ TimeSplit parse_split(const ordered_json& json, IntegratorKind integrator, const
         }
         static_cast<void>(json.at("pixels").get<std::string>());
         if (json.at("integrator").get<std::string>() != to_name(integrator)) {
-            refuse(file, "is of a different integrator than its name");
+            refuse_split(file, "is of a different integrator than its name");
         }
     } catch (const nlohmann::json::exception&) {
-        refuse(file, "lacks values of a time split of bdpt bench");
+        refuse_split(file, "lacks values of a time split of bdpt bench");
     }
     return split;
 }

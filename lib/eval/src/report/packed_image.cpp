@@ -12,7 +12,7 @@ namespace {
 constexpr int mantissa_bits = 9;
 constexpr int exponent_bias = 15;
 constexpr int max_exponent = 31;
-constexpr float max_value = 65408.0f;  // 511 / 512 * 2^16
+constexpr float max_rgb9e5 = 65408.0f;  // 511 / 512 * 2^16
 
 std::string base64(std::span<const Bytef> bytes)
 {
@@ -39,7 +39,7 @@ std::uint32_t pack_rgb9e5(Rgb rgb)
 {
     const auto clamped = [](float value) {
         // NaN is not above 0, so it becomes 0.
-        return value > 0.0f ? std::min(value, max_value) : 0.0f;
+        return value > 0.0f ? std::min(value, max_rgb9e5) : 0.0f;
     };
     const Rgb color(clamped(rgb.r), clamped(rgb.g), clamped(rgb.b));
     const float greatest = std::max({color.r, color.g, color.b});

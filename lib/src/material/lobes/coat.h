@@ -6,6 +6,7 @@
 #include "material/tilted_facet.h"
 #include "math/frame.h"
 
+#include <cstdlib>
 #include <optional>
 
 namespace bdpt {
@@ -59,7 +60,8 @@ public:
     [[nodiscard]] CoatInterreflection interreflection(const CoatedBase& base,
                                                       const CoatLoss* loss) const noexcept
     {
-        return tilted_ ? CoatInterreflection() : even_.interreflection(base, loss);
+        static const bool hbt = std::getenv("HBT") != nullptr;
+        return tilted_ && !hbt ? CoatInterreflection() : even_.interreflection(base, loss);
     }
 
     /// Evaluates the coat, which is grey.

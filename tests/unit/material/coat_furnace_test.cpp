@@ -7,8 +7,6 @@
 #include "statistics.h"
 
 #include <cmath>
-#include <cstdio>
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -130,48 +128,6 @@ TEST_CASE("a coat over the facets of a normal map gives back what the map's mean
             CHECK(sum < 1.005);
             // Maps that hardly lean hardly change what an even surface reflects.
             CHECK((lean > 10.0f * test::degrees || base < 0.5f || sum > 0.985));
-        }
-    }
-}
-
-TEST_CASE("scratch", "[.scratch]")
-{
-    const Rgb white{1.0f};
-    for (const float lean : {5.0f, 15.0f, 30.0f}) {
-        const float a = lean * pi / 180.0f;
-        const Vec3 normal{std::sin(a), 0.0f, std::cos(a)};
-        for (const float coat : {0.0f, 0.3f, 0.8f}) {
-            for (const float base : {0.3f, 0.7f, -1.0f}) {
-                const test::TestedBsdf bsdf({"x", {white, base < 0 ? 0.0f : 1.0f, std::abs(base), base < 0 ? 0.0f : 1.0f}, 1.5f, test::coated(1, coat, normal), true});
-                std::string line;
-                for (const float cosine : {0.95f, 0.7f, 0.4f, 0.15f}) {
-                    double mean = 0, most = 0, least = 9;
-                    for (int k = 0; k < 12; ++k) {
-                        const float phi = 2.0f * pi * (static_cast<float>(k) + 0.5f) / 12;
-                        const float sine = std::sqrt(1 - cosine * cosine);
-                        const double e = albedo_of(bsdf, {sine * std::cos(phi), sine * std::sin(phi), cosine}).mean();
-                        mean += e / 12; most = std::max(most, e); least = std::min(least, e);
-                    }
-                    char text[100];
-                    std::snprintf(text, 100, " %.2f: %.3f [%.3f %.3f]", double(cosine), mean, least, most);
-                    line += text;
-                }
-                std::printf("lean %g coat %g base %g %s\n", double(lean), double(coat), double(base), line.c_str());
-            }
-        }
-    }
-    for (const Body body : {Body::thin_walled, Body::solid}) {
-        for (const float coat : {0.0f, 0.3f, 0.6f, 1.0f}) {
-            for (const float base : {0.0f, 0.3f, 0.6f, 1.0f}) {
-                const test::TestedBsdf bsdf({"x", {white, 0, base, 1, white, 1, body}, 1.5f, test::coated(1, coat)});
-                std::string line;
-                for (const float cosine : {1.0f, 0.7f, 0.4f, 0.15f, -1.0f, -0.8f, -0.7f, -0.4f, -0.15f}) {
-                    char text[100];
-                    std::snprintf(text, 100, " %.2f: %.3f", double(cosine), albedo_of(bsdf, {std::sqrt(1 - cosine * cosine), 0, cosine}).mean());
-                    line += text;
-                }
-                std::printf("%s coat %g glass %g %s\n", body == Body::solid ? "solid" : "thin", double(coat), double(base), line.c_str());
-            }
         }
     }
 }

@@ -85,7 +85,7 @@ TEST_CASE("nothing blocks light from where nothing is known to stand", "[ground]
         }
     }
     CHECK(blocked > rays / 50);
-    CHECK(suspected < 4 * blocked);
+    CHECK(suspected < 5 * blocked / 2);
 }
 
 TEST_CASE("all of the sky's light is open or sampled", "[ground]")

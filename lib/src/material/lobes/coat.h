@@ -6,7 +6,6 @@
 #include "material/tilted_facet.h"
 #include "math/frame.h"
 
-#include <cstdlib>
 #include <optional>
 
 namespace bdpt {
@@ -60,8 +59,7 @@ public:
     [[nodiscard]] CoatInterreflection interreflection(const CoatedBase& base,
                                                       const CoatLoss* loss) const noexcept
     {
-        static const bool hbt = std::getenv("HBT") != nullptr;
-        return tilted_ && !hbt ? CoatInterreflection() : even_.interreflection(base, loss);
+        return tilted_ ? CoatInterreflection() : even_.interreflection(base, loss);
     }
 
     /// Evaluates the coat, which is grey.

@@ -108,7 +108,7 @@ void for_each_block(const SceneGeometry& geometry, double ground, const Visit& v
     }
 }
 
-/// The scene in columns, and in ever larger squares of them: at level l, `side` / 2^l in x and in z.
+/// The scene in columns, and in ever larger squares of them: at level l, `side` / 2^l in x and z.
 struct Pyramid {
     static constexpr std::size_t side = 64;
     static constexpr std::size_t levels = 5;

@@ -180,11 +180,11 @@ float GroundShadow::blocked_light(const Point& point, const GroundSky::Effort& e
 
 /// Estimates light and what is blocked of it from the same samples, so that both are equally wrong:
 /// the shadow is exact where all is blocked.
-GroundShadow::Light GroundShadow::sample_sky(const Point& point, const GroundSky::Effort& effort) const
+GroundShadow::Light GroundShadow::sample_sky(const Point& point,
+                                             const GroundSky::Effort& effort) const
 {
     Light sum{.all = sky_->shares(point.place).open};
-    const Vec2 first =
-        point.sampler.ordered_2d(SampleUse::ground, number_of_ray(RayUse::sky, 0));
+    const Vec2 first = point.sampler.ordered_2d(SampleUse::ground, number_of_ray(RayUse::sky, 0));
     for (std::uint32_t i = 0; i < effort.samples; ++i) {
         const GroundSky::Sample sample =
             sky_->sample(point.place, shifted_point(first, i, effort.samples));
@@ -193,9 +193,9 @@ GroundShadow::Light GroundShadow::sample_sky(const Point& point, const GroundSky
             continue;
         }
         ++point.rays.aov;
-        const Rgb opacity = 1.0f - world_.transmittance_to_infinity(
-                                       point.end, sample.to_light,
-                                       point.segment(number_of_ray(RayUse::sky, static_cast<int>(i))));
+        const std::uint32_t number = number_of_ray(RayUse::sky, static_cast<int>(i));
+        const Rgb opacity = 1.0f - world_.transmittance_to_infinity(point.end, sample.to_light,
+                                                                    point.segment(number));
         add(sum, {luminance(irradiance), luminance(irradiance * opacity)}, effort.weight);
     }
     return sum;
@@ -259,8 +259,9 @@ void GroundShadow::add_lamps(const Point& point, Light& sum) const
     }
 }
 
-GroundShadow::Light GroundShadow::past_scene(const Point& point, LightId id, const IncidentSample& light,
-                                     Rgb irradiance, std::uint32_t ray) const
+GroundShadow::Light GroundShadow::past_scene(const Point& point, LightId id,
+                                             const IncidentSample& light, Rgb irradiance,
+                                             std::uint32_t ray) const
 {
     if (is_useless(irradiance)) {
         return {};

@@ -46,14 +46,12 @@ private:
     void add_sky(const Point& point, Light& sum) const;
     static void add(Light& sum, const Light& light, float weight);
     [[nodiscard]] float blocked_light(const Point& point, const GroundSky::Effort& effort) const;
-    [[nodiscard]] Light sample_sky(const Point& point,
-                                         const GroundSky::Effort& effort) const;
+    [[nodiscard]] Light sample_sky(const Point& point, const GroundSky::Effort& effort) const;
     void add_suns(const Point& point, Light& sum) const;
     void add_lamps(const Point& point, Light& sum) const;
     /// Returns the contribution of a light.
-    [[nodiscard]] Light past_scene(const Point& point, LightId id,
-                                         const IncidentSample& light, Rgb irradiance,
-                                         std::uint32_t ray) const;
+    [[nodiscard]] Light past_scene(const Point& point, LightId id, const IncidentSample& light,
+                                   Rgb irradiance, std::uint32_t ray) const;
     /// Tests whether a surface of the light itself occludes this point on it from the ground.
     [[nodiscard]] bool hides_itself(const Point& point, LightId id, const IncidentSample& light,
                                     SegmentKey segment) const;

@@ -244,7 +244,8 @@ GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
     for (std::size_t i = 1; i < columns_of_strip; ++i) {
         cell += row_of_cells[i] <= cell_unit ? 1U : 0U;
     }
-    const std::uint32_t cell_end = cell + 1 < columns_of_strip ? row_of_cells[cell + 1] : cell_units;
+    const std::uint32_t cell_end =
+        cell + 1 < columns_of_strip ? row_of_cells[cell + 1] : cell_units;
     const auto of_cell = static_cast<float>(cell_end - row_of_cells[cell]);
     const float across =
         std::min((left - static_cast<float>(row_of_cells[cell])) / of_cell, below_one);

@@ -64,7 +64,7 @@ private:
     };
     /// A strip's distribution, in whole numbers so that all strips stay in the fastest cache.
     struct Strip {
-        float scale = 0.0f;                         ///< weight of a unit of `sums`
+        float scale = 0.0f;                          ///< weight of a unit of `sums`
         std::array<std::uint16_t, rows + 1> sums{};  ///< like `RowSums`
     };
     /// Cumulative shares of the cells of a strip in one row, exclusive, in 1/255.

@@ -84,7 +84,8 @@ void AovFilm::add_ground(int x, int y, const GroundLight& light) noexcept
     if (light.shadowed == light.unshadowed) {  // as on most of the ground
         shadowed_[i].add(light_sum);
     } else {
-        shadowed_[i].add_alone(std::min(light.shadowed, ExactSum::max_value));
+        shadowed_[i].add_alone(
+            std::clamp(light.shadowed, -ExactSum::max_value, ExactSum::max_value));
     }
 }
 
@@ -192,7 +193,7 @@ double AovFilm::shadow_opacity(std::size_t pixel, double samples) const
         return 0.0;  // without light there is no shadow
     }
     const double share = static_cast<double>(ground_hits_[pixel]) / samples;
-    return share * (1.0 - shadowed_[pixel].value() / unshadowed);
+    return share * std::min(1.0 - shadowed_[pixel].value() / unshadowed, 1.0);
 }
 
 std::vector<Layer> AovFilm::develop(const Film& film) const

@@ -54,6 +54,26 @@ Sampler::Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_
     segments_ = key_ + split_mix(reversed_index_);
 }
 
+float Sampler::ordered_1d(SampleUse use, std::uint32_t vertex) const
+{
+    const std::uint32_t seed = low_word(bits(first_set(use, vertex), 0));
+    // The first coordinate of a Sobol point is its index with reversed bits.
+    return to_float(kind_ == SamplerKind::sobol
+                        ? reverse_bits(permute_upwards(reverse_bits(reversed_index_), seed))
+                        : seed);
+}
+
+Vec2 Sampler::ordered_2d(SampleUse use, std::uint32_t vertex) const
+{
+    const std::uint64_t seeds = bits(first_set(use, vertex), 0);
+    if (kind_ != SamplerKind::sobol) {
+        return {to_float(low_word(seeds)), to_float(high_word(seeds))};
+    }
+    const std::uint64_t point = sobol_table.first_pair(reversed_index_);
+    return {to_float(reverse_bits(permute_upwards(low_word(point), low_word(seeds)))),
+            to_float(reverse_bits(permute_upwards(high_word(point), high_word(seeds))))};
+}
+
 [[gnu::always_inline]] inline void Sampler::fill_pair(std::size_t first, std::uint64_t point)
 {
     std::uint64_t pair = bits(next_set_ - 1, first / 2);

@@ -56,7 +56,7 @@ public:
     /// Continues with the dimensions of a use at a vertex.
     void start(SampleUse use, std::uint32_t vertex = 0)
     {
-        next_set_ = (std::uint64_t{vertex} * uses + static_cast<std::uint64_t>(use)) * sets_per_use;
+        next_set_ = first_set(use, vertex);
         next_ = set_size;
     }
 
@@ -77,6 +77,13 @@ public:
         return {set_[at], to_float(static_cast<std::uint32_t>(lower >> 32U))};
     }
 
+    /// Returns a point of a use at a vertex for which `start` is never called. It is cheaper: such
+    /// sets have their points in the same order, so estimates from two of them may be added, but a
+    /// product of both would be biased.
+    [[nodiscard]] Vec2 ordered_2d(SampleUse use, std::uint32_t vertex) const;
+    /// Returns its x at a fraction of the cost.
+    [[nodiscard]] float ordered_1d(SampleUse use, std::uint32_t vertex) const;
+
     /// Returns the key of the segment with `s` vertices on the light's side and `t` on the
     /// camera's: (s, t) for a connection, (0, t) where the camera subpath continues from its t
     /// vertices, (s, 0) likewise for the light subpath. Its numbers are independent of those of
@@ -96,6 +103,11 @@ private:
     static constexpr std::uint64_t sets_per_use = 64;
     static constexpr std::uint64_t hashes_per_set = 8;
     static constexpr std::uint64_t fine_hashes = 4;  ///< first hash for `next_fine`
+
+    [[nodiscard]] static constexpr std::uint64_t first_set(SampleUse use, std::uint32_t vertex)
+    {
+        return (std::uint64_t{vertex} * uses + static_cast<std::uint64_t>(use)) * sets_per_use;
+    }
 
     /// Converts the upper 24 bits: all floats of that spacing in [0, 1).
     [[nodiscard]] static constexpr float to_float(std::uint32_t bits)

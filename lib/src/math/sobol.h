@@ -13,8 +13,7 @@ using Sobol4 = std::array<std::uint32_t, 4>;
 /// Reverses the order of the bits.
 [[nodiscard]] constexpr std::uint32_t reverse_bits(std::uint32_t x)
 {
-    x = x << 16U | x >> 16U;
-    x = (x & 0x00ff00ffU) << 8U | (x >> 8U & 0x00ff00ffU);
+    x = __builtin_bswap32(x);
     x = (x & 0x0f0f0f0fU) << 4U | (x >> 4U & 0x0f0f0f0fU);
     x = (x & 0x33333333U) << 2U | (x >> 2U & 0x33333333U);
     return (x & 0x55555555U) << 1U | (x >> 1U & 0x55555555U);

@@ -161,4 +161,29 @@ TEST_CASE("a choice has 48 bits", "[sampler]")
     }
 }
 
+TEST_CASE("points in their original order are uniform, and nets within a pixel", "[sampler]")
+{
+    for (const auto kind : kinds) {
+        std::vector<double> cells(16 * 16);
+        for (int x = 0; x < 2000; ++x) {
+            std::vector<int> squares(16);
+            for (std::int64_t index = 0; index < 32; index += 2) {
+                const Sampler sampler(kind, 1, x, 0, index);
+                const Vec2 u = sampler.ordered_2d(SampleUse::ground, 4);
+                REQUIRE(sampler.ordered_1d(SampleUse::ground, 4) == u.x);
+                ++cells[static_cast<std::size_t>(u.y * 16.0f) * 16 +
+                        static_cast<std::size_t>(u.x * 16.0f)];
+                ++squares[static_cast<std::size_t>(u.y * 4.0f) * 4 +
+                          static_cast<std::size_t>(u.x * 4.0f)];
+            }
+            if (kind == SamplerKind::sobol) {
+                REQUIRE(squares == std::vector<int>(16, 1));
+            }
+        }
+        const std::vector<double> expected(cells.size(), 1.0 / 256);
+        CAPTURE(static_cast<int>(kind));
+        CHECK(test::chi_square(cells, expected).p_value > 1e-4);
+    }
+}
+
 }  // namespace bdpt::sampler_test

@@ -48,7 +48,7 @@ private:
 /// Direct light on the ground where a camera ray hits it: luminance of its irradiance [lx].
 struct GroundLight {
     float unshadowed = 0.0f;  ///< without the scene in the way
-    float shadowed = 0.0f;    ///< at most `unshadowed`
+    float shadowed = 0.0f;    ///< at most `unshadowed`; an estimate may be negative
 };
 
 /// The source of the sample counts of pixels.

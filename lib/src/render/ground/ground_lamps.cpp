@@ -71,7 +71,7 @@ GroundLamps::GroundLamps(const LightSet& lights, const GroundOccluders& occluder
     });
     // The greatest share around each place, for the estimate of one may have missed a lamp.
     constexpr float min_chance = 1.0f / 128.0f;
-    constexpr float certain_share = 0.125f;
+    constexpr float certain_share = 0.25f;
     constexpr std::size_t side = GroundOccluders::side;
     chances_.resize(shares.size());
     for (std::size_t z = 0; z < side; ++z) {

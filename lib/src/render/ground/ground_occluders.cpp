@@ -108,6 +108,13 @@ void for_each_block(const SceneGeometry& geometry, double ground, const Visit& v
     }
 }
 
+/// The scene in columns, and in ever larger squares of them: at level l, `side` / 2^l in x and z.
+struct Pyramid {
+    static constexpr std::size_t side = 64;
+    static constexpr std::size_t levels = 5;
+    std::array<std::vector<Block>, levels> blocks;
+};
+
 /// Partition of the scene into columns, each from the lowest to the highest surface in it.
 class Columns {
 public:
@@ -130,32 +137,33 @@ public:
             }
         }
     }
-    /// Returns the occluders above the ground, with a margin for rounding, in squares of `width` x
-    /// `width` columns.
-    [[nodiscard]] std::vector<Block> blocks(std::size_t width) const
+    /// Returns the occluders above the ground, with a margin for rounding, by level: columns, then
+    /// squares of 2 x 2 of the previous level.
+    [[nodiscard]] Pyramid pyramid() const
     {
-        std::vector<Block> result;
-        for (std::size_t z = 0; z < side; z += width) {
-            for (std::size_t x = 0; x < side; x += width) {
-                Block block;
-                for (std::size_t i = 0; i < width * width; ++i) {
-                    block.add(columns_[(z + i / width) * side + x + i % width]);
+        Pyramid result;
+        for (std::size_t level = 0; level < Pyramid::levels; ++level) {
+            const std::size_t width = Pyramid::side >> level;
+            result.blocks[level].resize(width * width);
+            for (std::size_t z = 0; z < Pyramid::side; ++z) {
+                for (std::size_t x = 0; x < Pyramid::side; ++x) {
+                    const Block& column = columns_[z * Pyramid::side + x];
+                    if (!(column.top + margin_ > 0.0)) {
+                        continue;
+                    }
+                    result.blocks[level][(z >> level) * width + (x >> level)].add(
+                        {.base = {column.base.x0 - margin_, column.base.z0 - margin_,
+                                  column.base.x1 + margin_, column.base.z1 + margin_},
+                         .bottom = column.bottom - margin_,
+                         .top = column.top + margin_});
                 }
-                block.top += margin_;
-                if (block.is_empty()) {
-                    continue;
-                }
-                block.bottom -= margin_;
-                block.base = {block.base.x0 - margin_, block.base.z0 - margin_,
-                              block.base.x1 + margin_, block.base.z1 + margin_};
-                result.push_back(block);
             }
         }
         return result;
     }
 
 private:
-    static constexpr std::size_t side = 16;
+    static constexpr std::size_t side = Pyramid::side;
 
     [[nodiscard]] static std::array<std::size_t, 2> cells(double from, double to, double begin,
                                                           double end)
@@ -176,7 +184,7 @@ private:
 
     Rectangle base_;
     double margin_;
-    std::array<Block, side * side> columns_;
+    std::vector<Block> columns_{side * side};
 };
 
 /// Azimuth and distance of an occluder, seen from anywhere in a place: azimuths from `from` on, in
@@ -184,38 +192,41 @@ private:
 struct Sector {
     double from = 0.0;
     double width = static_cast<double>(GroundOccluders::strips);
-    double nearest = 0.0;   // [m]
-    double farthest = 0.0;  // [m]
+    double nearest_squared = 0.0;   // [m^2]
+    double farthest_squared = 0.0;  // [m^2]
 };
 
 Sector find_sector(const Rectangle& r)
 {
     Sector result;
-    const auto length = [](double x, double z) { return std::sqrt(x * x + z * z); };
-    result.farthest = length(std::max(-r.x0, r.x1), std::max(-r.z0, r.z1));
+    const auto length_squared = [](double x, double z) { return x * x + z * z; };
+    result.farthest_squared = length_squared(std::max(-r.x0, r.x1), std::max(-r.z0, r.z1));
     if (r.contains_origin()) {
         return result;
     }
-    result.nearest = length(std::max({r.x0, 0.0, -r.x1}), std::max({r.z0, 0.0, -r.z1}));
+    result.nearest_squared =
+        length_squared(std::max({r.x0, 0.0, -r.x1}), std::max({r.z0, 0.0, -r.z1}));
     // The rectangle is on one side of a line through the origin, so the first and the last azimuth,
     // in ascending order, are at corners.
-    const std::array<std::array<double, 2>, 4> corners{
-        {{r.x0, r.z0}, {r.x0, r.z1}, {r.x1, r.z0}, {r.x1, r.z1}}};
-    auto first = corners[0];
-    auto last = corners[0];
-    const auto is_before = [](const auto& a, const auto& b) {
-        return a[1] * b[0] - a[0] * b[1] > 0.0;
-    };
-    for (const auto& corner : corners) {
-        first = is_before(corner, first) ? corner : first;
-        last = is_before(last, corner) ? corner : last;
-    }
-    const auto azimuth = [](const auto& corner) {
+    const double near_x = r.x0 > 0.0 ? r.x0 : r.x1;  // if it extends to both sides in z
+    const double near_z = r.z0 > 0.0 ? r.z0 : r.z1;
+    const auto azimuth = [](double x, double z) {
         return static_cast<double>(
-            GroundOccluders::azimuth(static_cast<float>(corner[0]), static_cast<float>(corner[1])));
+            GroundOccluders::azimuth(static_cast<float>(x), static_cast<float>(z)));
     };
-    result.from = azimuth(first);
-    result.width = azimuth(last) - result.from;
+    result.from = azimuth(r.z0 > 0.0   ? r.x0
+                          : r.z1 < 0.0 ? r.x1
+                                       : near_x,
+                          r.x0 > 0.0   ? r.z1
+                          : r.x1 < 0.0 ? r.z0
+                                       : near_z);
+    const double last = azimuth(r.z0 > 0.0   ? r.x1
+                                : r.z1 < 0.0 ? r.x0
+                                             : near_x,
+                                r.x0 > 0.0   ? r.z0
+                                : r.x1 < 0.0 ? r.z1
+                                             : near_z);
+    result.width = last - result.from;
     result.width += result.width < 0.0 ? static_cast<double>(GroundOccluders::strips) : 0.0;
     return result;
 }
@@ -223,36 +234,96 @@ Sector find_sector(const Rectangle& r)
 /// Exceeds the rounding of angles, in strips and rows.
 constexpr double rounding = 1e-3;
 
-double row_at(double distance, double height)
+/// Returns the row of a polar angle by the square of its sine.
+double row_at(double sine_squared)
 {
     constexpr double rows = GroundOccluders::rows;
     return rows * 2.0 * static_cast<double>(inv_pi) *
            static_cast<double>(
-               atan2_exact(static_cast<float>(distance), static_cast<float>(height)));
+               atan2_exact(static_cast<float>(std::sqrt(sine_squared)),
+                           static_cast<float>(std::sqrt(std::max(1.0 - sine_squared, 0.0)))));
 }
 
-void add(const Block& block, const Rectangle& place, GroundOccluders::Skyline& skyline)
-{
-    const Sector sector = find_sector({block.base.x0 - place.x1, block.base.z0 - place.z1,
-                                       block.base.x1 - place.x0, block.base.z1 - place.z0});
-    constexpr double rows = GroundOccluders::rows;
-    constexpr auto strips = static_cast<std::int64_t>(GroundOccluders::strips);
-    const auto first_row = static_cast<std::uint8_t>(
-        std::clamp(row_at(sector.nearest, block.top) - rounding, 0.0, rows - 1.0));
-    const auto end_row = static_cast<std::uint8_t>(std::ceil(
-        std::clamp(row_at(sector.farthest, std::max(block.bottom, 0.0)) + rounding, 1.0, rows)));
-    const auto begin = static_cast<std::int64_t>(std::floor(sector.from - rounding));
-    const auto end =
-        std::min(static_cast<std::int64_t>(std::ceil(sector.from + sector.width + rounding)),
-                 begin + strips);
-    for (std::int64_t i = begin; i < end; ++i) {
-        auto& blocked = skyline[static_cast<std::size_t>((i + strips) % strips)];
-        blocked = blocked.begin == blocked.end
-                      ? GroundOccluders::Rows{first_row, end_row}
-                      : GroundOccluders::Rows{std::min(blocked.begin, first_row),
-                                              std::max(blocked.end, end_row)};
+/// Finds the directions that the scene may block, seen from anywhere in a place.
+class View {
+public:
+    View(const Pyramid& scene, const Rectangle& place) : scene_(scene), place_(place) {}
+
+    [[nodiscard]] GroundOccluders::Skyline find()
+    {
+        constexpr std::size_t top = Pyramid::levels - 1;
+        constexpr std::size_t width = Pyramid::side >> top;
+        for (std::size_t i = 0; i < width * width; ++i) {
+            look_at(top, i % width, i / width);
+        }
+        constexpr double rows = GroundOccluders::rows;
+        GroundOccluders::Skyline skyline;
+        for (std::size_t i = 0; i < strips_.size(); ++i) {
+            if (strips_[i].first <= strips_[i].last) {
+                skyline[i].begin = static_cast<std::uint8_t>(
+                    std::clamp(row_at(strips_[i].first) - rounding, 0.0, rows - 1.0));
+                skyline[i].end = static_cast<std::uint8_t>(
+                    std::ceil(std::clamp(row_at(strips_[i].last) + rounding, 1.0, rows)));
+            }
+        }
+        return skyline;
     }
-}
+
+private:
+    /// Squared sines of the polar angles that are blocked. In a strip the projected solid angle of
+    /// an interval is proportional to their difference.
+    struct Strip {
+        double first = 2.0;
+        double last = -1.0;
+    };
+
+    /// Adds a block, or parts of it where that makes a difference: the nearest first, as they often
+    /// cover the others.
+    void look_at(std::size_t level, std::size_t x, std::size_t z)
+    {
+        const Block& block = scene_.blocks[level][z * (Pyramid::side >> level) + x];
+        if (block.is_empty()) {
+            return;
+        }
+        const Sector sector = find_sector({block.base.x0 - place_.x1, block.base.z0 - place_.z1,
+                                           block.base.x1 - place_.x0, block.base.z1 - place_.z0});
+        const auto sine_squared = [](double distance_squared, double height) {
+            return height > 0.0 ? distance_squared / (distance_squared + height * height) : 1.0;
+        };
+        const double first = sine_squared(sector.nearest_squared, block.top);
+        const double last = sine_squared(sector.farthest_squared, block.bottom);
+        constexpr auto strips = static_cast<std::int64_t>(GroundOccluders::strips);
+        const auto begin = static_cast<std::int64_t>(std::floor(sector.from - rounding));
+        const auto end =
+            std::min(static_cast<std::int64_t>(std::ceil(sector.from + sector.width + rounding)),
+                     begin + strips);
+        const auto strip = [&](std::int64_t i) -> Strip& {
+            return strips_[static_cast<std::size_t>((i + strips) % strips)];
+        };
+        double more = 0.0;  // that the block as a whole would cover
+        for (std::int64_t i = begin; i < end; ++i) {
+            more = std::max({more, strip(i).first - first, last - strip(i).last});
+        }
+        constexpr double little = 0.02;
+        constexpr double narrow = 1.0;  // strips
+        if (level == 0 || more <= little || sector.width < narrow) {
+            for (std::int64_t i = begin; i < end; ++i) {
+                strip(i) = {std::min(strip(i).first, first), std::max(strip(i).last, last)};
+            }
+            return;
+        }
+        const bool is_east = place_.x0 + place_.x1 > block.base.x0 + block.base.x1;
+        const bool is_south = place_.z0 + place_.z1 > block.base.z0 + block.base.z1;
+        const std::size_t nearest = (is_east ? 1U : 0U) + (is_south ? 2U : 0U);
+        for (const std::size_t part : {nearest, nearest ^ 1U, nearest ^ 2U, nearest ^ 3U}) {
+            look_at(level - 1, 2 * x + (part & 1U), 2 * z + (part >> 1U));
+        }
+    }
+
+    const Pyramid& scene_;
+    const Rectangle& place_;
+    std::array<Strip, GroundOccluders::strips> strips_{};
+};
 
 }  // namespace
 
@@ -288,12 +359,7 @@ GroundOccluders::GroundOccluders(const SceneGeometry& geometry, float height)
     center_ = {static_cast<float>(0.5 * (base.x0 + base.x1)),
                static_cast<float>(0.5 * (base.z0 + base.z1))};
     reach_ = static_cast<float>(half);
-    // From farther away, coarser columns suffice.
-    const std::array<std::vector<Block>, 3> blocks{columns.blocks(1), columns.blocks(2),
-                                                   columns.blocks(4)};
-    const auto distance = [](std::size_t i) {  // from the centre, in eighths of the grid
-        return i < side / 2 ? (side / 2 - 1 - i) / (side / 8) : (i - side / 2) / (side / 8);
-    };
+    const Pyramid scene = columns.pyramid();
     // The edges of places are those of `place`, slightly enlarged.
     const auto edge = [&](std::size_t i, float center) {
         constexpr double far_away = 1e18;
@@ -311,10 +377,7 @@ GroundOccluders::GroundOccluders(const SceneGeometry& geometry, float height)
                      place.z0 - more - 1e-5 * std::abs(place.z0),
                      place.x1 + more + 1e-5 * std::abs(place.x1),
                      place.z1 + more + 1e-5 * std::abs(place.z1)};
-            const std::size_t far = std::max(distance(x), distance(z));
-            for (const Block& block : blocks[far < 2 ? 0 : far - 1]) {
-                add(block, place, skylines_[z * side + x]);
-            }
+            skylines_[z * side + x] = View(scene, place).find();
         }
     });
 }

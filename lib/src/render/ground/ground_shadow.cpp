@@ -22,17 +22,13 @@ bool is_useless(Rgb estimate)
     return is_black(estimate) || !is_finite(estimate);
 }
 
-void add(GroundLight& sum, const GroundLight& light, float weight)
-{
-    sum.unshadowed += weight * light.unshadowed;
-    sum.shadowed += weight * light.shadowed;
-}
+enum class RayUse : std::uint32_t { sky, sun, lamp, choice_of_lamp };
 
 /// Returns the index of a random number: each light, and each shadow ray, has its own.
-std::uint32_t number_of_ray(std::uint32_t kind, int sample)
+std::uint32_t number_of_ray(RayUse kind, int sample)
 {
-    constexpr std::uint32_t kinds = 3;
-    return kinds * static_cast<std::uint32_t>(sample) + kind;
+    constexpr std::uint32_t kinds = 4;
+    return kinds * static_cast<std::uint32_t>(sample) + static_cast<std::uint32_t>(kind);
 }
 
 }  // namespace
@@ -127,57 +123,91 @@ std::optional<GroundLight> GroundShadow::light_at(const CameraRay& ray,
                       .moment = moment,
                       .sampler = sampler,
                       .rays = rays};
-    GroundLight sum;
+    Light sum;
     add_sky(point, sum);
     add_suns(point, sum);
     add_lamps(point, sum);
-    return sum;
+    return GroundLight{.unshadowed = sum.all, .shadowed = sum.all - sum.blocked};
+}
+
+void GroundShadow::add(Light& sum, const Light& light, float weight)
+{
+    sum.all += weight * light.all;
+    sum.blocked += weight * light.blocked;
 }
 
 /// Adds light of the sky. The number of samples increases with the fraction of the sky that the
 /// scene may block: only that part is noisy.
-void GroundShadow::add_sky(const Point& point, GroundLight& sum) const
+void GroundShadow::add_sky(const Point& point, Light& sum) const
 {
     if (!sky_) {
         return;
     }
+    sum.all = sky_->irradiance();
     if (occluders_->empty()) {
-        sum = {.unshadowed = sky_->irradiance(), .shadowed = sky_->irradiance()};
         return;
     }
-    const float open = sky_->shares(point.place).open;
-    sum = {.unshadowed = open, .shadowed = open};
     const GroundSky::Effort effort = sky_->effort(point.place);
-    if (effort.samples == 0) {
-        return;
-    }
-    point.sampler.start(SampleUse::ground, number_of_ray(0, 0));
-    Vec2 first = point.sampler.next_2d();
-    if (!(first.x < effort.chance)) {
-        return;
-    }
-    first.x = effort.samples == 1 ? first.x / effort.chance : first.x;
-    for (std::uint32_t i = 0; i < effort.samples; ++i) {
-        const GroundSky::Sample sample =
-            sky_->sample(point.place, shifted_point(first, i, effort.samples));
-        if (is_useless(sample.irradiance)) {
-            continue;
-        }
-        ++point.rays.aov;
-        const Rgb transmittance = world_.transmittance_to_infinity(
-            point.end, sample.to_light, point.segment(number_of_ray(0, static_cast<int>(i))));
-        add(sum, {luminance(sample.irradiance), luminance(sample.irradiance * transmittance)},
-            effort.weight);
+    if (effort.samples > 1) {
+        sum = sample_sky(point, effort);
+    } else if (effort.samples == 1) {
+        sum.blocked = blocked_light(point, effort);
     }
 }
 
-void GroundShadow::add_suns(const Point& point, GroundLight& sum) const
+/// Estimates light that the scene blocks, where it is a small part of all. Most estimates are zero.
+float GroundShadow::blocked_light(const Point& point, const GroundSky::Effort& effort) const
+{
+    const std::uint32_t number = number_of_ray(RayUse::sky, 0);
+    if (!(point.sampler.ordered_1d(SampleUse::ground, number) < effort.chance)) {
+        return 0.0f;
+    }
+    Vec2 u = point.sampler.ordered_2d(SampleUse::ground, number);
+    u.x /= effort.chance;
+    const GroundSky::Sample sample = sky_->sample(point.place, u);
+    if (!(sample.over_density > 0.0f)) {
+        return 0.0f;
+    }
+    ++point.rays.aov;
+    const Rgb opacity = 1.0f - world_.transmittance_to_infinity(point.end, sample.to_light,
+                                                                point.segment(number));
+    if (is_black(opacity)) {
+        return 0.0f;
+    }
+    const Rgb blocked = sky_->irradiance(sample) * opacity;
+    return is_useless(blocked) ? 0.0f : effort.weight * luminance(blocked);
+}
+
+/// Estimates light and what is blocked of it from the same samples, so that both are equally wrong:
+/// the shadow is exact where all is blocked.
+GroundShadow::Light GroundShadow::sample_sky(const Point& point,
+                                             const GroundSky::Effort& effort) const
+{
+    Light sum{.all = sky_->shares(point.place).open};
+    const Vec2 first = point.sampler.ordered_2d(SampleUse::ground, number_of_ray(RayUse::sky, 0));
+    for (std::uint32_t i = 0; i < effort.samples; ++i) {
+        const GroundSky::Sample sample =
+            sky_->sample(point.place, shifted_point(first, i, effort.samples));
+        const Rgb irradiance = sky_->irradiance(sample);
+        if (is_useless(irradiance)) {
+            continue;
+        }
+        ++point.rays.aov;
+        const std::uint32_t number = number_of_ray(RayUse::sky, static_cast<int>(i));
+        const Rgb opacity = 1.0f - world_.transmittance_to_infinity(point.end, sample.to_light,
+                                                                    point.segment(number));
+        add(sum, {luminance(irradiance), luminance(irradiance * opacity)}, effort.weight);
+    }
+    return sum;
+}
+
+void GroundShadow::add_suns(const Point& point, Light& sum) const
 {
     // If there are more lights, a random subset is weighted by the inverse of its fraction.
     constexpr std::size_t most = 4;
     const std::size_t samples = std::min(suns_.size(), most);
     for (std::size_t i = 0; i < samples; ++i) {
-        const std::uint32_t number = number_of_ray(1, static_cast<int>(i));
+        const std::uint32_t number = number_of_ray(RayUse::sun, static_cast<int>(i));
         std::size_t which = i;
         if (suns_.size() > most) {
             point.sampler.start(SampleUse::ground, number);
@@ -196,7 +226,7 @@ void GroundShadow::add_suns(const Point& point, GroundLight& sum) const
     }
 }
 
-void GroundShadow::add_lamps(const Point& point, GroundLight& sum) const
+void GroundShadow::add_lamps(const Point& point, Light& sum) const
 {
     if (!lamps_) {
         return;
@@ -206,13 +236,13 @@ void GroundShadow::add_lamps(const Point& point, GroundLight& sum) const
     const float chance = lamps_->chance(point.place);
     const LightSet& lights = world_.lights();
     for (int i = 0; i < samples; ++i) {
-        const std::uint32_t number = number_of_ray(2, i);
-        point.sampler.start(SampleUse::ground, number);
-        Vec2 u = point.sampler.next_2d();
-        if (!(u.x < chance)) {
+        const std::uint32_t number = number_of_ray(RayUse::lamp, i);
+        if (!(point.sampler.ordered_1d(SampleUse::ground, number) < chance)) {
             continue;
         }
+        Vec2 u = point.sampler.ordered_2d(SampleUse::ground, number);
         u.x /= chance;
+        point.sampler.start(SampleUse::ground, number_of_ray(RayUse::choice_of_lamp, i));
         const auto choice =
             lights.choose_placed(point.receiver(), fine_uniform(point.sampler.next_fine()));
         if (!choice) {
@@ -229,15 +259,16 @@ void GroundShadow::add_lamps(const Point& point, GroundLight& sum) const
     }
 }
 
-GroundLight GroundShadow::past_scene(const Point& point, LightId id, const IncidentSample& light,
-                                     Rgb irradiance, std::uint32_t ray) const
+GroundShadow::Light GroundShadow::past_scene(const Point& point, LightId id,
+                                             const IncidentSample& light, Rgb irradiance,
+                                             std::uint32_t ray) const
 {
     if (is_useless(irradiance)) {
         return {};
     }
     const float all = luminance(irradiance);
     if (!occluders_->may_block(point.place, light.wi)) {
-        return {.unshadowed = all, .shadowed = all};
+        return {.all = all};
     }
     ++point.rays.aov;
     const SegmentKey segment = point.segment(ray);
@@ -247,7 +278,7 @@ GroundLight GroundShadow::past_scene(const Point& point, LightId id, const Incid
     if (is_black(open) && hides_itself(point, id, light, segment)) {
         return {};
     }
-    return {.unshadowed = all, .shadowed = luminance(irradiance * open)};
+    return {.all = all, .blocked = luminance(irradiance * (1.0f - open))};
 }
 
 bool GroundShadow::hides_itself(const Point& point, LightId id, const IncidentSample& light,

@@ -37,14 +37,21 @@ public:
 
 private:
     struct Point;
+    /// Luminance of irradiance [lx].
+    struct Light {
+        float all = 0.0f;
+        float blocked = 0.0f;  // by the scene; an estimate may exceed `all`
+    };
     [[nodiscard]] std::optional<SegmentEnd> meet(const CameraRay& ray) const;
-    void add_sky(const Point& point, GroundLight& sum) const;
-    void add_suns(const Point& point, GroundLight& sum) const;
-    void add_lamps(const Point& point, GroundLight& sum) const;
-    /// Returns the contribution of a light without and with occlusion by the scene.
-    [[nodiscard]] GroundLight past_scene(const Point& point, LightId id,
-                                         const IncidentSample& light, Rgb irradiance,
-                                         std::uint32_t ray) const;
+    void add_sky(const Point& point, Light& sum) const;
+    static void add(Light& sum, const Light& light, float weight);
+    [[nodiscard]] float blocked_light(const Point& point, const GroundSky::Effort& effort) const;
+    [[nodiscard]] Light sample_sky(const Point& point, const GroundSky::Effort& effort) const;
+    void add_suns(const Point& point, Light& sum) const;
+    void add_lamps(const Point& point, Light& sum) const;
+    /// Returns the contribution of a light.
+    [[nodiscard]] Light past_scene(const Point& point, LightId id, const IncidentSample& light,
+                                   Rgb irradiance, std::uint32_t ray) const;
     /// Tests whether a surface of the light itself occludes this point on it from the ground.
     [[nodiscard]] bool hides_itself(const Point& point, LightId id, const IncidentSample& light,
                                     SegmentKey segment) const;

@@ -12,6 +12,7 @@ namespace bdpt {
 namespace {
 
 constexpr float below_one = 0x1.fffffep-1f;
+constexpr std::uint32_t cell_units = 255;  // cells of a row add up to it
 
 /// Returns the unit direction of an azimuth, measured as in `GroundOccluders`, and a polar angle.
 Vec3 to_direction(float azimuth, float sine, float cosine)
@@ -28,7 +29,8 @@ GroundSky::Effort choose_effort(const GroundSky::Shares& shares)
     }
     constexpr float samples_of_all = 4.0f;  // samples if all of the sky may be blocked
     const float wanted = samples_of_all * shares.exposed / (shares.open + shares.exposed);
-    const auto samples = static_cast<std::uint32_t>(std::ceil(wanted));
+    constexpr float most = 3.0f;  // more cost more than they help where the scene blocks most
+    const auto samples = static_cast<std::uint32_t>(std::ceil(std::min(wanted, most)));
     const float chance = std::min(wanted, 1.0f);
     return {.samples = samples,
             .chance = chance,
@@ -43,20 +45,40 @@ std::size_t count_up_to(const Number* numbers, std::size_t n, Number x, std::siz
     std::size_t count = 0;
     for (std::size_t step = half; step > 0; step /= 2) {
         const std::size_t next = count + step;
-        const bool is_up_to = numbers[std::min(next, std::max<std::size_t>(n, 1)) - 1] <= x;
-        count = (next <= n && is_up_to) ? next : count;
+        const auto is_in = static_cast<std::size_t>(next <= n);
+        // Reads the first number, which is always there, in place of those beyond the end.
+        const auto is_up_to = static_cast<std::size_t>(numbers[(next - 1) * is_in] <= x);
+        count += step * (is_in & is_up_to);
     }
     return count;
 }
 
+/// Rounds positive weights to whole numbers that add up to `sum`, none of them to zero. There must
+/// be fewer weights than `sum`. Returns the sums of those before each; all zero without weights.
 template <std::size_t count>
-double compute_sum(const std::array<float, count>& numbers)
+std::array<std::uint32_t, count + 1> to_whole(const std::array<double, count>& weights,
+                                              std::uint32_t sum)
 {
-    double sum = 0.0;
-    for (const float number : numbers) {
-        sum += static_cast<double>(number);
+    double all = 0.0;
+    std::uint32_t positive = 0;
+    for (const double weight : weights) {
+        all += weight;
+        positive += weight > 0.0 ? 1U : 0U;
     }
-    return sum;
+    std::array<std::uint32_t, count + 1> result{};
+    if (!(all > 0.0)) {
+        return result;
+    }
+    double before = 0.0;
+    std::uint32_t ones = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        before += weights[i];
+        ones += weights[i] > 0.0 ? 1U : 0U;
+        result[i + 1] = ones + static_cast<std::uint32_t>(std::floor(
+                                   before / all * static_cast<double>(sum - positive) + 1e-9));
+    }
+    result[count] = sum;
+    return result;
 }
 
 }  // namespace
@@ -64,8 +86,8 @@ double compute_sum(const std::array<float, count>& numbers)
 GroundSky::GroundSky(const EnvironmentLight& sky, const GroundOccluders& occluders)
     : sky_(sky),
       occluders_(occluders),
+      strips_(strips),
       cells_(strips * rows),
-      weights_(strips),
       irradiances_(strips)
 {
     for (std::size_t row = 0; row <= rows; ++row) {
@@ -92,7 +114,7 @@ GroundSky::GroundSky(const EnvironmentLight& sky, const GroundOccluders& occlude
         for (std::size_t strip = 0; strip < strips; ++strip) {
             const GroundOccluders::Rows blocked = skyline[strip];
             exposed += irradiances_[strip][blocked.end] - irradiances_[strip][blocked.begin];
-            weight += weights_[strip][blocked.end] - weights_[strip][blocked.begin];
+            weight += static_cast<double>(this->weight(strip, blocked));
             place.weights[strip] = static_cast<float>(weight);
         }
         place.weight = place.weights.back();
@@ -138,6 +160,7 @@ void GroundSky::fill_cells()
     });
     // A cell whose points are all dark may have light between them if its neighbours do.
     constexpr float min_share = 0.01f;
+    Weights weights(columns);
     tbb::parallel_for(std::size_t{0}, columns, [&](std::size_t column) {
         for (std::size_t row = 0; row < rows; ++row) {
             float most = 0.0f;
@@ -148,16 +171,10 @@ void GroundSky::fill_cells()
                     most = std::max(most, means[x][y]);
                 }
             }
-            cells(column / columns_of_strip, row)[column % columns_of_strip] =
-                std::max(means[column][row], min_share * most);
+            weights[column][row] = std::max(means[column][row], min_share * most);
         }
     });
-    for (std::size_t strip = 0; strip < strips; ++strip) {
-        RowSums& sums = weights_[strip];
-        for (std::size_t row = 0; row < rows; ++row) {
-            sums[row + 1] = sums[row] + compute_sum(cells(strip, row));
-        }
-    }
+    fill_distribution(weights);
     for (std::size_t column = 0; column < columns; ++column) {
         RowSums& strip = irradiances_[column / columns_of_strip];
         double above = 0.0;
@@ -165,6 +182,30 @@ void GroundSky::fill_cells()
             above += static_cast<double>(means[column][row]);
             strip[row + 1] += above;
         }
+    }
+}
+
+void GroundSky::fill_distribution(const Weights& weights)
+{
+    for (std::size_t strip = 0; strip < strips; ++strip) {
+        std::array<double, rows> of_rows{};
+        double all = 0.0;
+        for (std::size_t row = 0; row < rows; ++row) {
+            std::array<double, columns_of_strip> of_cells{};
+            for (std::size_t i = 0; i < columns_of_strip; ++i) {
+                of_cells[i] = static_cast<double>(weights[strip * columns_of_strip + i][row]);
+                of_rows[row] += of_cells[i];
+            }
+            all += of_rows[row];
+            const auto sums = to_whole(of_cells, cell_units);
+            for (std::size_t i = 0; i < columns_of_strip; ++i) {
+                cells_[strip * rows + row][i] = static_cast<std::uint8_t>(sums[i]);
+            }
+        }
+        constexpr std::uint32_t units = 65535;
+        const auto sums = to_whole(of_rows, units);
+        strips_[strip].scale = static_cast<float>(all / units);
+        std::copy(sums.begin(), sums.end(), strips_[strip].sums.begin());
     }
 }
 
@@ -177,36 +218,37 @@ GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
     const std::size_t strip = count_up_to(from.weights.data(), strips - 1, target, strips / 2);
     const GroundOccluders::Rows blocked = occluders_.skyline(place)[strip];
     // A row of it, by the second.
-    const RowSums& sums = weights_[strip];
-    const double weight = sums[blocked.end] - sums[blocked.begin];
-    if (!(weight > 0.0)) {
+    const auto& sums = strips_[strip].sums;
+    const int units = sums[blocked.end] - sums[blocked.begin];
+    if (units == 0) {
         return nothing;
     }
-    const double height = sums[blocked.begin] + static_cast<double>(u.y) * weight;
+    const float up_to = std::min(u.y, below_one) * static_cast<float>(units);
+    const int unit = std::min(static_cast<int>(up_to), units - 1);
     const std::size_t row =
-        blocked.begin + count_up_to(sums.data() + blocked.begin + 1,
-                                    std::size_t{blocked.end} - blocked.begin - 1U, height, rows / 2);
+        blocked.begin +
+        count_up_to(sums.data() + blocked.begin + 1, std::size_t{blocked.end} - blocked.begin - 1U,
+                    static_cast<std::uint16_t>(sums[blocked.begin] + unit), rows / 2);
     const auto of_row = static_cast<float>(sums[row + 1] - sums[row]);
-    if (!(of_row > 0.0f)) {
-        return nothing;
-    }
     const float along =
-        std::min(std::max(static_cast<float>(height - sums[row]), 0.0f) / of_row, below_one);
+        std::min((up_to - static_cast<float>(sums[row] - sums[blocked.begin])) / of_row, below_one);
     // A cell of both, by what is left of the first.
-    const Cells& row_of_cells = cells(strip, row);
     const float before = strip > 0 ? from.weights[strip - 1] : 0.0f;
-    float left = (target - before) / static_cast<float>(weight) * of_row;
+    const float left =
+        std::clamp((target - before) / (strips_[strip].scale * static_cast<float>(units)), 0.0f,
+                   below_one) *
+        static_cast<float>(cell_units);
+    const Cells& row_of_cells = cells_[strip * rows + row];
+    const auto cell_unit = static_cast<std::uint8_t>(left);
     std::size_t cell = 0;
-    while (cell + 1 < columns_of_strip && left >= row_of_cells[cell]) {
-        left -= row_of_cells[cell];
-        ++cell;
+    for (std::size_t i = 1; i < columns_of_strip; ++i) {
+        cell += row_of_cells[i] <= cell_unit ? 1U : 0U;
     }
-    const float of_cell = row_of_cells[cell];
-    if (!(of_cell > 0.0f)) {
-        return nothing;
-    }
-    const float over_cell = 1.0f / of_cell;
-    const float across = std::min(left * over_cell, below_one);
+    const std::uint32_t cell_end =
+        cell + 1 < columns_of_strip ? row_of_cells[cell + 1] : cell_units;
+    const auto of_cell = static_cast<float>(cell_end - row_of_cells[cell]);
+    const float across =
+        std::min((left - static_cast<float>(row_of_cells[cell])) / of_cell, below_one);
     const std::size_t column = strip * columns_of_strip + cell;
     // In a cell all of the projected solid angle is the same.
     const float sine_squared =
@@ -215,8 +257,9 @@ GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
         (static_cast<float>(column) + across) / static_cast<float>(columns_of_strip);
     const Vec3 to_light = to_direction(azimuth, std::sqrt(sine_squared),
                                        std::sqrt(std::max(1.0f - sine_squared, 0.0f)));
-    const float over_density = from.weight * over_cell * projected_[row];
-    return {.to_light = to_light, .irradiance = over_density * sky_.radiance(to_light)};
+    const float probability =
+        strips_[strip].scale * of_row * of_cell / (from.weight * static_cast<float>(cell_units));
+    return {.to_light = to_light, .over_density = projected_[row] / probability};
 }
 
 }  // namespace bdpt

@@ -37,12 +37,17 @@ public:
     [[nodiscard]] float irradiance() const { return irradiance_; }
 
     struct Sample {
-        Vec3 to_light{0.0f};   ///< unit
-        Rgb irradiance{0.0f};  ///< radiance times cosine over the density
+        Vec3 to_light{0.0f};        ///< unit
+        float over_density = 0.0f;  ///< cosine over the density, for solid angle
     };
     /// Samples a direction that the scene may block, approximately in proportion to its
     /// contribution. The place's share must be positive.
     [[nodiscard]] Sample sample(std::size_t place, Vec2 u) const;
+    /// Returns the estimate of the exposed irradiance by a sample.
+    [[nodiscard]] Rgb irradiance(const Sample& sample) const
+    {
+        return sample.over_density * sky_.radiance(sample.to_light);
+    }
 
 private:
     static constexpr std::size_t strips = GroundOccluders::strips;
@@ -57,25 +62,29 @@ private:
         float weight = 0.0f;                  ///< weight of all directions that may be blocked
         std::array<float, strips> weights{};  ///< cumulative weights of strips, inclusive
     };
+    /// A strip's distribution, in whole numbers so that all strips stay in the fastest cache.
+    struct Strip {
+        float scale = 0.0f;                          ///< weight of a unit of `sums`
+        std::array<std::uint16_t, rows + 1> sums{};  ///< like `RowSums`
+    };
+    /// Cumulative shares of the cells of a strip in one row, exclusive, in 1/255.
+    using Cells = std::array<std::uint8_t, columns_of_strip>;
 
+    using Weights = std::vector<std::array<float, rows>>;  ///< by column
     void fill_cells();
-    /// The weights in sampling of the cells of a strip in one row.
-    using Cells = std::array<float, columns_of_strip>;
-    [[nodiscard]] Cells& cells(std::size_t strip, std::size_t row)
+    void fill_distribution(const Weights& weights);
+    [[nodiscard]] float weight(std::size_t strip, GroundOccluders::Rows blocked) const
     {
-        return cells_[strip * rows + row];
-    }
-    [[nodiscard]] const Cells& cells(std::size_t strip, std::size_t row) const
-    {
-        return cells_[strip * rows + row];
+        const auto& sums = strips_[strip].sums;
+        return strips_[strip].scale * static_cast<float>(sums[blocked.end] - sums[blocked.begin]);
     }
 
     const EnvironmentLight& sky_;
     const GroundOccluders& occluders_;
     std::array<float, rows + 1> sines_squared_{};  ///< of the polar angle where rows begin
     std::array<float, rows> projected_{};          ///< projected solid angle of a cell by row [sr]
-    std::vector<Cells> cells_;
-    std::vector<RowSums> weights_;      ///< of the cells, by strip
+    std::vector<Strip> strips_;
+    std::vector<Cells> cells_;          ///< by strip and row
     std::vector<RowSums> irradiances_;  ///< by strip
     float irradiance_ = 0.0f;
     std::vector<Place> places_;

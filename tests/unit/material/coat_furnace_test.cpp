@@ -132,4 +132,72 @@ TEST_CASE("a coat over the facets of a normal map gives back what the map's mean
     }
 }
 
+TEST_CASE("a coat with a normal map of its own makes no light, and loses little")
+{
+    const Rgb white{1.0f};
+    const std::vector<test::BsdfCase> bases{{"metal 0.3", {white, 1, 0.3f}},
+                                            {"metal 0.7", {white, 1, 0.7f}},
+                                            {"lambert", {white, 0, 1, 0}}};
+    for (const float lean : {5.0f, 15.0f, 30.0f, 60.0f}) {
+        const float angle = lean * test::degrees;
+        for (const float coat : {0.0f, 0.3f, 0.8f}) {
+            const auto layers = test::coated(1, coat, {std::sin(angle), 0.0f, std::cos(angle)});
+            for (const test::BsdfCase& base : bases) {
+                const test::TestedBsdf bsdf({base.name, base.surface, 1.5f, layers, true});
+                for (const float cosine : {0.95f, 0.7f, 0.4f}) {
+                    // Every azimuth, so that all leans of a real map are there.
+                    double sum = 0.0;
+                    constexpr int eyes = 40000;
+                    test::Random random(73);
+                    const float sine = std::sqrt(1.0f - cosine * cosine);
+                    for (int i = 0; i < eyes; ++i) {
+                        const SinCos around = sin_cos(2.0f * pi * random.next());
+                        const float u_lobe = random.next();
+                        const auto got =
+                            bsdf.sample({sine * around.cos, sine * around.sin, cosine}, u_lobe,
+                                        random.next_2d(), TransportMode::radiance);
+                        sum += got ? static_cast<double>(got->weight.g) / eyes : 0.0;
+                    }
+                    CAPTURE(base.name, lean, coat, cosine, sum);
+                    CHECK(sum < 1.005);
+                    CHECK((lean > 5.0f || sum > 0.99));
+                    CHECK(sum > 0.96);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("a coat and its base with a normal map each hardly make light")
+{
+    const Rgb white{1.0f};
+    for (const float base : {0.3f, 0.6f, 1.0f}) {
+        for (const float lean : test::leans()) {
+            for (const float coat : {0.0f, lean, -lean}) {  // local to the facet
+                const float metallic = base == 1.0f ? 0.0f : 1.0f;
+                const test::MappedSurface surface(
+                    {"below a coat",
+                     {white, metallic, base, metallic},
+                     1.5f,
+                     test::coated(1, 0.1f, {std::sin(coat), 0.0f, std::cos(coat)}),
+                     true},
+                    lean);
+                double sum = 0.0;
+                constexpr int eyes = 40000;
+                test::Random random(79);
+                for (int i = 0; i < eyes; ++i) {
+                    const SinCos around = sin_cos(2.0f * pi * random.next());
+                    const Bsdf bsdf =
+                        surface.seen_from({0.8f * around.cos, 0.8f * around.sin, 0.6f});
+                    const float u_lobe = random.next();
+                    const auto got = bsdf.sample(u_lobe, random.next_2d(), TransportMode::radiance);
+                    sum += got ? static_cast<double>(got->weight.g) / eyes : 0.0;
+                }
+                CAPTURE(base, lean, coat, sum);
+                CHECK(sum < 1.01);
+            }
+        }
+    }
+}
+
 }  // namespace bdpt::test::coat_furnace_test

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace bdpt {
 
@@ -74,6 +75,18 @@ Coat::Coat(float weight, float roughness, Vec3 normal, const SpecularAlbedo* alb
       facet_(frame_.to_local({0.0f, 0.0f, 1.0f})),
       tilted_(normal != Vec3{0.0f, 0.0f, 1.0f})
 {}
+
+CoatInterreflection Coat::interreflection(const CoatedBase& base,
+                                          const CoatLoss* loss) const noexcept
+{
+    const CoatInterreflection even = even_.interreflection(base, loss);
+    if (!tilted_) {
+        return even;
+    }
+    constexpr float less_per_sine = 0.8f;  // so that no mean over all azimuths exceeds 1
+    const float sine = std::min(1.0f, std::hypot(frame_.z.x, frame_.z.y));
+    return even.times(1.0f - less_per_sine * sine);
+}
 
 float Coat::reflected(Vec3 w) const noexcept
 {

@@ -54,13 +54,10 @@ public:
     /// Returns the fraction of light from `w` that the coat reflects; the base receives at most the
     /// rest.
     [[nodiscard]] float reflected(Vec3 w) const noexcept;
-    /// Returns the light that is reflected back to the base; none if the coat has a normal of its
-    /// own.
+    /// Returns the light that is reflected back to the base: that below an even coat, and less where
+    /// the coat is tilted, because less is lost there on average over all azimuths.
     [[nodiscard]] CoatInterreflection interreflection(const CoatedBase& base,
-                                                      const CoatLoss* loss) const noexcept
-    {
-        return tilted_ ? CoatInterreflection() : even_.interreflection(base, loss);
-    }
+                                                      const CoatLoss* loss) const noexcept;
 
     /// Evaluates the coat, which is grey.
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;

@@ -52,6 +52,14 @@ public:
         per_coupling_ = inv_pi / (weight * average);
     }
 
+    /// Returns a lobe that restores this fraction of its light.
+    [[nodiscard]] CoatInterreflection times(float fraction) const noexcept
+    {
+        CoatInterreflection result = *this;
+        result.albedo_ *= fraction;
+        return result;
+    }
+
     [[nodiscard]] bool exists() const noexcept { return weight_ > 0.0f; }
     /// Returns the largest channel of the fraction of lost light that eventually leaves.
     [[nodiscard]] float weight() const noexcept { return max_component(albedo_); }

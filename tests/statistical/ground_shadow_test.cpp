@@ -159,12 +159,13 @@ TEST_CASE("a pixel has the mean shadow of the pixels that it could be", "[ground
                   glm::translate(Mat4(1.0f), Vec3(2.6f, 0.0f, 0.0f)));
     builder.light(even_sky());
     double sum = 0.0;
-    for (std::uint64_t seed = 0; seed < 8; ++seed) {
-        RenderOptions one = ground_options(1, 2048);
+    constexpr std::uint64_t seeds = 64;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        RenderOptions one = ground_options(1, 8192);
         one.sampling.seed = seed;
-        sum += compute_mean(compute_shadow(builder.desc, camera_above(), one).opacity) / 8.0;
+        sum += compute_mean(compute_shadow(builder.desc, camera_above(), one).opacity) / seeds;
     }
-    const Shadow many = compute_shadow(builder.desc, camera_above(), ground_options(64, 16));
+    const Shadow many = compute_shadow(builder.desc, camera_above(), ground_options(64, 128));
     CHECK(sum == Approx(compute_mean(many.opacity)).epsilon(0.01));
 }
 

@@ -163,7 +163,7 @@ TEST_CASE("lamps that bring next to nothing are sampled seldom", "[ground]")
     const GroundLamps alone(world.lights(), occluders, 0.0f, 0.0f);
     CHECK(alone.chance(near) == 1.0f);
     CHECK(alone.chance(far) == 1.0f);
-    const GroundLamps beside(world.lights(), occluders, 0.0f, 10.0f);  // 5 / 1.6^2 lx at most
+    const GroundLamps beside(world.lights(), occluders, 0.0f, 5.0f);  // 5 / 1.6^2 lx at most
     CHECK(beside.chance(near) == 1.0f);
     CHECK(beside.chance(far) == 1.0f / 128.0f);
     const GroundLamps by_day(world.lights(), occluders, 0.0f, 1e5f);

@@ -83,9 +83,9 @@ CoatInterreflection Coat::interreflection(const CoatedBase& base,
     if (!tilted_) {
         return even;
     }
-    constexpr float less_per_sine = 0.8f;  // so that no mean over all azimuths exceeds 1
-    const float sine = std::min(1.0f, std::hypot(frame_.z.x, frame_.z.y));
-    return even.times(1.0f - less_per_sine * sine);
+    constexpr float less_per_sine = 1.3f;  // so that no direction reflects more than arrives
+    const float sine = std::sqrt(frame_.z.x * frame_.z.x + frame_.z.y * frame_.z.y);
+    return even.times(std::max(0.0f, 1.0f - less_per_sine * sine));
 }
 
 float Coat::reflected(Vec3 w) const noexcept

@@ -30,7 +30,8 @@ EmissionSample DirectionalLight::sample_emission(Vec2 u_position, Vec2 /*u_direc
             .direction = direction,
             .weight = illuminance_ / bounds_.pdf_disk().value,
             .pdf_position = {1.0f},
-            .pdf_direction = {}};
+            .pdf_direction = {},
+            .pdf_entry = bounds_.pdf_disk()};
 }
 
 IncidentSample DirectionalLight::sample_incident(const LightSampleContext& /*receiver*/, Vec2 /*u*/,

@@ -1,6 +1,7 @@
 #include "light/environment_light.h"
 
 #include "light/environment/cell_weights.h"
+#include "light/learned/environment_entries.h"
 #include "light/parallel_rays.h"
 #include "math/elementary.h"
 
@@ -173,7 +174,39 @@ std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position,
                           .direction = -from->to_light,
                           .weight = lookup(from->uv) / (from->pdf.value * bounds_.pdf_disk().value),
                           .pdf_position = {from->pdf.value},
-                          .pdf_direction = {}};
+                          .pdf_direction = {},
+                          .pdf_entry = bounds_.pdf_disk()};
+}
+
+std::optional<EmissionSample> EnvironmentLight::sample_emission(
+    Vec2 u_position, Vec2 u_direction, const EnvironmentEntries& entries) const
+{
+    const auto from = sample_direction(u_direction, {.visibility = &entries.tiles()},
+                                       EnvironmentSampling::plain);
+    if (!from) {
+        return std::nullopt;
+    }
+    const EnvironmentEntries::Entry entry =
+        entries.sample(tile_to(from->to_light), -from->to_light, u_position);
+    return EmissionSample{.end = {.p = entry.p},
+                          .direction = -from->to_light,
+                          .weight = lookup(from->uv) / (from->pdf.value * entry.pdf.value),
+                          .pdf_position = {from->pdf.value},
+                          .pdf_direction = {},
+                          .pdf_entry = entry.pdf};
+}
+
+AreaPdf EnvironmentLight::pdf_position(const LightPoint& x0,
+                                       const EnvironmentEntries& entries) const
+{
+    return {pdf_direction_to(x0.p, {.visibility = &entries.tiles()}, EnvironmentSampling::plain)
+                .value};
+}
+
+PlanarPdf EnvironmentLight::pdf_entry(Vec3 to_light, Vec3 p,
+                                      const EnvironmentEntries& entries) const
+{
+    return entries.pdf(tile_to(to_light), -to_light, p);
 }
 
 std::optional<IncidentSample> EnvironmentLight::sample_incident(const LightSampleContext& receiver,

@@ -17,6 +17,8 @@
 
 namespace bdpt {
 
+class EnvironmentEntries;
+
 /// Light from all directions at infinity, from an equirectangular image with bilinear
 /// interpolation. Light paths start in proportion to luminance; next-event estimation samples
 /// according to `EnvironmentSampling`, preferring directions high above the receiver.
@@ -38,6 +40,15 @@ public:
 
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time) const;
+    /// Samples emission by learned entries.
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(
+        Vec2 u_position, Vec2 u_direction, const EnvironmentEntries& entries) const;
+    /// Returns the density of the direction of such a sample.
+    [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0,
+                                       const EnvironmentEntries& entries) const;
+    /// Returns the density of its entry, of light from direction `to_light` through `p`.
+    [[nodiscard]] PlanarPdf pdf_entry(Vec3 to_light, Vec3 p,
+                                      const EnvironmentEntries& entries) const;
     [[nodiscard]] std::optional<IncidentSample> sample_incident(const LightSampleContext& receiver,
                                                                 Vec2 u,
                                                                 EnvironmentSampling sampling,
@@ -49,6 +60,7 @@ public:
     }
     /// Returns the tile of `EnvironmentTiles` that contains the direction.
     [[nodiscard]] std::size_t tile_to(Vec3 to_light) const;
+    [[nodiscard]] const EnvironmentTiles& tiles() const { return *tiles_; }
     /// Luminous flux into the scene's bounding sphere [lm].
     [[nodiscard]] Rgb power() const;
 

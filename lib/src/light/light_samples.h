@@ -14,7 +14,8 @@ struct LearnedLight;
 
 enum class LightId : std::uint32_t {};
 
-/// Parameters of light sampling in next-event estimation, needed to evaluate its density.
+/// Parameters of light sampling, needed to evaluate its density; all but `learned` are those of
+/// next-event estimation.
 struct NextEventSampling {
     EnvironmentSampling environments = EnvironmentSampling::plain;
     LightSampling lights = LightSampling::automatic;
@@ -41,6 +42,7 @@ struct EmissionSample {
     /// Density of x_0; infinite: of the direction; 1 for a delta light.
     AreaPdf pdf_position;
     SolidAnglePdf pdf_direction;  ///< density of the direction, for finite lights
+    PlanarPdf pdf_entry{};        ///< density of the entry point, for infinite lights
 };
 
 /// Light arriving at a point from a sampled point of a light: next-event estimation, s = 1.

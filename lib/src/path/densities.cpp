@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <variant>
 
 namespace bdpt {
 namespace {
@@ -32,7 +33,7 @@ AreaPdf next_event_density(const SampleContext& sample, const PathVertex& x0, co
 }
 
 LightDensities light_densities(const SampleContext& sample, const PathVertex& x0,
-                               const SegmentEnd& x1)
+                               const SegmentEnd& x1, NextEventSampling sampling)
 {
     const LightSet& lights = sample.world.lights();
     const Light& light = lights[*x0.light];
@@ -42,7 +43,13 @@ LightDensities light_densities(const SampleContext& sample, const PathVertex& x0
     const Vec3 to_light = infinite ? x0.end.p : offset * (1.0f / std::sqrt(distance_squared));
     const LightPoint point = light_point(x0, sample.time);
     const float cosine = abs_cosine(x1, to_light);
-    return {.emit = light.pdf_position(point) * lights.emission_probability(*x0.light),
+    const float chosen = lights.emission_probability(*x0.light);
+    if (const auto* entries = lights.learned_entries(*x0.light, sampling)) {
+        const auto& environment = std::get<EnvironmentLight>(light.model());
+        return {.emit = environment.pdf_position(point, *entries) * chosen,
+                .to_next = to_area(environment.pdf_entry(to_light, x1.p, *entries), cosine)};
+    }
+    return {.emit = light.pdf_position(point) * chosen,
             .to_next = infinite ? to_area(sample.world.bounding_sphere().pdf_disk(), cosine)
                                 : to_area(light.pdf_direction(x0.end.ng, -to_light, sample.time),
                                           cosine, distance_squared)};

@@ -20,9 +20,9 @@ struct LightDensities {
 [[nodiscard]] AreaPdf next_event_density(const SampleContext& sample, const PathVertex& x0,
                                          const PathVertex& x1, NextEventSampling sampling);
 
-/// Returns the densities of `x0`, a vertex on light `x0.light`.
+/// Returns the densities of `x0`, a vertex on light `x0.light`, with light paths by `sampling`.
 [[nodiscard]] LightDensities light_densities(const SampleContext& sample, const PathVertex& x0,
-                                             const SegmentEnd& x1);
+                                             const SegmentEnd& x1, NextEventSampling sampling);
 
 /// Tests whether the strategy s = t = 1, which connects a light point to a lens point, can see this
 /// light.

@@ -208,7 +208,11 @@ void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
     }
     const Light& light = world.lights()[choice->id];
     sampler.start(SampleUse::light_start, 1);
-    const auto emitted = light.sample_emission(choice->u, sampler.next_2d(), sample.time);
+    const EnvironmentEntries* entries = world.lights().learned_entries(choice->id, sampling);
+    const auto emitted =
+        entries != nullptr ? std::get<EnvironmentLight>(light.model())
+                                 .sample_emission(choice->u, sampler.next_2d(), *entries)
+                           : light.sample_emission(choice->u, sampler.next_2d(), sample.time);
     if (!emitted || is_black(emitted->weight)) {
         return;
     }
@@ -229,7 +233,7 @@ void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
                   .pdf_plane = std::nullopt,
                   .origin = &emitted->end};
     if (infinite) {
-        step.pdf_plane = world.bounding_sphere().pdf_disk();
+        step.pdf_plane = emitted->pdf_entry;
     }
     walk(sample,
          {.mode = TransportMode::importance,

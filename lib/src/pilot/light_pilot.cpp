@@ -27,11 +27,13 @@ namespace {
 struct Finds {
     std::vector<EnvironmentVisibility::Trial> trials;
     std::vector<GroupShares::Finding> findings;
+    std::vector<Escape> escapes;
 
     Finds& operator+=(const Finds& more)
     {
         trials.insert(trials.end(), more.trials.begin(), more.trials.end());
         findings.insert(findings.end(), more.findings.begin(), more.findings.end());
+        escapes.insert(escapes.end(), more.escapes.begin(), more.escapes.end());
         return *this;
     }
 };
@@ -140,6 +142,7 @@ public:
 private:
     void note_path(SampleContext& sample)
     {
+        note_escape();
         for (int t = 2; t <= path_.size(); ++t) {
             const PathVertex& vertex = path_[t - 1];
             if (!scatters(vertex.kind) || !vertex.connectible) {
@@ -157,6 +160,28 @@ private:
             if (learns_groups_) {
                 sample_group(sample, vertex, t);
             }
+        }
+    }
+
+    /// Notes that the path reached the environment, unless from mirrors and glass alone: no light
+    /// path takes their place.
+    void note_escape()
+    {
+        const auto vertices = path_.all();
+        if (environment_ == nullptr || vertices.empty() ||
+            vertices.back().kind != VertexKind::infinite ||
+            std::none_of(vertices.begin(), vertices.end(), [](const PathVertex& vertex) {
+                return scatters(vertex.kind) && vertex.connectible;
+            })) {
+            return;
+        }
+        const Vec3 direction = vertices.back().end.p;
+        const float throughput = luminance(vertices.back().beta);
+        if (std::isfinite(throughput)) {
+            contributions_.escapes.push_back({.p = vertices[vertices.size() - 2].end.p,
+                                              .direction = direction,
+                                              .tile = environment_->tile_to(direction),
+                                              .throughput = throughput});
         }
     }
 
@@ -276,6 +301,10 @@ std::unique_ptr<const LearnedLight> learn_light(const World& world, const Moving
     }
     LearnedLight learned{.visibility = make_visibility(std::move(all.trials)),
                          .groups = make_shares(std::move(all.findings), world)};
+    if (learned.visibility) {
+        learned.entries.emplace(std::move(all.escapes), find_environment(world)->tiles(),
+                                world.bounding_sphere());
+    }
     return learned.visibility || learned.groups
                ? std::make_unique<const LearnedLight>(std::move(learned))
                : nullptr;

@@ -112,6 +112,14 @@ std::optional<LightSet::Choice> LightSet::choose_for_emission(Vec2 u) const
     return Choice{.id = LightId{choice.index}, .probability = choice.probability};
 }
 
+const EnvironmentEntries* LightSet::learned_entries(LightId id,
+                                                    const NextEventSampling& sampling) const
+{
+    return environment_ == id && sampling.learned != nullptr && sampling.learned->entries
+               ? &*sampling.learned->entries
+               : nullptr;
+}
+
 float LightSet::emission_probability(LightId id) const
 {
     // Triangles may emit so little that no light has any power in the range of floats.

@@ -5,6 +5,9 @@
 #include "camera/moving_camera.h"
 #include "catch.hpp"
 #include "integrator/integrator.h"
+#include "make_sample.h"
+#include "path/densities.h"
+#include "path/random_walk.h"
 #include "render/learned_light.h"
 #include "render/pass.h"
 #include "scene/world.h"
@@ -138,6 +141,39 @@ TEST_CASE("light pilot: the lamp is chosen within, sky and sun without", "[pilot
     }
 }
 
+TEST_CASE("light pilot: light paths from the sky enter the room", "[pilot]")
+{
+    SceneBuilder builder = open_room();
+    builder.quad({-9, -1, -9}, {9, -1, -9}, {9, -1, 2}, {-9, -1, 2}, lambertian(Rgb(0.5f)));
+    const Scene scene(std::move(builder.desc));
+    const auto found = learned(scene, options_of(IntegratorKind::bdpt));
+    REQUIRE(found);
+    REQUIRE(found->entries);
+    const Camera camera(room_camera(), 16, 12);
+    const auto fraction_inside = [&](const LearnedLight* table) {
+        int inside = 0;
+        Subpath path(2);
+        RayCounts rays;
+        for (int i = 0; i < 4000; ++i) {
+            SampleContext sample = make_sample(scene.world(), camera,
+                                               {SamplerKind::independent, 3, i % 16, 0, i}, rays);
+            trace_light_subpath(sample, {.max_vertices = 2}, {.learned = table}, path);
+            if (path.size() == 2) {
+                const Vec3 p = abs(path[1].end.p);
+                inside += p.x < 1.01f && p.y < 1.01f && p.z < 1.01f ? 1 : 0;
+                const LightDensities densities = light_densities(
+                    sample, path[0], path[1].end, {.learned = table});
+                REQUIRE(densities.emit.value == Approx(path[0].pdf_fwd.value).epsilon(1e-4));
+                REQUIRE(densities.to_next.value == Approx(path[1].pdf_fwd.value).epsilon(2e-3));
+            }
+        }
+        return inside / 4000.0;
+    };
+    const double uniform = fraction_inside(nullptr);
+    CHECK(uniform < 0.05);
+    CHECK(fraction_inside(found.get()) > 6.0 * uniform);
+}
+
 TEST_CASE("light pilot: it learns nothing where nothing can be learned", "[pilot]")
 {
     const Scene scene(open_room().desc);
@@ -206,11 +242,16 @@ TEST_CASE("light pilot: threads, crop, samples and seed do not matter", "[pilot]
         REQUIRE(again);
         REQUIRE(again->visibility->cells() == first->visibility->cells());
         REQUIRE(again->groups->cells() == first->groups->cells());
+        REQUIRE(again->entries->tiles().of == first->entries->tiles().of);
         Random random(5);
         for (int i = 0; i < 1000; ++i) {
             const Vec3 p = 2.0f * Vec3(random.next(), random.next(), random.next()) - 1.0f;
             REQUIRE(again->visibility->at(p).of == first->visibility->at(p).of);
             REQUIRE(again->groups->at(p) == first->groups->at(p));
+            const Vec3 d = normalize(p);
+            const auto tile = static_cast<std::size_t>(i) % EnvironmentTiles::tile_count;
+            REQUIRE(again->entries->pdf(tile, d, p).value ==
+                    first->entries->pdf(tile, d, p).value);
         }
     }
 }
@@ -254,12 +295,13 @@ TEST_CASE("light pilot: all renders of a view learn once", "[pilot]")
 TEST_CASE("light pilot: the image is right whatever was learned", "[pilot]")
 {
     // Also what is wrong on purpose: that only what is blocked is visible, on one side of the room,
-    // and that each place has light of another group alone.
+    // that each place has light of another group alone, and that light enters from below.
     const Scene scene(room_and_terrace().desc);
     const World& world = scene.world();
     const MovingCamera camera(room_camera(), Camera(room_camera(), 16, 12));
     std::vector<EnvironmentVisibility::Trial> wrong;
     std::vector<GroupShares::Finding> findings;
+    std::vector<Escape> escapes;
     Random random(6);
     for (int i = 0; i < 20000; ++i) {
         const Vec3 p = 2.0f * Vec3(random.next(), random.next(), random.next()) - 1.0f;
@@ -269,13 +311,21 @@ TEST_CASE("light pilot: the image is right whatever was learned", "[pilot]")
             const bool only = group == (p.z > 0.0f ? 2U : p.x > 0.0f ? 1U : 0U);
             findings.push_back({.p = p, .group = group, .value = only ? 1.0f : 0.0f});
         }
+        const Vec3 down = normalize(Vec3(p.x, -1.0f, p.y));
+        escapes.push_back({.p = 0.3f * p,
+                           .direction = down,
+                           .tile = sky_of(scene).tile_to(down),
+                           .throughput = 1.0f});
     }
     const LearnedLight misled{.visibility = EnvironmentVisibility(wrong),
-                              .groups = GroupShares(findings, 3)};
+                              .groups = GroupShares(findings, 3),
+                              .entries = EnvironmentEntries(escapes, sky_of(scene).tiles(),
+                                                            world.bounding_sphere())};
     for (const auto kind : {IntegratorKind::mis, IntegratorKind::bdpt}) {
         RenderOptions options = options_of(kind);
         const auto right = learned(scene, options);
         REQUIRE(right);
+        REQUIRE(right->entries);
         options.film.width = 16;
         options.film.height = 12;
         std::array<Moments, 3> means;

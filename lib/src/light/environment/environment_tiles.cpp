@@ -262,6 +262,18 @@ void EnvironmentTiles::Worth::sum_up() noexcept
     sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
+double EnvironmentTiles::solid_angle(std::size_t tile) const noexcept
+{
+    const auto cosine = [this](std::uint32_t row) {
+        return static_cast<double>(
+            sin_cos(pi * static_cast<float>(row) / static_cast<float>(height_)).cos);
+    };
+    const std::size_t row = std::min<std::size_t>(tile % max_rows, rows_ - 1U);
+    const double columns = count_columns(tile);
+    return 2.0 * static_cast<double>(pi) * columns / width_ *
+           (cosine(row_begins_[row]) - cosine(row_begins_[row + 1]));
+}
+
 EnvironmentTiles::Worth EnvironmentTiles::worth(const Worth& shares,
                                                 const std::optional<Vec3>& normal,
                                                 const TileFactors* factors) const noexcept

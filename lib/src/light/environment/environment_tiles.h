@@ -76,6 +76,8 @@ public:
         EnvironmentSampling sampling = EnvironmentSampling::compensated) const noexcept;
     /// Returns the tile that contains the cell, in [0, tile_count).
     [[nodiscard]] std::size_t find_tile(int column, int row) const noexcept;
+    /// Returns the solid angle of a tile [sr].
+    [[nodiscard]] double solid_angle(std::size_t tile) const noexcept;
     /// Returns the memory of the tables of cells [bytes].
     [[nodiscard]] std::size_t bytes() const noexcept { return cells_.bytes() + parts_.bytes(); }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "light/environment/environment_visibility.h"
+#include "light/learned/environment_entries.h"
 #include "light/learned/group_shares.h"
 
 #include <optional>
@@ -8,12 +9,14 @@
 namespace bdpt {
 
 /// The directions and lights from which light arrives, by position, as learned by a pilot.
-/// Next-event estimation samples by them; they cannot bias an image, whatever they say.
+/// Light sampling follows them; they cannot bias an image, whatever they say.
 struct LearnedLight {
     /// Visibility of the environment; nullopt if it is equally visible everywhere, or nowhere.
     std::optional<EnvironmentVisibility> visibility{};
     /// Shares of groups of lights; nullopt if there is only one group, or no light was found.
     std::optional<GroupShares> groups{};
+    /// Where light of the environment enters the scene; nullopt without `visibility`.
+    std::optional<EnvironmentEntries> entries{};
 };
 
 }  // namespace bdpt

@@ -2,7 +2,7 @@
 
 The job has `model`, `environment`, `from`, `look_at`, `fov` (vertical, degrees), `width`, `height` and `max_depth`
 (edges). Loads once; then reads lines "SPP SEED THREADS FILE" and renders each into FILE (.exr by Cycles, .npy by
-Mitsuba). Answers with lines "RESULT {json}": first version and remarks, then the user CPU seconds of each image."""
+Mitsuba). Answers with lines "RESULT {json}": first version and remarks, then the CPU seconds of each image."""
 
 import json
 import pathlib
@@ -19,8 +19,10 @@ PASS = 16  # samples of one pass of Mitsuba, which bounds the memory
 HALF_TURN = 180.0
 
 
-def user_seconds():
-    return resource.getrusage(resource.RUSAGE_SELF).ru_utime
+def cpu_seconds():
+    """Returns those of the user and of the system: Mitsuba's memory for intermediate values is work for the system."""
+    usage = resource.getrusage(resource.RUSAGE_SELF)
+    return usage.ru_utime + usage.ru_stime
 
 
 class Cycles:
@@ -77,9 +79,9 @@ class Cycles:
         scene.render.use_persistent_data = True
         scene.cycles.use_light_tree = True
         scene.cycles.samples = spp
-        before = user_seconds()
+        before = cpu_seconds()
         self.bpy.ops.render.render(write_still=True)
-        return user_seconds() - before
+        return cpu_seconds() - before
 
 
 class Mitsuba:
@@ -134,8 +136,7 @@ class Mitsuba:
         if "metallicRoughnessTexture" in pbr:
             texels = self.model.image(pbr["metallicRoughnessTexture"]["index"]) / 255.0
             roughness, metallic = roughness * texels[..., 1], metallic * texels[..., 2]
-        ior = extensions.get("KHR_materials_ior", {}).get("ior", 1.5)
-        surface = {"type": "principled", "base_color": self.texture(color[..., :3]), "eta": max(ior, 1.001),
+        surface = {"type": "principled", "base_color": self.texture(color[..., :3]), "eta": self.index(extensions),
                    "roughness": self.texture(roughness), "metallic": self.texture(metallic)}
         surface = {"type": "twosided", "surface": surface}
         mode, alpha = material.get("alphaMode", "OPAQUE"), color[..., 3]
@@ -143,9 +144,23 @@ class Mitsuba:
             alpha = alpha >= material.get("alphaCutoff", 0.5) if mode == "MASK" else alpha
             surface = {"type": "mask", "opacity": self.texture(alpha * 1.0), "surface": surface}
         self.remarks.update(f"without {name}" for name in {*extensions, *material} & {
-            "normalTexture", "emissiveTexture", "KHR_materials_specular", "KHR_materials_clearcoat",
-            "KHR_materials_transmission"})
+            "normalTexture", "emissiveTexture", "KHR_materials_clearcoat", "KHR_materials_transmission"})
         return surface
+
+    def index(self, extensions):
+        """Returns the index of refraction that reflects as much at normal incidence as ior and specular together do."""
+        ior = extensions.get("KHR_materials_ior", {}).get("ior", 1.5)
+        specular = extensions.get("KHR_materials_specular", {})
+        color = np.mean(specular.get("specularColorFactor", 1.0))
+        if "specularColorTexture" in specular:
+            color *= np.mean((self.model.image(specular["specularColorTexture"]["index"])[..., :3] / 255.0) ** 2.2)
+        reflected = min(((ior - 1) / (ior + 1)) ** 2 * color, 1) * specular.get("specularFactor", 1.0)
+        if "specularTexture" in specular:
+            reflected *= np.mean(self.model.image(specular["specularTexture"]["index"])[..., 3] / 255.0)
+        if specular:
+            self.remarks.add("with the mean of specular textures, as grey")
+        root = min(float(np.sqrt(reflected)), 0.98)
+        return max((1 + root) / (1 - root), 1.001)
 
     def shape(self, piece, file):
         write_ply(piece, file)
@@ -160,12 +175,12 @@ class Mitsuba:
     def render(self, spp, seed, threads, file):
         import drjit
         drjit.set_thread_count(threads)
-        before, total, done = user_seconds(), 0, 0
+        before, total, done = cpu_seconds(), 0, 0
         while done < spp:
             count = min(PASS, spp - done)
             image = self.mi.render(self.scene, spp=count, seed=seed * 100003 + done)
             total, done = total + count * np.array(image, dtype=np.float64), done + count
-        took = user_seconds() - before
+        took = cpu_seconds() - before
         if file:
             np.save(file, total / spp)
         return took

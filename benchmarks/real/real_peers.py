@@ -6,7 +6,7 @@ All renderers get the same file (meshopt compression is decoded first), camera, 
 interpreter needs numpy, pillow, meshoptimizer, and bpy (Cycles), mitsuba (with libLLVM) or both; a peer that fails is
 skipped with its reason. Renderers take turns; each image is by one thread.
 
-Prints for each scene and renderer: microseconds of user CPU time for a camera path, squared relative error (variance
+Prints for each scene and renderer: microseconds of CPU time for a camera path, squared relative error (variance
 between seeds over the square of an independent reference by the same renderer, without the worst 0.1 % of pixels), the
 same relative to the reference of bdpt, CPU time, error x time over that of the first way of bdpt, and the mean radiance
 over that of bdpt. CPU time is without loading: for bdpt without a render of one pixel, for the others without one
@@ -18,6 +18,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -43,6 +44,10 @@ CAMERAS = {
 REFERENCE_SEED = 1000
 
 
+def system_seconds():
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_stime
+
+
 class Bdpt:
     """Renders with one way of bdpt: options of `bdpt render`."""
 
@@ -59,14 +64,20 @@ class Bdpt:
         self.started = None
 
     def render(self, spp, seed):
-        took = real_scenes.render(self.way, self.scene, self.file, self.arguments, "--spp", str(spp), "--seed", str(seed))
+        took = self.run(self.way, "--spp", str(spp), "--seed", str(seed))
         return took, seed_errors.pixels(self.file)
+
+    def run(self, way, *options):
+        """Returns CPU seconds, with those of the system, as for the peers."""
+        before = system_seconds()
+        took = real_scenes.render(way, self.scene, self.file, self.arguments, *options)
+        return took + system_seconds() - before
 
     def measure_load(self):
         """Renders one pixel without a pilot, which counts as rendering."""
         options = ("--spp", "1", "--crop", "0,0,1,1")
         way = f"{self.arguments.bdpt}: --integrator mis --env-sampling compensated"
-        return min(real_scenes.render(way, self.scene, self.file, self.arguments, *options) for _ in range(2))
+        return min(self.run(way, *options) for _ in range(2))
 
     def render_time(self, took, load, _):
         return took - load

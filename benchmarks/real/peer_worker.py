@@ -1,8 +1,9 @@
 """Renders a model with Cycles or Mitsuba: peer_worker.py cycles|mitsuba JOB.json, run by real_peers.py.
 
-The job has `model`, `environment`, `from`, `look_at`, `fov` (vertical, degrees), `width`, `height` and `max_depth`
-(edges). Loads once; then reads lines "SPP SEED THREADS FILE" and renders each into FILE (.exr by Cycles, .npy by
-Mitsuba). Answers with lines "RESULT {json}": first version and remarks, then the CPU seconds of each image."""
+The job has `model`, `environment`, `from`, `look_at`, `fov` (vertical, degrees), `width`, `height`, `max_depth`
+(edges) and `sampler` (of Mitsuba). Loads once; then reads lines "SPP SEED THREADS FILE" and renders each into FILE
+(.exr by Cycles, .npy by Mitsuba). Answers with lines "RESULT {json}": first version and remarks, then the CPU seconds
+of each image."""
 
 import json
 import pathlib
@@ -106,7 +107,7 @@ class Mitsuba:
         film = {"type": "hdrfilm", "width": job["width"], "height": job["height"], "pixel_format": "rgb",
                 "component_format": "float32", "rfilter": {"type": "box"}}
         return {"type": "perspective", "fov": job["fov"], "fov_axis": "y", "near_clip": 1e-3 * distance,
-                "far_clip": 1e4 * distance, "film": film, "sampler": {"type": "independent"},
+                "far_clip": 1e4 * distance, "film": film, "sampler": {"type": job.get("sampler", "independent")},
                 "to_world": self.mi.ScalarTransform4f().look_at(job["from"], job["look_at"], [0, 1, 0])}
 
     def environment(self, file):

@@ -210,15 +210,17 @@ def make_job(file, options, folder, arguments):
     environment = re.search(r"--env (\S+)", options)[1].format(hdr=arguments.models / "hdr")
     return {"model": str(model.resolve()), "environment": str(pathlib.Path(environment).resolve()), "from": position,
             "look_at": target, "fov": fov, "width": width, "height": height, "max_depth": arguments.max_depth,
-            "folder": folder}
+            "sampler": arguments.mitsuba_sampler, "folder": folder}
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", type=pathlib.Path, metavar="MODELS")
     parser.add_argument("--bdpt", type=pathlib.Path, default=real_scenes.ROOT / "build/release/apps/bdpt")
-    parser.add_argument("--way", action="append", metavar="OPTIONS", help="of `bdpt render`; default: --integrator auto")
+    parser.add_argument("--way", action="append", metavar="OPTIONS",
+                        help="of `bdpt render`; default: --integrator auto")
     parser.add_argument("--peers", default="cycles,mitsuba")
+    parser.add_argument("--mitsuba-sampler", default="independent", help="its plugin, for example multijitter")
     parser.add_argument("--only", default="", help="scenes whose names this regular expression matches")
     parser.add_argument("--size", default="240x135")
     parser.add_argument("--spp", type=int, default=16)

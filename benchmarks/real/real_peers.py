@@ -7,10 +7,11 @@ interpreter needs numpy, pillow, meshoptimizer, and bpy (Cycles), mitsuba (with 
 skipped with its reason. Renderers take turns; each image is by one thread.
 
 Prints for each scene and renderer: microseconds of CPU time for a camera path, squared relative error (variance
-between seeds over the square of an independent reference by the same renderer, without the worst 0.1 % of pixels), the
-same relative to the reference of bdpt, CPU time, error x time over that of the first way of bdpt, and the mean radiance
-over that of bdpt. CPU time is without loading: for bdpt without a render of one pixel, for the others without one
-of one sample, scaled to all samples. Materials are not equal in all, so means may differ: look at --pictures."""
+between seeds over the square of the renderer's light, see compute_light, without the worst 0.1 % of pixels), the same
+relative to the independent reference of bdpt, CPU time, error x time over that of the first way of bdpt for both
+errors, and the mean radiance over that of bdpt. CPU time is without loading: for bdpt without a render of one pixel,
+for the others without one of one sample, scaled to all samples. Materials are not equal in all, so means may differ:
+look at --pictures."""
 
 import argparse
 import contextlib
@@ -182,9 +183,18 @@ def write_picture(references, file):
     Image.fromarray((255 * linear ** (1 / 2.2) + 0.5).astype(np.uint8)).save(file)
 
 
+def compute_light(reference, of_bdpt):
+    """Returns the light of a renderer without the noise of its reference, by which dark pixels would be divided: the
+    reference of bdpt times the ratio of both, averaged over neighbours."""
+    own, first = (seed_errors.smooth(each, seed_errors.SMOOTHING).mean(axis=-1, keepdims=True)
+                  for each in (reference, of_bdpt))
+    return of_bdpt * own / np.maximum(first, 1e-12)
+
+
 def report(name, renderers, arguments):
     seconds, images, references = measure(renderers, arguments)
-    errors = [real_scenes.compute_trimmed_error(*pair) for pair in zip(images, references)]
+    errors = [real_scenes.compute_trimmed_error(each, compute_light(reference, references[0]))
+              for each, reference in zip(images, references)]
     by_first = [real_scenes.compute_trimmed_error(each, references[0]) for each in images]
     paths = images[0].shape[1] * images[0].shape[2] * arguments.spp
     for k, renderer in enumerate(renderers):

@@ -10,7 +10,7 @@ Prints for each scene and renderer: microseconds of CPU time for a camera path, 
 between seeds over the square of the renderer's light, see compute_light, without the worst 0.1 % of pixels), the same
 relative to the independent reference of bdpt, CPU time, error x time over that of the first way of bdpt for both
 errors, and the mean radiance over that of bdpt. CPU time is without loading: for bdpt without a render of one pixel,
-for the others without one of one sample, scaled to all samples. Materials are not equal in all, so means may differ:
+for the others that of 63 samples beyond the first. Materials are not equal in all, so means may differ:
 look at --pictures."""
 
 import argparse
@@ -43,6 +43,7 @@ CAMERAS = {
     "ShaderBall_materialx/shaderball.glb": ((2.215, 2.349, 3.206), (0.059, 0.981, 0.127), 40),
 }
 REFERENCE_SEED = 1000
+LONG = 63  # samples of a peer's timed render beyond the first, which stands for loading
 
 
 def system_seconds():
@@ -120,6 +121,7 @@ class Worker:
         self.process.wait()
         self.log.seek(0)
         lines = self.log.read().strip().splitlines() or [f"exit code {self.process.returncode}"]
+        self.log.close()
         raise peers.Unavailable(lines[-1][:200])
 
     def pixels(self):
@@ -130,10 +132,13 @@ class Worker:
         return self.receive()["seconds"], self.pixels()
 
     def measure_load(self):
-        return min(self.render(1, seed)[0] for seed in (901, 902, 903))
+        """Returns seconds of one sample, and measures the others: loading can take longer than a few samples."""
+        load, whole = (min(self.render(spp, seed)[0] for seed in (901, 902)) for spp in (1, 1 + LONG))
+        self.seconds_of_sample = (whole - load) / LONG
+        return load
 
-    def render_time(self, took, load, spp):
-        return (took - load) * spp / (spp - 1)
+    def render_time(self, _, __, spp):
+        return self.seconds_of_sample * spp
 
     def begin_reference(self, spp):
         self.send(spp, REFERENCE_SEED, os.cpu_count())

@@ -56,11 +56,15 @@ def check_reset(window):
     window.wait_for_generation(before["generation"])
     turned = window.state("camera")
     expect(turned["from"] != start["from"] and turned["look_at"] == start["look_at"], "a drag turns around the target")
-    before = window.seen()
-    window.press("0")
-    window.wait_for_generation(before["generation"])
-    window.finished()
-    wait_for(lambda: window.state("camera") == start, "the key 0 brings the camera of the start back")
+    for what, act in (("the key 0", lambda: window.press("0")), ("it, while a move waits to be sent,", window.wheel_and_reset)):
+        before = window.seen()
+        act()
+        window.wait_for_generation(before["generation"])
+        window.drawn()
+        window.finished()
+        wait_for(lambda: window.state("camera") == start, f"{what} brings the camera of the start back")
+        window.finished()
+        expect(window.state("camera") == start, "and it stays there")
 
 
 def check_look(window):

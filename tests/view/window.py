@@ -89,6 +89,11 @@ class Window(Browser):
         action = {"type": "scroll", "x": round(left), "y": round(top), "deltaX": 0, "deltaY": delta, "duration": 0}
         self.call("POST", "/actions", {"actions": [{"type": "wheel", "id": "wheel", "actions": [action]}]})
 
+    def wheel_and_reset(self):
+        """Turns the wheel and presses the key 0 before the page can send the move."""
+        self.run(f"{STAGE}.dispatchEvent(new WheelEvent('wheel', {{ deltaY: 240, bubbles: true, cancelable: true }}));"
+                 "document.dispatchEvent(new KeyboardEvent('keydown', { key: '0', bubbles: true }));")
+
     def set(self, name, value, event="input"):
         """Moves a slider, or chooses from a list (event: change)."""
         self.run("const one = document.getElementById(arguments[0]); one.value = arguments[1];"

@@ -26,6 +26,11 @@ class Moves {
   approach(factor) {
     this.queue.add({ orbit: [0, 0], pan: [0, 0], dolly: factor });
   }
+
+  /** Drops moves that are not sent yet. */
+  drop() {
+    this.queue.drop();
+  }
 }
 
 function sum(a, b) {

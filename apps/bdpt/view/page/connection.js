@@ -114,6 +114,13 @@ class OneAtATime {
     }
   }
 
+  /** Drops what is not sent yet. */
+  drop() {
+    cancelAnimationFrame(this.pending);
+    this.pending = 0;
+    this.waiting = null;
+  }
+
   flush() {
     const what = this.waiting;
     this.pending = 0;

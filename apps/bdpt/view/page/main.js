@@ -180,6 +180,7 @@ const panel = new Panel(change, changeLook);
 function resetView() {
   stage.view.reset();
   stage.requestDraw();
+  moves.drop();  // sent after the reset, they would move the camera away again
   ask({ reset: true }).catch(() => {});
 }
 

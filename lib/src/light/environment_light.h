@@ -20,8 +20,9 @@ namespace bdpt {
 class EnvironmentEntries;
 
 /// Light from all directions at infinity, from an equirectangular image with bilinear
-/// interpolation. Light paths start in proportion to luminance; next-event estimation samples
-/// according to `EnvironmentSampling`, preferring directions high above the receiver.
+/// interpolation. Light paths start in proportion to luminance, or also by learned entries;
+/// next-event estimation samples according to `EnvironmentSampling`, preferring directions high
+/// above the receiver.
 class EnvironmentLight : public InfiniteLight {
 public:
     static constexpr bool is_delta = false;
@@ -58,8 +59,9 @@ public:
     {
         return lookup(incident.barycentrics) / incident.pdf.value;
     }
-    /// Returns the tile of `EnvironmentTiles` that contains the direction.
+    /// Returns the tile that contains the direction.
     [[nodiscard]] std::size_t tile_to(Vec3 to_light) const;
+    /// Returns the tiles that learned densities refer to.
     [[nodiscard]] const EnvironmentTiles& tiles() const { return *tiles_; }
     /// Luminous flux into the scene's bounding sphere [lm].
     [[nodiscard]] Rgb power() const;

@@ -147,7 +147,8 @@ std::optional<Contribution> hit_light(const SampleContext& sample,
     }
     sample.enter(Phase::weigh);
     const PathVertex& x1 = camera[camera.size() - 2];
-    const LightDensities densities = light_densities(sample, x0, x1.end, weigher.next_event_sampling());
+    const LightDensities densities =
+        light_densities(sample, x0, x1.end, weigher.next_event_sampling());
     const float arrival = pdf_of_end(x1, walked_transmission(sample.world, x1, x0));
     const float weight = weigher.weight(
         {}, camera,
@@ -191,7 +192,8 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
     };
     PathVertex x0 = light_vertex(sample.world, found.light, incident);
     return join_if_open(sample, std::span(&x0, 1), camera, value, weigher, [&] {
-        const LightDensities densities = light_densities(sample, x0, z.end, weigher.next_event_sampling());
+        const LightDensities densities =
+            light_densities(sample, x0, z.end, weigher.next_event_sampling());
         x0.pdf_fwd = densities.emit;
         return JoinDensities{
             .light_at_camera_end = densities.to_next,
@@ -228,7 +230,8 @@ std::optional<Contribution> connect_light_to_lens(SampleContext& sample, PathWei
     const Rgb value = lights[sampled.light].incident_weight(incident) *
                       (to_lens->pdf_direction.value / sampled.probability);
     auto found = join(sample, std::span(&x0, 1), std::span(&lens, 1), value, weigher, [&] {
-        const LightDensities densities = light_densities(sample, x0, lens.end, weigher.next_event_sampling());
+        const LightDensities densities =
+            light_densities(sample, x0, lens.end, weigher.next_event_sampling());
         x0.pdf_fwd = densities.emit;
         return JoinDensities{
             .light_at_camera_end = densities.to_next,

@@ -163,8 +163,8 @@ private:
         }
     }
 
-    /// Notes that the path reached the environment, unless from mirrors and glass alone: no light
-    /// path takes their place.
+    /// Records that the path reached the environment after a vertex that is not specular: light
+    /// paths cannot replace other paths.
     void note_escape()
     {
         const auto vertices = path_.all();

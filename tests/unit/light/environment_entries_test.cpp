@@ -20,9 +20,8 @@ constexpr BoundingSphere bounds{.center = {1.0f, 2.0f, -1.0f}, .radius = 5.0f};
 
 EnvironmentLight even_sky()
 {
-    return {EnvironmentLightDesc{
-                .radiance = Image{.width = 32, .height = 16, .pixels = std::vector(512, Rgb(1.0f))}},
-            bounds};
+    const Image radiance{.width = 32, .height = 16, .pixels = std::vector(512, Rgb(1.0f))};
+    return {EnvironmentLightDesc{.radiance = radiance}, bounds};
 }
 
 /// Paths that leave a box with an opening: its ceiling between x = 1 and x = 2, z = -1 and z = 0.

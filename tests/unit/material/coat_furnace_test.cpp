@@ -50,6 +50,24 @@ std::vector<test::BsdfCase> white_cases(float coat)
     return cases;
 }
 
+/// Returns the albedo of a surface with a normal map, seen from one height: the mean over all
+/// azimuths, so that all tilts of a real map are there.
+double mean_albedo(const test::MappedSurface& surface, int eyes, int samples_of_eye)
+{
+    double sum = 0.0;
+    test::Random random(71);
+    for (int i = 0; i < eyes; ++i) {
+        const SinCos around = sin_cos(2.0f * pi * random.next());
+        const Bsdf bsdf = surface.seen_from({0.8f * around.cos, 0.8f * around.sin, 0.6f});
+        for (int k = 0; k < samples_of_eye; ++k) {
+            const float u_lobe = random.next();
+            const auto got = bsdf.sample(u_lobe, random.next_2d(), TransportMode::radiance);
+            sum += got ? static_cast<double>(got->weight.g) : 0.0;
+        }
+    }
+    return sum / (static_cast<double>(eyes) * samples_of_eye);
+}
+
 }  // namespace
 
 TEST_CASE("a white surface below any coat is invisible in a white furnace")
@@ -110,20 +128,7 @@ TEST_CASE("a coat over the facets of a normal map gives back what the map's mean
                                                1.5f,
                                                test::coated(1, 0.1f, even)},
                                               lean);
-            double sum = 0.0;
-            constexpr int eyes = 4000;
-            test::Random random(71);
-            for (int i = 0; i < eyes; ++i) {
-                // Every azimuth for one height, so that all leans of a real map are there.
-                const SinCos around = sin_cos(2.0f * pi * random.next());
-                const Vec3 eye{0.8f * around.cos, 0.8f * around.sin, 0.6f};
-                const Bsdf bsdf = surface.seen_from(eye);
-                for (int k = 0; k < 10; ++k) {
-                    const float u_lobe = random.next();
-                    const auto got = bsdf.sample(u_lobe, random.next_2d(), TransportMode::radiance);
-                    sum += got ? static_cast<double>(got->weight.g) / (10.0 * eyes) : 0.0;
-                }
-            }
+            const double sum = mean_albedo(surface, 4000, 10);
             CAPTURE(base, lean, sum);
             CHECK(sum < 1.005);
             // Maps that hardly lean hardly change what an even surface reflects.
@@ -182,17 +187,7 @@ TEST_CASE("a coat and its base with a normal map each hardly make light")
                      test::coated(1, 0.1f, {std::sin(coat), 0.0f, std::cos(coat)}),
                      true},
                     lean);
-                double sum = 0.0;
-                constexpr int eyes = 40000;
-                test::Random random(79);
-                for (int i = 0; i < eyes; ++i) {
-                    const SinCos around = sin_cos(2.0f * pi * random.next());
-                    const Bsdf bsdf =
-                        surface.seen_from({0.8f * around.cos, 0.8f * around.sin, 0.6f});
-                    const float u_lobe = random.next();
-                    const auto got = bsdf.sample(u_lobe, random.next_2d(), TransportMode::radiance);
-                    sum += got ? static_cast<double>(got->weight.g) / eyes : 0.0;
-                }
+                const double sum = mean_albedo(surface, 40000, 1);
                 CAPTURE(base, lean, coat, sum);
                 CHECK(sum < 1.01);
             }

@@ -166,6 +166,9 @@ TEST_CASE("lamps that bring next to nothing are sampled seldom", "[ground]")
     const GroundLamps beside(world.lights(), occluders, 0.0f, 5.0f);  // 5 / 1.6^2 lx at most
     CHECK(beside.chance(near) == 1.0f);
     CHECK(beside.chance(far) == 1.0f / 128.0f);
+    const GroundLamps at_dusk(world.lights(), occluders, 0.0f, 10.0f);
+    CHECK(at_dusk.chance(near) > 0.5f);
+    CHECK(at_dusk.chance(near) < 1.0f);
     const GroundLamps by_day(world.lights(), occluders, 0.0f, 1e5f);
     CHECK(by_day.chance(near) == 1.0f / 128.0f);
 }

@@ -4,22 +4,22 @@
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace bdpt {
 namespace {
 
-constexpr float max_offset = 0x1.fffffep-1f;
+constexpr std::size_t side = 16;  // cells
+using Cells = std::array<double, side * side>;
 
-/// Adds a quarter of each number to its two neighbours in a row and keeps half; numbers at the ends
-/// keep more. Consecutive numbers are `step` apart, rows `stride`.
-template <std::size_t side>
-std::array<double, side * side> blur_rows(const std::array<double, side * side>& numbers,
-                                          std::size_t step, std::size_t stride)
+/// Blurs along rows: a quarter of each number goes to each of its two neighbours. At the ends of a
+/// row that quarter stays. Consecutive numbers are `step` apart, rows `stride`.
+Cells blur_rows(const Cells& numbers, std::size_t step, std::size_t stride)
 {
-    std::array<double, side * side> result{};
+    Cells result{};
     for (std::size_t row = 0; row < side; ++row) {
         for (std::size_t i = 0; i < side; ++i) {
             const std::size_t at = row * stride + i * step;
@@ -29,6 +29,12 @@ std::array<double, side * side> blur_rows(const std::array<double, side * side>&
         }
     }
     return result;
+}
+
+/// Tests whether a point is in [0, 1)^2.
+bool is_in_grid(Vec2 at)
+{
+    return at.x >= 0.0f && at.y >= 0.0f && at.x < 1.0f && at.y < 1.0f;
 }
 
 }  // namespace
@@ -47,54 +53,39 @@ EntryWindow::EntryWindow(std::span<const Escape> escapes, Vec3 origin, float mar
     x_ = frame.x;
     y_ = frame.y;
     normal_ = frame.z;
-    size_ = Vec2(margin);  // it admits directions from now on
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    corner_ = Vec2(infinity);
+    Vec2 corner(infinity);
     Vec2 opposite(-infinity);
     for (const Escape& escape : escapes) {
-        if (admits(-escape.direction)) {
-            const Vec2 at = project(escape.p, escape.direction);
-            corner_ = min(corner_, at);
+        if (is_steep(escape.direction)) {
+            const Vec2 at = project(escape.p, escape.direction);  // [m]: corner 0, size 1
+            corner = min(corner, at);
             opposite = max(opposite, at);
         }
     }
-    const Vec2 around = 0.1f * (opposite - corner_) + margin;
-    corner_ -= around;
+    const Vec2 around = 0.1f * (opposite - corner) + margin;
+    corner_ = corner - around;
     size_ = opposite + around - corner_;
     Cells throughputs{};
     for (const Escape& escape : escapes) {
-        if (admits(-escape.direction)) {
-            const Vec2 at = (project(escape.p, escape.direction) - corner_) / size_;
-            const auto cell = [](float t) {
-                return std::min(static_cast<std::size_t>(std::max(t, 0.0f) * side), side - 1);
-            };
-            throughputs[cell(at.y) * side + cell(at.x)] += static_cast<double>(escape.throughput);
+        const Vec2 at = project(escape.p, escape.direction);
+        if (is_steep(escape.direction) && is_in_grid(at)) {
+            const auto cell = glm::vec<2, std::size_t>(at * static_cast<float>(side));
+            throughputs[cell.y * side + cell.x] += static_cast<double>(escape.throughput);
         }
     }
-    fill(throughputs);
-}
-
-void EntryWindow::fill(const Cells& throughputs)
-{
-    Cells roots = blur_rows<side>(blur_rows<side>(throughputs, 1, side), side, 1);
-    double sum = 0.0;
-    for (double& cell : roots) {
-        cell = std::sqrt(cell);
-        sum += cell;
+    std::vector<float> roots;
+    double total = 0.0;
+    for (const double cell : blur_rows(blur_rows(throughputs, 1, side), side, 1)) {
+        roots.push_back(static_cast<float>(std::sqrt(cell)));
+        total += std::sqrt(cell);
     }
-    if (!(sum > 0.0)) {
-        size_ = Vec2(0.0f);
-        return;
+    if (total > 0.0) {
+        cells_.emplace(roots, static_cast<int>(side), static_cast<int>(side));
+        const double area_of_cell = static_cast<double>(size_.x) * static_cast<double>(size_.y) /
+                                    static_cast<double>(side * side);
+        root_of_throughput_ = total * std::sqrt(area_of_cell);
     }
-    double before = 0.0;
-    for (std::size_t i = 0; i < roots.size(); ++i) {
-        sums_[i] = static_cast<float>(before / sum);
-        before += roots[i];
-    }
-    sums_.back() = 1.0f;
-    const double area_of_cell = static_cast<double>(size_.x) * static_cast<double>(size_.y) /
-                                static_cast<double>(roots.size());
-    root_of_throughput_ = sum * std::sqrt(area_of_cell);
 }
 
 Vec2 EntryWindow::project(Vec3 p, Vec3 direction) const noexcept
@@ -102,31 +93,22 @@ Vec2 EntryWindow::project(Vec3 p, Vec3 direction) const noexcept
     const Vec3 from_origin = p - origin_;
     const Vec3 on_plane =
         from_origin - dot(from_origin, normal_) / dot(direction, normal_) * direction;
-    return {dot(on_plane, x_), dot(on_plane, y_)};
+    return (Vec2(dot(on_plane, x_), dot(on_plane, y_)) - corner_) / size_;
 }
 
 Vec3 EntryWindow::sample(Vec2 u) const noexcept
 {
-    const auto next = std::upper_bound(sums_.begin(), sums_.end(), u.x);
-    const auto cell = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
-        next - sums_.begin() - 1, 0, static_cast<std::ptrdiff_t>(sums_.size()) - 2));
-    const float width = sums_[cell + 1] - sums_[cell];
-    const Vec2 in_cell{std::min((u.x - sums_[cell]) / width, max_offset), u.y};
-    const Vec2 at =
-        corner_ + size_ * ((Vec2(cell % side, cell / side) + in_cell) / static_cast<float>(side));
+    const Vec2 at = corner_ + size_ * cells_->sample(u).point;
     return origin_ + at.x * x_ + at.y * y_;
 }
 
 PlanarPdf EntryWindow::pdf(Vec3 p, Vec3 direction) const noexcept
 {
-    constexpr auto end = static_cast<float>(side);
-    const Vec2 at = (project(p, direction) - corner_) / size_ * end;
-    if (!(at.x >= 0.0f && at.y >= 0.0f && at.x < end && at.y < end)) {
+    const Vec2 at = project(p, direction);
+    if (!is_in_grid(at)) {
         return {};
     }
-    const auto cell = static_cast<std::size_t>(at.y) * side + static_cast<std::size_t>(at.x);
-    const float area = size_.x * size_.y / (end * end);
-    return {(sums_[cell + 1] - sums_[cell]) / (area * std::abs(dot(direction, normal_)))};
+    return {cells_->pdf(at) / (size_.x * size_.y * std::abs(dot(direction, normal_)))};
 }
 
 }  // namespace bdpt

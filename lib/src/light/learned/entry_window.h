@@ -1,13 +1,14 @@
 #pragma once
 
+#include "math/distribution_2d.h"
 #include "math/pdf.h"
 
 #include <bdpt/types.h>
 
 #include <glm/geometric.hpp>
 
-#include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace bdpt {
@@ -33,8 +34,7 @@ public:
     /// Tests whether light that travels in this direction enters here, at a steep angle.
     [[nodiscard]] bool admits(Vec3 direction) const noexcept
     {
-        constexpr float min_cosine = 0.25f;
-        return size_.x > 0.0f && -dot(direction, normal_) > min_cosine;
+        return cells_ && is_steep(-direction);
     }
     /// Samples a point on the plane; the window admits some direction.
     [[nodiscard]] Vec3 sample(Vec2 u) const noexcept;
@@ -45,20 +45,22 @@ public:
     [[nodiscard]] double root_of_throughput() const noexcept { return root_of_throughput_; }
 
 private:
-    static constexpr std::size_t side = 16;  // cells
-    using Cells = std::array<double, side * side>;
-
-    /// Returns where the line through `p` crosses the plane [m].
+    /// Tests whether a direction towards the environment crosses the plane at a steep angle.
+    [[nodiscard]] bool is_steep(Vec3 direction) const noexcept
+    {
+        constexpr float min_cosine = 0.25f;
+        return dot(direction, normal_) > min_cosine;
+    }
+    /// Returns where the line through `p` crosses the plane, in the grid's [0, 1)^2.
     [[nodiscard]] Vec2 project(Vec3 p, Vec3 direction) const noexcept;
-    void fill(const Cells& throughputs);
 
     Vec3 origin_{0.0f};
     Vec3 x_{0.0f};  // axes of the plane
     Vec3 y_{0.0f};
     Vec3 normal_{0.0f};
     Vec2 corner_{0.0f};
-    Vec2 size_{0.0f};
-    std::array<float, side * side + 1> sums_{};  // probabilities of the cells before each
+    Vec2 size_{1.0f};
+    std::optional<Distribution2D> cells_;
     double root_of_throughput_ = 0.0;
 };
 

@@ -54,8 +54,8 @@ public:
     /// Returns the fraction of light from `w` that the coat reflects; the base receives at most the
     /// rest.
     [[nodiscard]] float reflected(Vec3 w) const noexcept;
-    /// Returns the light that is reflected back to the base: that below an even coat, and less where
-    /// the coat is tilted, because less is lost there on average over all azimuths.
+    /// Returns the light that is reflected back to the base: that below an even coat, and less
+    /// where the coat is tilted, because less is lost there on average over all azimuths.
     [[nodiscard]] CoatInterreflection interreflection(const CoatedBase& base,
                                                       const CoatLoss* loss) const noexcept;
 

@@ -90,6 +90,12 @@ Vec2 Camera::compute_raster(Vec3 lens, Vec3 d) const
     return 0.5f * (ndc + 1.0f) * film_size_;
 }
 
+Vec2 Camera::compute_parallel_raster(Vec3 local_point) const
+{
+    const Vec2 ndc = Vec2(local_point.x, -local_point.y) / half_extent_;
+    return 0.5f * (ndc + 1.0f) * film_size_;
+}
+
 CameraRay Camera::generate_ray(Vec2 raster, Vec2 u_lens) const
 {
     const Vec2 ndc = 2.0f * raster / film_size_ - 1.0f;
@@ -116,6 +122,15 @@ float Camera::depth(Vec3 scene_point) const
     return -dot(world_from_camera_[2], scene_point - position_);
 }
 
+std::optional<Vec2> Camera::project(Vec3 scene_point) const
+{
+    const Vec3 local = to_local(scene_point - position_);
+    if (!(local.z < 0.0f)) {
+        return std::nullopt;
+    }
+    return perspective_ ? compute_raster(Vec3(0.0f), local) : compute_parallel_raster(local);
+}
+
 std::optional<LensSample> Camera::sample_lens(Vec3 scene_point, Vec2 u_lens) const
 {
     std::optional<LensSample> sampled;  // constructed in place of the result
@@ -124,8 +139,7 @@ std::optional<LensSample> Camera::sample_lens(Vec3 scene_point, Vec2 u_lens) con
         return sampled;
     }
     if (!perspective_) {
-        const Vec2 ndc = Vec2(local.x, -local.y) / half_extent_;
-        const Vec2 raster = 0.5f * (ndc + 1.0f) * film_size_;
+        const Vec2 raster = compute_parallel_raster(local);
         if (!is_visible(raster)) {
             return sampled;
         }

@@ -76,6 +76,9 @@ public:
     [[nodiscard]] const PixelCone& pixel_cone() const { return pixel_cone_; }
     /// Returns the distance of a point along the camera's axis [m]; positive in front.
     [[nodiscard]] float depth(Vec3 scene_point) const;
+    /// Returns the raster position at which the middle of the lens sees a point; nullopt if it is
+    /// not in front of the lens.
+    [[nodiscard]] std::optional<Vec2> project(Vec3 scene_point) const;
     /// Samples a point on the lens; nullopt if the scene point is behind the lens or appears
     /// outside of the visible bounds.
     [[nodiscard]] std::optional<LensSample> sample_lens(Vec3 scene_point, Vec2 u_lens) const;
@@ -94,6 +97,8 @@ private:
     /// Returns the raster position of the ray from a lens point in the local direction `d`
     /// [pixels].
     [[nodiscard]] Vec2 compute_raster(Vec3 lens, Vec3 d) const;
+    /// Returns the raster position of a local point for an orthographic camera [pixels].
+    [[nodiscard]] Vec2 compute_parallel_raster(Vec3 local_point) const;
 
     Vec3 position_;
     MediumId medium_;

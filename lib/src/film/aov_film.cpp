@@ -89,6 +89,18 @@ void AovFilm::add_ground(int x, int y, const GroundLight& light) noexcept
     }
 }
 
+void AovFilm::add_open_ground(int x, int y, float irradiance, std::int64_t rays) noexcept
+{
+    const std::size_t i = index(x, y);
+    ground_hits_[i] += static_cast<std::uint64_t>(rays);
+    ExactSum light;
+    for (std::int64_t ray = 0; ray < rays; ++ray) {
+        light.add_alone(std::min(irradiance, ExactSum::max_value));
+    }
+    unshadowed_[i].add(light);
+    shadowed_[i].add(light);
+}
+
 void AovFilm::add_opacity(int x, int y, float opacity) noexcept
 {
     opacity_[index(x, y)].add_alone(opacity);

@@ -18,6 +18,7 @@ AovPass::AovPass(const World& world, const MovingCamera& camera, const RenderOpt
       options_(options),
       filter_(options.film.filter),
       needs_surfaces_(asks_for_surfaces(options.film.aovs)),
+      outline_(camera, world.bounds()),
       ground_(world, options)
 {
     if (asks_for_ids(options.film.aovs)) {
@@ -41,6 +42,17 @@ RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm&
             if (!film.region().contains(x, y)) {
                 continue;
             }
+            const Vec2 center = Vec2(x, y) + 0.5f;
+            const RasterBounds footprint{center - filter_.radius(), center + filter_.radius()};
+            if (outline_.is_beside(footprint)) {
+                if (!film.needs_ground()) {
+                    continue;
+                }
+                if (const auto ground = ground_in(footprint)) {
+                    add_ground(x, y, samples, *ground, film, stats.rays);
+                    continue;
+                }
+            }
             met.clear();
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
                 add_sample(x, y, index, film, met, stats.rays);
@@ -49,6 +61,32 @@ RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm&
         }
     }
     return stats;
+}
+
+std::optional<GroundShadow::Part> AovPass::ground_in(const RasterBounds& footprint) const
+{
+    const auto& [min, max] = footprint;
+    const auto ray = [this](float x, float y) {
+        return camera_.first().generate_ray({x, y}, Vec2(0.0f));
+    };
+    return ground_.part_between(
+        {ray(min.x, min.y), ray(max.x, min.y), ray(min.x, max.y), ray(max.x, max.y)});
+}
+
+void AovPass::add_ground(int x, int y, SampleRange samples, const GroundShadow::Part& ground,
+                         AovFilm& film, RayCounts& rays) const
+{
+    std::vector<SurfaceIds> none;
+    std::int64_t open = 0;
+    for (std::int64_t index = samples.begin; index < samples.end; ++index) {
+        const Sampler sampler(options_.sampling.sampler, options_.sampling.seed, x, y, index);
+        if (ground_.may_sample(ground, sampler)) {
+            add_sample(x, y, index, film, none, rays);
+        } else {
+            ++open;
+        }
+    }
+    film.add_open_ground(x, y, ground.irradiance, open);
 }
 
 void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,

@@ -3,6 +3,7 @@
 #include "film/pixel_filter.h"
 #include "integrator/integrator.h"
 #include "render/ground/ground_shadow.h"
+#include "render/scene_outline.h"
 #include "scene/scene_names.h"
 
 #include <bdpt/film/aov_film.h>
@@ -31,6 +32,11 @@ private:
     /// requested.
     void add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
                     std::vector<SurfaceIds>& met, RayCounts& rays) const;
+    /// Adds samples of a pixel whose camera rays all hit the ground and miss the scene.
+    void add_ground(int x, int y, SampleRange samples, const GroundShadow::Part& ground,
+                    AovFilm& film, RayCounts& rays) const;
+    /// Returns the ground that the camera rays through `footprint` hit.
+    [[nodiscard]] std::optional<GroundShadow::Part> ground_in(const RasterBounds& footprint) const;
 
     /// Returns the fraction of light that surfaces block along a camera ray, in [0, 1].
     [[nodiscard]] float opacity_along(const CameraRay& ray, SegmentKey segment,
@@ -41,6 +47,7 @@ private:
     RenderOptions options_;
     PixelFilter filter_;
     bool needs_surfaces_;
+    SceneOutline outline_;
     GroundShadow ground_;
     std::optional<SceneNames> names_;  // set if ids were requested
 };

@@ -90,6 +90,42 @@ TEST_CASE("the shadow on the ground is pure, and the same for every integrator",
     CHECK_FALSE(render(scene, view, o).aovs == whole.aovs);
 }
 
+TEST_CASE("pixels beside the scene skip rays that find no shadow, and no bit changes", "[purity][ground]")
+{
+    SceneBuilder builder;
+    builder.quad({-1.0f, 1.0f, 0.6f}, {1.0f, 1.0f, 0.6f}, {1.0f, 1.0f, -0.6f}, {-1.0f, 1.0f, -0.6f},
+                 lambertian(Rgb(0.5f)));
+    builder.sphere({0.8f, 0.3f, 0.4f}, 0.2f, lambertian(Rgb(0.5f)), 12);
+    builder.light(sunny_sky());
+    const bool has_lamp = GENERATE(false, true);
+    if (has_lamp) {
+        builder.light(PointLightDesc{.position = {-0.5f, 1.6f, 0.0f}, .intensity = Rgb(5.0f)});
+    }
+    const Scene scene(builder.desc);
+    const CameraDesc above = in_parallel(camera_above(), 12.0f);
+    // The others see the horizon, and the last has the scene to its left. Their axes are those of
+    // the world, so that motion rounds no matrix.
+    const auto ahead = [](Vec3 from) { return camera_at(from, from - Vec3(0.0f, 0.0f, 1.0f), 0.9f); };
+    for (const CameraDesc& camera :
+         {above, ahead({1.0f, 2.0f, 6.0f}), ahead({5.0f, 2.0f, 6.0f})}) {
+        RenderOptions o = options(IntegratorKind::pt);
+        o.film.ground_height = 0.0f;
+        o.film.aovs = {Aov::alpha, Aov::shadow, Aov::opacity, Aov::depth, Aov::object};
+        const RenderResult some = render(scene, camera, o);
+        // No pixel of a moving camera is known to be beside the scene.
+        CameraDesc moving = camera;
+        moving.motion = {camera.world_from_camera};
+        const RenderResult all = render(scene, moving, o);
+        CHECK(some.aovs == all.aovs);
+        CHECK(some.ids == all.ids);
+        CHECK(compute_mean(compute_shadow(some).opacity) > 0.0);
+        const double ratio = static_cast<double>(some.stats.rays.aov) /
+                             static_cast<double>(all.stats.rays.aov);
+        CAPTURE(has_lamp, ratio);
+        CHECK(ratio < 0.85);
+    }
+}
+
 TEST_CASE("a ground changes no bit of the image, and adds its shadow to alpha", "[purity][ground]")
 {
     const Scene scene = stage();

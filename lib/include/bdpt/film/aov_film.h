@@ -80,6 +80,9 @@ public:
     void add(int x, int y, const PrimaryHit& hit) noexcept;
     /// Adds a ray that hits the ground, if `needs_ground()`.
     void add_ground(int x, int y, const GroundLight& light) noexcept;
+    /// Adds `rays` that hit the ground where nothing blocks its light of `irradiance` [lx], if
+    /// `needs_ground()`.
+    void add_open_ground(int x, int y, float irradiance, std::int64_t rays) noexcept;
     /// Adds the opacity of any ray, if `needs_opacity()`: the fraction of light that surfaces
     /// block, in [0, 1].
     void add_opacity(int x, int y, float opacity) noexcept;

@@ -37,7 +37,7 @@ public:
     [[nodiscard]] bool empty() const { return skylines_.empty(); }
     [[nodiscard]] std::size_t place_count() const { return skylines_.size(); }
     /// Returns the place of a point on the ground: a cell of a grid that is fine under the scene
-    /// and coarser with distance.
+    /// and coarser with distance; row (z) * `side` + column (x).
     [[nodiscard]] std::size_t place(Vec3 p) const;
     /// Returns a point of a place, x and z, for `within` in [0, 1)^2; for the outermost places,
     /// some point.

@@ -79,7 +79,8 @@ GroundShadow::GroundShadow(const World& world, const RenderOptions& options)
                                                       EnvironmentSampling::plain, 0.5f);
         elsewhere += light ? luminance(std::max(light->wi.y, 0.0f) * light->weight) : 0.0f;
     }
-    has_other_lights_ = elsewhere > 0.0f;
+    // If there are only local lights, they cause all of the noise.
+    lamp_samples_ = elsewhere > 0.0f ? 1 : 2;
     lamps_.emplace(lights, *occluders_, height_, elsewhere);
 }
 
@@ -128,6 +129,56 @@ std::optional<GroundLight> GroundShadow::light_at(const CameraRay& ray,
     add_suns(point, sum);
     add_lamps(point, sum);
     return GroundLight{.unshadowed = sum.all, .shadowed = sum.all - sum.blocked};
+}
+
+std::optional<GroundShadow::Part> GroundShadow::part_between(
+    const std::array<CameraRay, 4>& corners) const
+{
+    if (!suns_.empty()) {
+        return std::nullopt;
+    }
+    Vec3 low(std::numeric_limits<float>::infinity());
+    Vec3 high(-std::numeric_limits<float>::infinity());
+    for (const CameraRay& corner : corners) {
+        const auto end = meet(corner);
+        if (!end) {
+            return std::nullopt;
+        }
+        low = min(low, end->p);
+        high = max(high, end->p);
+    }
+    Part part{.irradiance = sky_ ? sky_->irradiance() : 0.0f};
+    constexpr std::size_t side = GroundOccluders::side;
+    const std::size_t first = occluders_->place(low);
+    const std::size_t last = occluders_->place(high);
+    for (std::size_t row = first / side; row <= last / side; ++row) {
+        for (std::size_t column = first % side; column <= last % side; ++column) {
+            const std::size_t place = row * side + column;
+            if (sky_ && !occluders_->empty()) {
+                part.sky_chance = std::max(part.sky_chance, sky_->effort(place).chance);
+            }
+            if (lamps_) {
+                part.lamp_chance = std::max(part.lamp_chance, lamps_->chance(place));
+            }
+            if (std::max(part.sky_chance, part.lamp_chance) >= 1.0f) {
+                return std::nullopt;
+            }
+        }
+    }
+    return part;
+}
+
+bool GroundShadow::may_sample(const Part& part, const Sampler& sampler) const
+{
+    const auto is_below = [&](float chance, RayUse kind, int sample) {
+        return chance > 0.0f &&
+               sampler.ordered_1d(SampleUse::ground, number_of_ray(kind, sample)) < chance;
+    };
+    bool result = is_below(part.sky_chance, RayUse::sky, 0);
+    for (int i = 0; i < lamp_samples_ && !result; ++i) {
+        result = is_below(part.lamp_chance, RayUse::lamp, i);
+    }
+    return result;
 }
 
 void GroundShadow::add(Light& sum, const Light& light, float weight)
@@ -231,11 +282,9 @@ void GroundShadow::add_lamps(const Point& point, Light& sum) const
     if (!lamps_) {
         return;
     }
-    // If there are only local lights, they cause all of the noise.
-    const int samples = has_other_lights_ ? 1 : 2;
     const float chance = lamps_->chance(point.place);
     const LightSet& lights = world_.lights();
-    for (int i = 0; i < samples; ++i) {
+    for (int i = 0; i < lamp_samples_; ++i) {
         const std::uint32_t number = number_of_ray(RayUse::lamp, i);
         if (!(point.sampler.ordered_1d(SampleUse::ground, number) < chance)) {
             continue;
@@ -254,7 +303,7 @@ void GroundShadow::add_lamps(const Point& point, Light& sum) const
             add(sum,
                 past_scene(point, choice->id, *light,
                            light->wi.y / choice->probability * light->weight, number),
-                1.0f / (chance * static_cast<float>(samples)));
+                1.0f / (chance * static_cast<float>(lamp_samples_)));
         }
     }
 }

@@ -13,6 +13,7 @@
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -34,6 +35,19 @@ public:
     [[nodiscard]] std::optional<GroundLight> light_at(const CameraRay& ray,
                                                       const TimeAndWavelength& moment,
                                                       Sampler& sampler, RayCounts& rays) const;
+
+    /// A part of the ground where few camera rays sample light.
+    struct Part {
+        float irradiance = 0.0f;   ///< of the sky, luminance [lx]
+        float sky_chance = 0.0f;   ///< upper bound of the probability of a sample of the sky
+        float lamp_chance = 0.0f;  ///< the same for each sample of a lamp
+    };
+    /// Returns the part of the ground between the rays through the corners of a rectangle of the
+    /// film. nullopt if rays between them may miss the ground, or if each samples light.
+    [[nodiscard]] std::optional<Part> part_between(const std::array<CameraRay, 4>& corners) const;
+    /// Tests whether `light_at` may sample light. If not, it returns the part's irradiance, not
+    /// shadowed.
+    [[nodiscard]] bool may_sample(const Part& part, const Sampler& sampler) const;
 
 private:
     struct Point;
@@ -69,7 +83,7 @@ private:
     std::optional<GroundSky> sky_;
     std::vector<LightId> suns_;  // all other lights at infinity
     std::optional<GroundLamps> lamps_;
-    bool has_other_lights_ = false;
+    int lamp_samples_ = 0;     // per camera ray
     std::unordered_map<const PlacedMesh*, Box> shining_;  // bounds of meshes that emit
 };
 

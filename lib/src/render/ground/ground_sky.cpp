@@ -27,9 +27,9 @@ GroundSky::Effort choose_effort(const GroundSky::Shares& shares)
     if (!(shares.exposed > 0.0f)) {
         return {};
     }
-    constexpr float samples_of_all = 4.0f;  // samples if all of the sky may be blocked
+    constexpr float samples_of_all = 3.0f;  // samples if all of the sky may be blocked
     const float wanted = samples_of_all * shares.exposed / (shares.open + shares.exposed);
-    constexpr float most = 3.0f;  // more cost more than they help where the scene blocks most
+    constexpr float most = 2.0f;  // more cost more than they help where the scene blocks most
     const auto samples = static_cast<std::uint32_t>(std::ceil(std::min(wanted, most)));
     const float chance = std::min(wanted, 1.0f);
     return {.samples = samples,

@@ -196,8 +196,11 @@ TEST_CASE("option --stats writes the numbers of the render")
     CHECK(json["rays"]["camera"] == samples);
     CHECK(json["rays"]["light"] == 0);
     CHECK(json["rays"]["shadow"] == 0);
-    CHECK(json["rays"]["aov"] == samples);
-    CHECK(json["rays"]["total"] == 2 * samples);
+    // Pixels beside the scene need no rays of their own for AOVs.
+    const auto aov = json["rays"]["aov"].get<std::int64_t>();
+    CHECK(aov > 0);
+    CHECK(aov < samples);
+    CHECK(json["rays"]["total"] == samples + aov);
     CHECK(json["rays"]["per_second"].get<double>() > 0.0);
     CHECK(json["paths"]["camera"] == samples);
     for (const char* part : {"load", "build", "render", "write"}) {

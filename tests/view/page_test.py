@@ -51,14 +51,16 @@ def check_camera(window):
 
 def check_reset(window):
     start = window.state("camera")
-    before = window.seen()
-    window.drag((0.2, 0.5), (0.5, 0.5))
-    window.wait_for_generation(before["generation"])
-    turned = window.state("camera")
-    expect(turned["from"] != start["from"] and turned["look_at"] == start["look_at"], "a drag turns around the target")
-    for what, act in (("the key 0", lambda: window.press("0")), ("it, while a move waits to be sent,", window.wheel_and_reset)):
+    for what, reset in (("the key 0", lambda: window.press("0")),
+                        ("it, while a move waits to be sent,", window.wheel_and_reset)):
         before = window.seen()
-        act()
+        window.drag((0.2, 0.5), (0.5, 0.5))
+        window.wait_for_generation(before["generation"])
+        window.finished()
+        turned = window.state("camera")
+        expect(turned["from"] != start["from"] and turned["look_at"] == start["look_at"], "a drag turns around the target")
+        before = window.seen()
+        reset()
         window.wait_for_generation(before["generation"])
         window.drawn()
         window.finished()

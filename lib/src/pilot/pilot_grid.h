@@ -52,7 +52,7 @@ public:
     }
 
 private:
-    static constexpr double share_of_pixels = 1.0 / 16.0;
+    static constexpr double share_of_pixels = 1.0 / 8.0;
     static constexpr double min_cells = 512.0;
     static constexpr double max_cells = 8192.0;
 

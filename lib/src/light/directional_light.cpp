@@ -34,6 +34,19 @@ EmissionSample DirectionalLight::sample_emission(Vec2 u_position, Vec2 /*u_direc
             .pdf_entry = bounds_.pdf_disk()};
 }
 
+EmissionSample DirectionalLight::sample_emission(Vec2 u_position, float time,
+                                                 const EntryWindow& window) const
+{
+    const Vec3 direction = this->direction(time);
+    const EntryWindow::Entry entry = window.sample(direction, u_position);
+    return {.end = {.p = entry.p},
+            .direction = direction,
+            .weight = illuminance_ / entry.pdf.value,
+            .pdf_position = {1.0f},
+            .pdf_direction = {},
+            .pdf_entry = entry.pdf};
+}
+
 IncidentSample DirectionalLight::sample_incident(const LightSampleContext& /*receiver*/, Vec2 /*u*/,
                                                  EnvironmentSampling /*sampling*/, float time) const
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "light/bounding_sphere.h"
+#include "light/learned/entry_window.h"
 #include "light/light_model.h"
 #include "light/light_samples.h"
 
@@ -18,6 +19,9 @@ public:
 
     [[nodiscard]] EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction,
                                                  float time) const;
+    /// Starts light where it enters, as learned.
+    [[nodiscard]] EmissionSample sample_emission(Vec2 u_position, float time,
+                                                 const EntryWindow& window) const;
     [[nodiscard]] IncidentSample sample_incident(const LightSampleContext& receiver, Vec2 u,
                                                  EnvironmentSampling sampling, float time) const;
     /// Returns the luminous flux through the scene's disk [lm].

@@ -186,8 +186,8 @@ std::optional<EmissionSample> EnvironmentLight::sample_emission(
     if (!from) {
         return std::nullopt;
     }
-    const EnvironmentEntries::Entry entry =
-        entries.sample(tile_to(from->to_light), -from->to_light, u_position);
+    const EntryWindow::Entry entry =
+        entries.window(tile_to(from->to_light)).sample(-from->to_light, u_position);
     return EmissionSample{.end = {.p = entry.p},
                           .direction = -from->to_light,
                           .weight = lookup(from->uv) / (from->pdf.value * entry.pdf.value),
@@ -206,7 +206,7 @@ AreaPdf EnvironmentLight::pdf_position(const LightPoint& x0,
 PlanarPdf EnvironmentLight::pdf_entry(Vec3 to_light, Vec3 p,
                                       const EnvironmentEntries& entries) const
 {
-    return entries.pdf(tile_to(to_light), -to_light, p);
+    return entries.window(tile_to(to_light)).pdf(p, -to_light);
 }
 
 std::optional<IncidentSample> EnvironmentLight::sample_incident(const LightSampleContext& receiver,

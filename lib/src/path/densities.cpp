@@ -49,6 +49,10 @@ LightDensities light_densities(const SampleContext& sample, const PathVertex& x0
         return {.emit = environment.pdf_position(point, *entries) * chosen,
                 .to_next = to_area(environment.pdf_entry(to_light, x1.p, *entries), cosine)};
     }
+    if (const EntryWindow* window = LightSet::learned_window(*x0.light, sampling)) {
+        return {.emit = light.pdf_position(point) * chosen,
+                .to_next = to_area(window->pdf(x1.p, -to_light), cosine)};
+    }
     return {.emit = light.pdf_position(point) * chosen,
             .to_next = infinite ? to_area(sample.world.bounding_sphere().pdf_disk(), cosine)
                                 : to_area(light.pdf_direction(x0.end.ng, -to_light, sample.time),

@@ -167,6 +167,24 @@ void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path
     }
 }
 
+/// Starts a light path of the chosen light.
+std::optional<EmissionSample> sample_emission(SampleContext& sample,
+                                              const LightSet::ChoiceAndNumbers& choice,
+                                              const NextEventSampling& sampling)
+{
+    const LightSet& lights = sample.world.lights();
+    const Light& light = lights[choice.id];
+    if (const EnvironmentEntries* entries = lights.learned_entries(choice.id, sampling)) {
+        return std::get<EnvironmentLight>(light.model())
+            .sample_emission(choice.u, sample.sampler.next_2d(), *entries);
+    }
+    if (const EntryWindow* window = LightSet::learned_window(choice.id, sampling)) {
+        return std::get<DirectionalLight>(light.model())
+            .sample_emission(choice.u, sample.time, *window);
+    }
+    return light.sample_emission(choice.u, sample.sampler.next_2d(), sample.time);
+}
+
 }  // namespace
 
 void trace_camera_subpath(SampleContext& sample, Vec2 raster, const WalkLimits& limits,
@@ -208,11 +226,7 @@ void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
     }
     const Light& light = world.lights()[choice->id];
     sampler.start(SampleUse::light_start, 1);
-    const EnvironmentEntries* entries = world.lights().learned_entries(choice->id, sampling);
-    const auto emitted =
-        entries != nullptr ? std::get<EnvironmentLight>(light.model())
-                                 .sample_emission(choice->u, sampler.next_2d(), *entries)
-                           : light.sample_emission(choice->u, sampler.next_2d(), sample.time);
+    const auto emitted = sample_emission(sample, *choice, sampling);
     if (!emitted || is_black(emitted->weight)) {
         return;
     }

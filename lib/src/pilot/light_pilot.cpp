@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -28,12 +29,14 @@ struct Finds {
     std::vector<EnvironmentVisibility::Trial> trials;
     std::vector<GroupShares::Finding> findings;
     std::vector<Escape> escapes;
+    std::vector<Escape> to_suns;
 
     Finds& operator+=(const Finds& more)
     {
         trials.insert(trials.end(), more.trials.begin(), more.trials.end());
         findings.insert(findings.end(), more.findings.begin(), more.findings.end());
         escapes.insert(escapes.end(), more.escapes.begin(), more.escapes.end());
+        to_suns.insert(to_suns.end(), more.to_suns.begin(), more.to_suns.end());
         return *this;
     }
 };
@@ -74,6 +77,21 @@ bool can_learn_groups(const World& world, const RenderOptions& options)
            options.sampling.lights != LightSampling::power;
 }
 
+/// Returns the directional lights, up to a number beyond which they are not worth a ray each.
+std::vector<LightId> find_suns(const World& world)
+{
+    constexpr std::size_t max_suns = 4;
+    std::vector<LightId> suns;
+    for (std::uint32_t i = 0; i < world.lights().size(); ++i) {
+        const LightId id{i};
+        if (std::holds_alternative<DirectionalLight>(world.lights()[id].model()) &&
+            world.lights().next_event_lights().has_power(id) && suns.size() < max_suns) {
+            suns.push_back(id);
+        }
+    }
+    return suns;
+}
+
 /// Returns the visibility of the environment; nullopt if that does not help.
 std::optional<EnvironmentVisibility> make_visibility(
     std::vector<EnvironmentVisibility::Trial> trials)
@@ -106,6 +124,7 @@ public:
           camera_(camera),
           options_(options),
           environment_(find_environment(world)),
+          suns_(find_suns(world)),
           learns_groups_(can_learn_groups(world, options)),
           path_(std::min(options.transport.max_depth, light_pilot_edges) + 1)
     {}
@@ -153,6 +172,11 @@ private:
                 const bool visible = next.kind == VertexKind::infinite;
                 note(vertex, visible ? next.end.p : normalize(next.end.p - vertex.end.p), visible);
             }
+            if (has_connectible(t - 1)) {  // next-event estimation finds direct light
+                for (std::size_t sun = 0; sun < suns_.size(); ++sun) {
+                    note_sun(sample, vertex, t, sun);
+                }
+            }
             sample.sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(t));
             if (environment_ != nullptr) {
                 sample_light(sample, vertex, t, *world_.lights().environment(), 1.0f);
@@ -163,24 +187,48 @@ private:
         }
     }
 
+    /// Tests whether light paths can be connected to one of the first `count` vertices.
+    [[nodiscard]] bool has_connectible(int count) const
+    {
+        const auto first = path_.all().first(static_cast<std::size_t>(count));
+        return std::any_of(first.begin(), first.end(), [](const PathVertex& vertex) {
+            return scatters(vertex.kind) && vertex.connectible;
+        });
+    }
+
     /// Records that the path reached the environment after a vertex that is not specular: light
     /// paths cannot replace other paths.
     void note_escape()
     {
-        const auto vertices = path_.all();
-        if (environment_ == nullptr || vertices.empty() ||
-            vertices.back().kind != VertexKind::infinite ||
-            std::none_of(vertices.begin(), vertices.end(), [](const PathVertex& vertex) {
-                return scatters(vertex.kind) && vertex.connectible;
-            })) {
+        const int last = path_.size() - 1;
+        if (environment_ == nullptr || last < 1 || path_[last].kind != VertexKind::infinite ||
+            !has_connectible(last)) {
             return;
         }
+        const auto vertices = path_.all();
         const Vec3 direction = vertices.back().end.p;
         const float throughput = luminance(vertices.back().beta);
         if (std::isfinite(throughput)) {
             contributions_.escapes.push_back({.p = vertices[vertices.size() - 2].end.p,
                                               .direction = direction,
                                               .tile = environment_->tile_to(direction),
+                                              .throughput = throughput});
+        }
+    }
+
+    /// Records that light of a sun reaches the vertex.
+    void note_sun(SampleContext& sample, const PathVertex& vertex, int t, std::size_t sun)
+    {
+        const auto incident = world_.lights()[suns_[sun]].sample_incident(
+            light_sample_context(vertex), Vec2(0.5f), EnvironmentSampling::plain, sample.time);
+        const BsdfEval f = vertex.bsdf->eval(incident->wi, TransportMode::radiance);
+        const SegmentKey segment = sample.segment(1, t);
+        const float throughput = luminance(vertex.beta * f.f_cos);
+        if (throughput > 0.0f && std::isfinite(throughput) &&
+            world_.transmission_to_infinity(vertex.end, incident->wi, segment)) {
+            contributions_.to_suns.push_back({.p = vertex.end.p,
+                                              .direction = incident->wi,
+                                              .tile = sun,
                                               .throughput = throughput});
         }
     }
@@ -258,6 +306,7 @@ private:
     const MovingCamera& camera_;
     const RenderOptions& options_;
     const EnvironmentLight* environment_;  // if there is one
+    std::vector<LightId> suns_;
     bool learns_groups_;
     Subpath path_;
     RayCounts rays_;
@@ -272,7 +321,8 @@ bool can_learn_light(const World& world, const RenderOptions& options)
     return options.sampling.environment == EnvironmentSampling::learned &&
            options.integrator != IntegratorKind::pt && options.integrator != IntegratorKind::nee &&
            options.integrator != IntegratorKind::lt && options.transport.max_depth >= 2 &&
-           (find_environment(world) != nullptr || can_learn_groups(world, options)) &&
+           (find_environment(world) != nullptr || can_learn_groups(world, options) ||
+            (options.integrator != IntegratorKind::mis && !find_suns(world).empty())) &&
            world.media().fog() == MediumId::clear;
 }
 
@@ -305,7 +355,19 @@ std::unique_ptr<const LearnedLight> learn_light(const World& world, const Moving
         learned.entries.emplace(std::move(all.escapes), find_environment(world)->tiles(),
                                 world.bounding_sphere());
     }
-    return learned.visibility || learned.groups
+    const std::vector<LightId> suns = find_suns(world);
+    for (std::size_t sun = 0; sun < suns.size(); ++sun) {
+        std::vector<Escape> of_sun;
+        std::copy_if(all.to_suns.begin(), all.to_suns.end(), std::back_inserter(of_sun),
+                     [sun](const Escape& escape) { return escape.tile == sun; });
+        if (!of_sun.empty()) {
+            learned.suns.push_back(
+                {.sun = suns[sun],
+                 .window = EntryWindow(of_sun, world.bounding_sphere().center,
+                                       world.bounding_sphere())});
+        }
+    }
+    return learned.visibility || learned.groups || !learned.suns.empty()
                ? std::make_unique<const LearnedLight>(std::move(learned))
                : nullptr;
 }

@@ -120,6 +120,18 @@ const EnvironmentEntries* LightSet::learned_entries(LightId id,
                : nullptr;
 }
 
+const EntryWindow* LightSet::learned_window(LightId id, const NextEventSampling& sampling)
+{
+    if (sampling.learned != nullptr) {
+        for (const SunEntries& entries : sampling.learned->suns) {
+            if (entries.sun == id) {
+                return &entries.window;
+            }
+        }
+    }
+    return nullptr;
+}
+
 float LightSet::emission_probability(LightId id) const
 {
     // Triangles may emit so little that no light has any power in the range of floats.

@@ -64,9 +64,12 @@ public:
             LightId{choice.index}, choice.probability, {choice.u_remapped, u.y}};
     }
     [[nodiscard]] float emission_probability(LightId id) const;
-    /// Returns where light of this light enters the scene, as learned; null if that is unknown.
+    /// Returns where light of an environment enters the scene, as learned; null if that is unknown.
     [[nodiscard]] const EnvironmentEntries* learned_entries(
         LightId id, const NextEventSampling& sampling) const;
+    /// Returns where light of a sun enters the scene, as learned; null if that is unknown.
+    [[nodiscard]] static const EntryWindow* learned_window(LightId id,
+                                                           const NextEventSampling& sampling);
 
     /// A point on a light sampled by next-event estimation.
     struct NextEvent {

@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "chi_square.h"
+#include "light/directional_light.h"
 #include "light/environment_light.h"
 #include "math/frame.h"
 #include "statistics.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace bdpt::environment_entries_test {
@@ -65,7 +67,7 @@ TEST_CASE("entries: samples follow their density", "[light][entries]")
     for (const Vec3 to_light : {Vec3(0.1f, 1.0f, 0.05f), Vec3(-0.5f, 1.0f, 0.3f),
                                 Vec3(0.6f, 0.9f, -0.2f), Vec3(0.3f, -1.0f, 0.2f)}) {
         const Vec3 direction = -normalize(to_light);
-        const std::size_t tile = sky.tile_to(-direction);
+        const EntryWindow& window = entries.window(sky.tile_to(-direction));
         constexpr std::size_t side = 24;  // bins
         constexpr int fine = 40;          // points of a bin, in each direction
         constexpr float bin = 2.0f / side;
@@ -76,7 +78,7 @@ TEST_CASE("entries: samples follow their density", "[light][entries]")
                 const Vec2 within = (Vec2(k % fine, k / fine) + 0.5f) / static_cast<float>(fine);
                 const Vec2 at = bin * (Vec2(i % side, i / side) + within) - 1.0f;
                 if (dot(at, at) < 1.0f) {
-                    const float pdf = entries.pdf(tile, direction, from_disk(at, direction)).value;
+                    const float pdf = window.pdf(from_disk(at, direction), direction).value;
                     expected[i] += static_cast<double>(pdf * bin * bin * bounds.radius *
                                                        bounds.radius / (fine * fine));
                 }
@@ -91,8 +93,8 @@ TEST_CASE("entries: samples follow their density", "[light][entries]")
         std::vector<double> counts(expected.size());
         double nearest = bounds.radius;
         for (int i = 0; i < 20000; ++i) {
-            const auto entry = entries.sample(tile, direction, random.next_2d());
-            REQUIRE(entry.pdf.value == entries.pdf(tile, direction, entry.p).value);
+            const auto entry = window.sample(direction, random.next_2d());
+            REQUIRE(entry.pdf.value == window.pdf(entry.p, direction).value);
             nearest = std::min(
                 nearest, -static_cast<double>(dot(entry.p - bounds.center, direction)));
             const Vec2 at = (on_disk(entry.p, direction) + 1.0f) / bin;
@@ -162,6 +164,45 @@ TEST_CASE("entries: all light can start, with the density that weights assume", 
     }
 }
 
+TEST_CASE("entries: all light of a sun can start, most of it where it came through an opening",
+          "[light][entries]")
+{
+    const Vec3 direction = normalize(Vec3(0.2f, -1.0f, 0.1f));
+    const DirectionalLight sun({.direction = direction, .illuminance = Rgb(2.0f)}, bounds);
+    std::vector<Escape> escapes;
+    test::Random from_opening(6);
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 opening(1.0f + from_opening.next(), 3.0f, -from_opening.next());
+        escapes.push_back(
+            {.p = opening + 3.0f * direction, .direction = -direction, .throughput = 1.0f});
+    }
+    const EntryWindow window(escapes, bounds.center, bounds);
+    // The flux through small spheres: in the opening, and beside it.
+    for (const auto& [place, radius] :
+         {std::pair(Vec3(1.5f, 3.0f, -0.5f), 0.3f), std::pair(Vec3(-1.0f, 1.0f, 1.0f), 0.9f)}) {
+        test::Random random(7);
+        test::Moments flux;
+        int hits = 0;
+        constexpr int count = 200000;
+        for (int i = 0; i < count; ++i) {
+            const auto emitted = sun.sample_emission(random.next_2d(), 0.0f, window);
+            REQUIRE(emitted.direction == direction);
+            REQUIRE(emitted.pdf_position.value == 1.0f);
+            REQUIRE(emitted.pdf_entry.value == window.pdf(emitted.end.p, direction).value);
+            const Vec3 offset = place - emitted.end.p;
+            const float along = dot(offset, direction);
+            const bool is_hit = dot(offset, offset) - along * along < radius * radius;
+            hits += is_hit ? 1 : 0;
+            flux.add(is_hit ? static_cast<double>(emitted.weight.g) : 0.0);
+        }
+        const double expected = 2.0 * M_PI * static_cast<double>(radius * radius);
+        CAPTURE(place.x, hits);
+        CHECK(std::abs(flux.mean() - expected) < 4.0 * flux.standard_error());
+        CHECK(flux.standard_error() < 0.05 * expected);
+        CHECK((place.x < 0.0f || hits > 0.15 * count));  // 0.4 % of light that is uniform
+    }
+}
+
 TEST_CASE("entries: without escapes light starts everywhere alike", "[light][entries]")
 {
     const EnvironmentLight sky = even_sky();
@@ -171,7 +212,7 @@ TEST_CASE("entries: without escapes light starts everywhere alike", "[light][ent
         for (const float factor : entries.tiles().of) {
             CHECK(factor == 1.0f);
         }
-        CHECK(entries.pdf(3, {0, -1, 0}, bounds.center).value == bounds.pdf_disk().value);
+        CHECK(entries.window(3).pdf(bounds.center, {0, -1, 0}).value == bounds.pdf_disk().value);
     }
 }
 
@@ -197,7 +238,7 @@ TEST_CASE("entries: a tile of all directions is safe", "[light][entries]")
         REQUIRE(emitted);
         REQUIRE(std::isfinite(emitted->weight.g));
         REQUIRE(emitted->pdf_entry.value >=
-                EnvironmentEntries::uniform_part * bounds.pdf_disk().value);
+                EntryWindow::uniform_part * bounds.pdf_disk().value);
         REQUIRE(emitted->pdf_entry.value < 1e3f);
     }
 }

@@ -141,14 +141,20 @@ TEST_CASE("light pilot: the lamp is chosen within, sky and sun without", "[pilot
     }
 }
 
-TEST_CASE("light pilot: light paths from the sky enter the room", "[pilot]")
+TEST_CASE("light pilot: light paths from sky and sun enter the room", "[pilot]")
 {
     SceneBuilder builder = open_room();
     builder.quad({-9, -1, -9}, {9, -1, -9}, {9, -1, 2}, {-9, -1, 2}, lambertian(Rgb(0.5f)));
+    const bool is_sunny = GENERATE(false, true);
+    if (is_sunny) {
+        builder.desc.lights = {
+            DirectionalLightDesc{.direction = {0.1f, -1.0f, 0.05f}, .illuminance = Rgb(4.0f)}};
+    }
     const Scene scene(std::move(builder.desc));
     const auto found = learned(scene, options_of(IntegratorKind::bdpt));
     REQUIRE(found);
-    REQUIRE(found->entries);
+    REQUIRE(found->entries.has_value() == !is_sunny);
+    REQUIRE(found->suns.size() == (is_sunny ? 1 : 0));
     const Camera camera(room_camera(), 16, 12);
     const auto fraction_inside = [&](const LearnedLight* table) {
         int inside = 0;
@@ -205,6 +211,14 @@ TEST_CASE("light pilot: it learns nothing where nothing can be learned", "[pilot
         builder.desc.lights = {PointLightDesc{}};
         CHECK_FALSE(learned(Scene(std::move(builder.desc)), options));
     }
+    SECTION("a sun, of which mis starts no light")
+    {
+        SceneBuilder builder = open_room();
+        builder.desc.lights = {DirectionalLightDesc{.direction = {0.1f, -1.0f, 0.05f}}};
+        const Scene sunny(std::move(builder.desc));
+        CHECK_FALSE(learned(sunny, options_of(IntegratorKind::mis)));
+        CHECK(learned(sunny, options));
+    }
     SECTION("fog")
     {
         SceneBuilder builder = open_room();
@@ -250,8 +264,10 @@ TEST_CASE("light pilot: threads, crop, samples and seed do not matter", "[pilot]
             REQUIRE(again->groups->at(p) == first->groups->at(p));
             const Vec3 d = normalize(p);
             const auto tile = static_cast<std::size_t>(i) % EnvironmentTiles::tile_count;
-            REQUIRE(again->entries->pdf(tile, d, p).value ==
-                    first->entries->pdf(tile, d, p).value);
+            REQUIRE(again->entries->window(tile).pdf(p, d).value ==
+                    first->entries->window(tile).pdf(p, d).value);
+            REQUIRE(again->suns.front().window.pdf(p, d).value ==
+                    first->suns.front().window.pdf(p, d).value);
         }
     }
 }
@@ -295,13 +311,15 @@ TEST_CASE("light pilot: all renders of a view learn once", "[pilot]")
 TEST_CASE("light pilot: the image is right whatever was learned", "[pilot]")
 {
     // Also what is wrong on purpose: that only what is blocked is visible, on one side of the room,
-    // that each place has light of another group alone, and that light enters from below.
+    // that each place has light of another group alone, that light of the sky enters from below,
+    // and light of the sun beside the room.
     const Scene scene(room_and_terrace().desc);
     const World& world = scene.world();
     const MovingCamera camera(room_camera(), Camera(room_camera(), 16, 12));
     std::vector<EnvironmentVisibility::Trial> wrong;
     std::vector<GroupShares::Finding> findings;
     std::vector<Escape> escapes;
+    std::vector<Escape> wrong_side;  // of the sun
     Random random(6);
     for (int i = 0; i < 20000; ++i) {
         const Vec3 p = 2.0f * Vec3(random.next(), random.next(), random.next()) - 1.0f;
@@ -316,16 +334,28 @@ TEST_CASE("light pilot: the image is right whatever was learned", "[pilot]")
                            .direction = down,
                            .tile = sky_of(scene).tile_to(down),
                            .throughput = 1.0f});
+        wrong_side.push_back({.p = p + Vec3(2.0f, 0.0f, 0.0f),
+                              .direction = normalize(Vec3(-0.1f, 1.0f, -0.05f)),
+                              .throughput = 1.0f});
+    }
+    const LightSet& lights = world.lights();
+    LightId sun{};
+    while (!std::holds_alternative<DirectionalLight>(lights[sun].model())) {
+        sun = LightId{static_cast<std::uint32_t>(sun) + 1};
     }
     const LearnedLight misled{.visibility = EnvironmentVisibility(wrong),
                               .groups = GroupShares(findings, 3),
                               .entries = EnvironmentEntries(escapes, sky_of(scene).tiles(),
-                                                            world.bounding_sphere())};
+                                                            world.bounding_sphere()),
+                              .suns = {{.sun = sun,
+                                        .window = EntryWindow(wrong_side, {},
+                                                              world.bounding_sphere())}}};
     for (const auto kind : {IntegratorKind::mis, IntegratorKind::bdpt}) {
         RenderOptions options = options_of(kind);
         const auto right = learned(scene, options);
         REQUIRE(right);
         REQUIRE(right->entries);
+        REQUIRE(right->suns.size() == 1);
         options.film.width = 16;
         options.film.height = 12;
         std::array<Moments, 3> means;

@@ -1,9 +1,11 @@
 #include "light/learned/entry_window.h"
 
+#include "light/parallel_rays.h"
 #include "math/frame.h"
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -39,8 +41,8 @@ bool is_in_grid(Vec2 at)
 
 }  // namespace
 
-EntryWindow::EntryWindow(std::span<const Escape> escapes, Vec3 origin, float margin)
-    : origin_(origin)
+EntryWindow::EntryWindow(std::span<const Escape> escapes, Vec3 origin, const BoundingSphere& bounds)
+    : bounds_(bounds), origin_(origin)
 {
     glm::dvec3 sum(0.0);
     for (const Escape& escape : escapes) {
@@ -63,7 +65,7 @@ EntryWindow::EntryWindow(std::span<const Escape> escapes, Vec3 origin, float mar
             opposite = max(opposite, at);
         }
     }
-    const Vec2 around = 0.1f * (opposite - corner) + margin;
+    const Vec2 around = 0.1f * (opposite - corner) + 1e-3f * bounds.radius;
     corner_ = corner - around;
     size_ = opposite + around - corner_;
     Cells throughputs{};
@@ -96,19 +98,34 @@ Vec2 EntryWindow::project(Vec3 p, Vec3 direction) const noexcept
     return (Vec2(dot(on_plane, x_), dot(on_plane, y_)) - corner_) / size_;
 }
 
-Vec3 EntryWindow::sample(Vec2 u) const noexcept
+EntryWindow::Entry EntryWindow::sample(Vec3 direction, Vec2 u) const noexcept
 {
-    const Vec2 at = corner_ + size_ * cells_->sample(u).point;
-    return origin_ + at.x * x_ + at.y * y_;
+    constexpr float below_one = 0x1.fffffep-1f;
+    const float uniform = admits(direction) ? uniform_part : 1.0f;
+    Vec3 p;
+    if (u.x < uniform) {
+        p = sample_entry(bounds_, direction, {std::min(u.x / uniform, below_one), u.y});
+    } else {
+        const float rest = std::min((u.x - uniform) / (1.0f - uniform), below_one);
+        const Vec2 at = corner_ + size_ * cells_->sample({rest, u.y}).point;
+        p = origin_ + at.x * x_ + at.y * y_;
+        p -= (dot(p - bounds_.center, direction) + bounds_.radius) * direction;
+    }
+    return {.p = p, .pdf = pdf(p, direction)};
 }
 
 PlanarPdf EntryWindow::pdf(Vec3 p, Vec3 direction) const noexcept
 {
-    const Vec2 at = project(p, direction);
-    if (!is_in_grid(at)) {
-        return {};
+    const float uniform = bounds_.pdf_disk().value;
+    if (!admits(direction)) {
+        return {uniform};
     }
-    return {cells_->pdf(at) / (size_.x * size_.y * std::abs(dot(direction, normal_)))};
+    const Vec2 at = project(p, direction);
+    const float in_grid =
+        is_in_grid(at)
+            ? cells_->pdf(at) / (size_.x * size_.y * std::abs(dot(direction, normal_)))
+            : 0.0f;
+    return {uniform_part * uniform + (1.0f - uniform_part) * in_grid};
 }
 
 }  // namespace bdpt

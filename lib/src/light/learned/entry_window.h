@@ -1,5 +1,6 @@
 #pragma once
 
+#include "light/bounding_sphere.h"
 #include "math/distribution_2d.h"
 #include "math/pdf.h"
 
@@ -13,38 +14,46 @@
 
 namespace bdpt {
 
-/// A camera path of a pilot that was scattered and then left the scene.
+/// A camera path of a pilot that was scattered and then left the scene, or was connected to a sun.
 struct Escape {
     Vec3 p{0.0f};             ///< last vertex in the scene, in world space
-    Vec3 direction{0.0f};     ///< unit, towards the environment
-    std::size_t tile = 0;     ///< tile of the environment that it reached
+    Vec3 direction{0.0f};     ///< unit, towards the light
+    std::size_t tile = 0;     ///< tile of the environment that it reached, or number of the sun
     float throughput = 0.0f;  ///< luminance, >= 0 and finite
 };
 
 /// Density of the places where light from similar directions enters the scene: a grid on a plane
-/// that these directions cross steeply.
+/// that these directions cross steeply, and a uniform part over the disk in front of the scene.
 class EntryWindow {
 public:
-    EntryWindow() = default;  ///< admits nothing
-    /// Learns from `escapes` in similar directions. The plane contains `origin`; the grid exceeds
-    /// the escapes by `margin` [m], which is positive. The density is proportional to the root of
-    /// their throughput per area.
-    EntryWindow(std::span<const Escape> escapes, Vec3 origin, float margin);
+    /// A ray's entry into the scene.
+    struct Entry {
+        Vec3 p{0.0f};   ///< in front of the whole scene
+        PlanarPdf pdf;  ///< density on the plane perpendicular to the ray
+    };
 
-    /// Tests whether light that travels in this direction enters here, at a steep angle.
-    [[nodiscard]] bool admits(Vec3 direction) const noexcept
-    {
-        return cells_ && is_steep(-direction);
-    }
-    /// Samples a point on the plane; the window admits some direction.
-    [[nodiscard]] Vec3 sample(Vec2 u) const noexcept;
-    /// Returns the density of rays of this direction, which it admits, through `p`, on the plane
-    /// perpendicular to them; 0 beside the grid.
+    /// All entries are uniform over the disk.
+    explicit EntryWindow(const BoundingSphere& bounds) : bounds_(bounds) {}
+    /// Learns from `escapes` in similar directions. The plane contains `origin`. The density is
+    /// proportional to the root of their throughput per area.
+    EntryWindow(std::span<const Escape> escapes, Vec3 origin, const BoundingSphere& bounds);
+
+    /// Samples the entry of light that travels in `direction`.
+    [[nodiscard]] Entry sample(Vec3 direction, Vec2 u) const noexcept;
+    /// Returns the density of the entry of such light through `p`.
     [[nodiscard]] PlanarPdf pdf(Vec3 p, Vec3 direction) const noexcept;
     /// Returns the integral of the root of the throughput per area over the plane [m].
     [[nodiscard]] double root_of_throughput() const noexcept { return root_of_throughput_; }
 
+    /// Fraction of entries that are uniform over the disk.
+    static constexpr float uniform_part = 0.1f;
+
 private:
+    /// Tests whether light that travels in this direction enters through the grid.
+    [[nodiscard]] bool admits(Vec3 direction) const noexcept
+    {
+        return cells_ && is_steep(-direction);
+    }
     /// Tests whether a direction towards the environment crosses the plane at a steep angle.
     [[nodiscard]] bool is_steep(Vec3 direction) const noexcept
     {
@@ -54,6 +63,7 @@ private:
     /// Returns where the line through `p` crosses the plane, in the grid's [0, 1)^2.
     [[nodiscard]] Vec2 project(Vec3 p, Vec3 direction) const noexcept;
 
+    BoundingSphere bounds_;
     Vec3 origin_{0.0f};
     Vec3 x_{0.0f};  // axes of the plane
     Vec3 y_{0.0f};

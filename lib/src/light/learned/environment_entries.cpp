@@ -1,7 +1,5 @@
 #include "light/learned/environment_entries.h"
 
-#include "light/parallel_rays.h"
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -27,7 +25,7 @@ Vec3 center_of(std::span<const Escape> escapes, const BoundingSphere& bounds)
 
 EnvironmentEntries::EnvironmentEntries(std::vector<Escape> escapes, const EnvironmentTiles& tiles,
                                        const BoundingSphere& bounds)
-    : bounds_(bounds), windows_(EnvironmentTiles::tile_count)
+    : windows_(EnvironmentTiles::tile_count, EntryWindow(bounds))
 {
     const Vec3 center = center_of(escapes, bounds);
     std::stable_sort(escapes.begin(), escapes.end(),
@@ -37,7 +35,7 @@ EnvironmentEntries::EnvironmentEntries(std::vector<Escape> escapes, const Enviro
         const std::size_t tile = begin->tile;
         const auto end =
             std::find_if(begin, escapes.end(), [tile](const Escape& e) { return e.tile != tile; });
-        windows_[tile] = EntryWindow(std::span(begin, end), center, 1e-3f * bounds.radius);
+        windows_[tile] = EntryWindow(std::span(begin, end), center, bounds);
         // Per solid angle, as the weights of tiles are integrals over it.
         importance[tile] =
             windows_[tile].root_of_throughput() / std::sqrt(tiles.solid_angle(tile));
@@ -48,31 +46,6 @@ EnvironmentEntries::EnvironmentEntries(std::vector<Escape> escapes, const Enviro
         const double factor = most > 0.0 ? importance[tile] / most : 1.0;
         factors_.of[tile] = std::max(min_factor, static_cast<float>(factor));
     }
-}
-
-EnvironmentEntries::Entry EnvironmentEntries::sample(std::size_t tile, Vec3 direction,
-                                                     Vec2 u) const noexcept
-{
-    constexpr float below_one = 0x1.fffffep-1f;
-    const EntryWindow& window = windows_[tile];
-    const float uniform = window.admits(direction) ? uniform_part : 1.0f;
-    Vec3 p;
-    if (u.x < uniform) {
-        p = sample_entry(bounds_, direction, {std::min(u.x / uniform, below_one), u.y});
-    } else {
-        p = window.sample({std::min((u.x - uniform) / (1.0f - uniform), below_one), u.y});
-        p -= (dot(p - bounds_.center, direction) + bounds_.radius) * direction;
-    }
-    return {.p = p, .pdf = pdf(tile, direction, p)};
-}
-
-PlanarPdf EnvironmentEntries::pdf(std::size_t tile, Vec3 direction, Vec3 p) const noexcept
-{
-    const EntryWindow& window = windows_[tile];
-    const float uniform = bounds_.pdf_disk().value;
-    return {window.admits(direction)
-                ? uniform_part * uniform + (1.0f - uniform_part) * window.pdf(p, direction).value
-                : uniform};
 }
 
 }  // namespace bdpt

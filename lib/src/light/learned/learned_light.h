@@ -1,12 +1,21 @@
 #pragma once
 
 #include "light/environment/environment_visibility.h"
+#include "light/learned/entry_window.h"
 #include "light/learned/environment_entries.h"
 #include "light/learned/group_shares.h"
+#include "light/light_samples.h"
 
 #include <optional>
+#include <vector>
 
 namespace bdpt {
+
+/// Where the parallel light of a sun enters the scene.
+struct SunEntries {
+    LightId sun{};
+    EntryWindow window;
+};
 
 /// The directions and lights from which light arrives, by position, as learned by a pilot.
 /// Light sampling follows them; they cannot bias an image, whatever they say.
@@ -17,6 +26,8 @@ struct LearnedLight {
     std::optional<GroupShares> groups{};
     /// Where light of the environment enters the scene; nullopt without `visibility`.
     std::optional<EnvironmentEntries> entries{};
+    /// Of directional lights, of which some light was found.
+    std::vector<SunEntries> suns{};
 };
 
 }  // namespace bdpt

@@ -9,7 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "options/command_parser.h"
@@ -222,7 +224,10 @@ const char* format_call(Call call)
                                                       format_call(other), format_call(call)));
         }
     }
-    const auto meant = app::closest(keyword, collect_keywords(call));
+    const bool is_size = (keyword == "width" || keyword == "height" || keyword == "resolution") &&
+                         collect_options(call).contains("size");
+    const auto meant = is_size ? std::optional<std::string>("size")
+                               : app::closest(keyword, collect_keywords(call));
     throw Error(ErrorCode::usage,
                 fmt::format("{} has no option {}{}", format_call(call), keyword,
                             meant ? fmt::format(" (did you mean {}?)", *meant) : ""));

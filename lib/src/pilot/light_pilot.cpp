@@ -82,10 +82,9 @@ std::vector<LightId> find_suns(const World& world)
 {
     constexpr std::size_t max_suns = 4;
     std::vector<LightId> suns;
-    for (std::uint32_t i = 0; i < world.lights().size(); ++i) {
-        const LightId id{i};
+    for (const LightId id : world.lights().next_event_lights().infinite()) {
         if (std::holds_alternative<DirectionalLight>(world.lights()[id].model()) &&
-            world.lights().next_event_lights().has_power(id) && suns.size() < max_suns) {
+            suns.size() < max_suns) {
             suns.push_back(id);
         }
     }

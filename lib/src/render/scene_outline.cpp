@@ -1,7 +1,11 @@
 #include "render/scene_outline.h"
 
-#include <glm/common.hpp>
+#include "math/footprint.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
 #include <limits>
 
 namespace bdpt {
@@ -11,20 +15,23 @@ SceneOutline::SceneOutline(const MovingCamera& camera, const Bounds& bounds)
     if (camera.moves() || camera.first().has_finite_lens()) {
         return;
     }
+    const PixelCone& cone = camera.first().pixel_cone();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     RasterBounds outline{.min = Vec2(infinity), .max = Vec2(-infinity)};
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3 sides((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
-        const auto raster =
-            camera.first().project(bounds.min + sides * (bounds.max - bounds.min));
-        if (!raster) {
+        const Vec3 p = bounds.min + sides * (bounds.max - bounds.min);
+        const auto raster = camera.first().project(p);
+        if (!raster || !std::isfinite(raster->x + raster->y)) {
             return;
         }
-        outline.min = min(outline.min, *raster);
-        outline.max = max(outline.max, *raster);
+        // Rounding errors of rays and projections [pixels]: small but for telephoto lenses.
+        const float reach = glm::length(cone.eye) + glm::length(p - cone.eye);
+        const float rounding = 0.25f + 0x1p-20f * reach / cone.width_at(p);
+        outline.min = min(outline.min, *raster - rounding);
+        outline.max = max(outline.max, *raster + rounding);
     }
-    constexpr float rounding = 0.25f;  // [pixels], much more than projections and rays round
-    outline_ = {.min = outline.min - rounding, .max = outline.max + rounding};
+    outline_ = outline;
 }
 
 bool SceneOutline::is_beside(const RasterBounds& area) const noexcept

@@ -14,11 +14,11 @@ public:
     SceneOutline(const MovingCamera& camera, const Bounds& bounds);
 
     /// Tests whether all camera rays through `area` miss every surface. False if that is unknown:
-    /// for a camera that moves, has a finite lens or is beside the scene.
+    /// for a camera that moves, has a finite lens, or has a corner of the bounds behind it.
     [[nodiscard]] bool is_beside(const RasterBounds& area) const noexcept;
 
 private:
-    std::optional<RasterBounds> outline_;
+    std::optional<RasterBounds> outline_;  // nullopt if unknown
 };
 
 }  // namespace bdpt

@@ -66,6 +66,8 @@ public:
     [[nodiscard]] float probability(LightId id, const LightSampleContext& receiver,
                                     const GroupShares::Shares& shares) const noexcept;
 
+    /// Returns the lights at infinity that have power.
+    [[nodiscard]] std::span<const LightId> infinite() const noexcept { return infinite_; }
     /// Returns the number of placed lights that have power.
     [[nodiscard]] std::size_t placed_count() const noexcept { return placed_.size(); }
     /// Tests whether there are both lights with a position and lights at infinity.

@@ -83,7 +83,7 @@ private:
     std::optional<GroundSky> sky_;
     std::vector<LightId> suns_;  // all other lights at infinity
     std::optional<GroundLamps> lamps_;
-    int lamp_samples_ = 0;     // per camera ray
+    int lamp_samples_ = 0;                                // per camera ray
     std::unordered_map<const PlacedMesh*, Box> shining_;  // bounds of meshes that emit
 };
 

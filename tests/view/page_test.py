@@ -52,7 +52,7 @@ def check_camera(window):
 def check_reset(window):
     start = window.state("camera")
     for what, reset in (("the key 0", lambda: window.press("0")),
-                        ("it, while a move waits to be sent,", window.wheel_and_reset)):
+                        ("the key 0, while a move waits to be sent,", window.wheel_and_reset)):
         before = window.seen()
         window.drag((0.2, 0.5), (0.5, 0.5))
         window.wait_for_generation(before["generation"])

@@ -202,4 +202,60 @@ TEST_CASE("values of layers beyond their ranges are brought back, of a wrong typ
                    "/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor: must be"));
 }
 
+TEST_CASE("each property of an extension must have its type")
+{
+    struct Property {
+        std::string extension;
+        std::string name;
+        std::string right_type = "a number";
+    };
+    const Property properties[] = {
+        {"anisotropy", "anisotropyStrength"},
+        {"anisotropy", "anisotropyRotation"},
+        {"clearcoat", "clearcoatFactor"},
+        {"clearcoat", "clearcoatRoughnessFactor"},
+        {"diffuse_transmission", "diffuseTransmissionFactor"},
+        {"diffuse_transmission", "diffuseTransmissionColorFactor", "3 numbers"},
+        {"dispersion", "dispersion"},
+        {"emissive_strength", "emissiveStrength"},
+        {"ior", "ior"},
+        {"iridescence", "iridescenceFactor"},
+        {"iridescence", "iridescenceIor"},
+        {"iridescence", "iridescenceThicknessMinimum"},
+        {"iridescence", "iridescenceThicknessMaximum"},
+        {"pbrSpecularGlossiness", "diffuseFactor", "4 numbers"},
+        {"pbrSpecularGlossiness", "specularFactor", "3 numbers"},
+        {"pbrSpecularGlossiness", "glossinessFactor"},
+        {"scatter", "scatterStrengthFactor"},
+        {"scatter", "multiscatterColorFactor", "3 numbers"},
+        {"scatter", "scatterAnisotropy"},
+        {"sheen", "sheenColorFactor", "3 numbers"},
+        {"sheen", "sheenRoughnessFactor"},
+        {"specular", "specularFactor"},
+        {"specular", "specularColorFactor", "3 numbers"},
+        {"transmission", "transmissionFactor"},
+        {"volume", "thicknessFactor"},
+        {"volume", "attenuationDistance"},
+        {"volume", "attenuationColor", "3 numbers"},
+        {"volume_scatter", "scatterAnisotropy"},
+        {"volume_scatter", "multiscatterColor", "3 numbers"},
+        {"volume_scatter", "multiscatterColorFactor", "3 numbers"},
+    };
+    for (const Property& property : properties) {
+        const std::string extension = "KHR_materials_" + property.extension;
+        for (const nlohmann::json& value : {nlohmann::json("much"), nlohmann::json({0.5, 0.5})}) {
+            CAPTURE(property.name, value.dump());
+            const Error error = with_extension(extension, {{property.name, value}}).error();
+            CHECK(error.code() == ErrorCode::invalid_input);
+            CHECK(contains(error.what(), "/materials/0/extensions/" + extension + "/" +
+                                             property.name + ": must be " + property.right_type));
+        }
+    }
+    const Error error =
+        with_extension("KHR_materials_clearcoat",
+                       {{"clearcoatNormalTexture", {{"index", 0}, {"scale", "much"}}}})
+            .error();
+    CHECK(contains(error.what(), "clearcoatNormalTexture/scale: must be a number"));
+}
+
 }  // namespace bdpt::test::material_layers_test

@@ -1,5 +1,6 @@
 #include "gltf/checks/schema.h"
 
+#include "gltf/checks/extension_table.h"
 #include "gltf/checks/schema_rules.h"
 
 #include <fmt/format.h>
@@ -130,6 +131,21 @@ void walk(const JsonPlace& place, std::string_view path, const SchemaRule& rule,
     }
 }
 
+/// Checks the numbers in the extensions of materials.
+void check_material_extensions(const JsonPlace& root)
+{
+    for (const ExtensionSupport& extension : extension_table) {
+        for (const MaterialProperty& property : extension.properties) {
+            if (property.path.empty()) {
+                break;
+            }
+            const bool one = property.components == 1;
+            walk(root, fmt::format("materials/*/extensions/{}/{}", extension.name, property.path),
+                 {"", one ? number : numbers, "", property.components}, 0);
+        }
+    }
+}
+
 /// Checks texture references, which occur in many places of a material, all in members whose names
 /// end in "Texture". Marks the textures that they use.
 void check_texture_references(const JsonPlace& place, std::vector<bool>& used)
@@ -232,6 +248,7 @@ void check_schema(const JsonPlace& root, LoadContext& context)
     for (const SchemaRule& rule : schema_rules) {
         walk(root, rule.path, rule, rule.kind == index ? array_size(root, rule.target) : 0);
     }
+    check_material_extensions(root);
     if (root.has("cameras")) {
         check_cameras(root.member("cameras"));
     }

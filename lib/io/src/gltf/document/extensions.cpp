@@ -1,6 +1,7 @@
 #include "gltf/document/extensions.h"
 
 #include "file/uri.h"
+#include "gltf/checks/extension_table.h"
 #include "gltf/compression/draco_decoder.h"
 #include "gltf/compression/meshopt_decoder.h"
 #include "image/ktx2_decoder.h"
@@ -8,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <optional>
 #include <string>
 
@@ -17,57 +18,6 @@ namespace bdpt::io {
 namespace {
 
 using enum ExtensionStatus;
-
-constexpr std::array table{
-    ExtensionSupport{"KHR_draco_mesh_compression", supported, "where Draco is installed"},
-    ExtensionSupport{"KHR_lights_punctual", supported, "range is ignored"},
-    ExtensionSupport{"KHR_materials_anisotropy", supported, ""},
-    ExtensionSupport{"KHR_materials_clearcoat", supported, ""},
-    ExtensionSupport{"KHR_materials_diffuse_transmission", supported,
-                     "not combined with refraction"},
-    ExtensionSupport{"KHR_materials_dispersion", supported, "one index for each channel"},
-    ExtensionSupport{"KHR_materials_emissive_strength", supported, ""},
-    ExtensionSupport{"KHR_materials_ior", supported, ""},
-    ExtensionSupport{"KHR_materials_iridescence", supported, ""},
-    ExtensionSupport{"KHR_materials_pbrSpecularGlossiness", supported, ""},
-    ExtensionSupport{"KHR_materials_scatter", supported,
-                     "a draft; in bodies with a thickness only, without textures"},
-    ExtensionSupport{"KHR_materials_sheen", supported, "roughness is at least 0.1"},
-    ExtensionSupport{"KHR_materials_specular", supported, ""},
-    ExtensionSupport{"KHR_materials_transmission", supported, ""},
-    ExtensionSupport{"KHR_materials_unlit", supported, "emits its base colour"},
-    ExtensionSupport{"KHR_materials_variants", supported, "chosen by --variant"},
-    ExtensionSupport{"KHR_materials_volume", supported,
-                     "thickness only distinguishes solid from thin bodies"},
-    ExtensionSupport{"KHR_materials_volume_scatter", supported,
-                     "a draft; by random walks, so --max-depth limits them"},
-    ExtensionSupport{"KHR_mesh_quantization", supported, ""},
-    ExtensionSupport{"KHR_meshopt_compression", supported,
-                     "where meshoptimizer is installed; not the filter COLOR"},
-    ExtensionSupport{"KHR_node_visibility", supported, ""},
-    ExtensionSupport{"KHR_texture_basisu", supported, "where libktx is installed"},
-    ExtensionSupport{"KHR_texture_transform", supported, ""},
-    ExtensionSupport{"EXT_lights_ies", supported, "TILT is ignored"},
-    ExtensionSupport{"EXT_lights_image_based", supported,
-                     "the largest images only; --env replaces it"},
-    ExtensionSupport{"EXT_mesh_gpu_instancing", supported, ""},
-    ExtensionSupport{"EXT_meshopt_compression", supported, "where meshoptimizer is installed"},
-    ExtensionSupport{"EXT_texture_webp", supported, ""},
-    // Supported without any code: they do not influence an image.
-    ExtensionSupport{"FB_ngon_encoding", supported, "no influence on the image"},
-    ExtensionSupport{"KHR_xmp", supported, "metadata of the file are written into images"},
-    ExtensionSupport{"KHR_xmp_json_ld", supported, "metadata of the file are written into images"},
-    ExtensionSupport{"KHR_animation_pointer", supported,
-                     "properties of the core specification only"},
-    ExtensionSupport{"MSFT_packing_normalRoughnessMetallic", supported,
-                     "the core textures are used"},
-    ExtensionSupport{"MSFT_packing_occlusionRoughnessMetallic", supported,
-                     "the core textures are used"},
-    ExtensionSupport{"MSFT_lod", supported, "the finest level is shown"},
-    // Without these the image lacks something.
-    ExtensionSupport{"MSFT_texture_dds", ignored, "only fallback images are read"},
-    ExtensionSupport{"EXT_texture_avif", ignored, "only fallback images are read"},
-};
 
 /// Tests whether this build lacks the library for an extension.
 bool is_missing(std::string_view name)
@@ -106,9 +56,8 @@ ExtensionUse describe(const JsonPlace& place)
         place.fail("must be a string, but is " + brief(place.value()));
     }
     const auto& name = place.value().get_ref<const std::string&>();
-    const auto* found = std::find_if(table.begin(), table.end(),
-                                     [&name](const auto& known) { return known.name == name; });
-    if (found == table.end()) {
+    const auto* found = std::ranges::find(extension_table, name, &ExtensionSupport::name);
+    if (found == std::end(extension_table)) {
         return {name, unknown, false, ""};
     }
     if (is_missing(name)) {
@@ -119,11 +68,6 @@ ExtensionUse describe(const JsonPlace& place)
 }
 
 }  // namespace
-
-std::span<const ExtensionSupport> known_extensions()
-{
-    return table;
-}
 
 std::vector<ExtensionUse> list_extensions(const JsonPlace& root)
 {

@@ -5,21 +5,10 @@
 
 #include <bdpt/io/gltf.h>
 
-#include <span>
 #include <string_view>
 #include <vector>
 
 namespace bdpt::io {
-
-/// Our support of one glTF extension.
-struct ExtensionSupport {
-    std::string_view name;
-    ExtensionStatus status = ExtensionStatus::unknown;
-    std::string_view note;  ///< the loss, in a few words
-};
-
-/// Returns all extensions that we know. The loader and the reports both use this table.
-[[nodiscard]] std::span<const ExtensionSupport> known_extensions();
 
 /// Returns the extensions that a document lists, whatever they are; entries that are no strings are
 /// left out.

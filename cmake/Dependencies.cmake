@@ -59,6 +59,10 @@ if(BDPT_BUILD_IO)
       target_link_libraries(bdpt_openvdb INTERFACE "${BDPT_OPENVDB_LIBRARY}" TBB::tbb Imath::Imath)
       # Its templates define variables that must be shared with the library.
       target_compile_options(bdpt_openvdb INTERFACE -fvisibility=default -fno-visibility-inlines-hidden)
+      if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 16)
+        # Boost 1.74 casts -1 to an enumeration.
+        target_compile_options(bdpt_openvdb INTERFACE -Wno-enum-constexpr-conversion)
+      endif()
       include(CheckCXXSourceCompiles)
       set(CMAKE_REQUIRED_LIBRARIES bdpt_openvdb)
       set(CMAKE_REQUIRED_FLAGS "-std=c++20")

@@ -6,14 +6,20 @@ function(bdpt_compile_options target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF
                         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   set(shadow -Wshadow)
-  if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  if(CMAKE_UNITY_BUILD)
     # In a unity build no file is the main file, and each sees the functions of others, so two warnings are relaxed.
-    set(shadow -Wshadow=local -Wno-subobject-linkage)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      set(shadow -Wshadow=local -Wno-subobject-linkage)
+    else()
+      set(shadow)
+    endif()
   endif()
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic ${shadow} -Wconversion -Wsign-conversion -Wnon-virtual-dtor
     -Wold-style-cast -Woverloaded-virtual -Wimplicit-fallthrough
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # false positives of g++ 12 on std::string
+    # std::stable_sort of libstdc++ 12 uses a deprecated function.
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
     # Forbids fused multiply-add, so that images are equal to the bit on every CPU.
     -ffp-contract=off
     # Drops errno and trapping, so that sqrt and comparisons become single instructions. Values stay IEEE.

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Tests that our objects call no functions of the C library whose last bits depend on the CPU or on the library's
-version: check_math.py NM OBJECT...
+version: check_math.py READELF OBJECT...
 
-Images are equal to the bit on all machines, so code that affects the film uses lib/src/math/elementary.h instead.
+It reads machine code by `readelf`; `nm` would show the intermediate code that objects of clang contain, too. Images
+are equal to the bit on all machines, so code that affects the film uses lib/src/math/elementary.h instead.
 """
 
 import pathlib
@@ -28,13 +29,13 @@ ALLOWED = {
 
 
 def find_inexact_calls(symbols):
-    """Returns the functions among the lines of `nm --undefined-only` whose results may differ."""
+    """Returns the functions among lines about undefined symbols, which end with their names, whose results may differ."""
     names = [line.split()[-1].partition("@")[0] for line in symbols.splitlines() if line.strip()]
     return sorted({name for name in names if INEXACT.fullmatch(re.sub(r"^__", "", name))})
 
 
 def check(symbols_of):
-    """Returns all findings. `symbols_of` maps each object to the output of nm."""
+    """Returns all findings. `symbols_of` maps each object to lines about its undefined symbols."""
     errors, used = [], set()
     for path, symbols in symbols_of.items():
         source = re.sub(r"\.o(bj)?$", "", pathlib.Path(path).name)
@@ -47,11 +48,15 @@ def check(symbols_of):
     return errors
 
 
+def list_undefined(readelf, path):
+    """Returns the lines about undefined symbols with names."""
+    symbols = subprocess.run([readelf, "--wide", "--symbols", path], check=True, capture_output=True, text=True).stdout
+    return "\n".join(re.sub(r" \(\d+\)$", "", line) for line in symbols.splitlines() if re.search(r" UND \S", line))
+
+
 def main():
-    nm, *objects = sys.argv[1:]
-    symbols_of = {path: subprocess.run([nm, "--undefined-only", path], check=True, capture_output=True, text=True).stdout
-                  for path in objects}
-    errors = check(symbols_of)
+    readelf, *objects = sys.argv[1:]
+    errors = check({path: list_undefined(readelf, path) for path in objects})
     print("\n".join(errors) or f"{len(objects)} objects call exact functions only")
     sys.exit(bool(errors) or not objects)
 

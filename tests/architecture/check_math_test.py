@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests that check_math finds each planted call in the output of nm."""
+"""Tests that check_math finds each planted call."""
 
 import sys
 import unittest

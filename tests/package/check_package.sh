@@ -253,9 +253,9 @@ make_wheel() {
     && fail "files outside of the package"
   write_tiff >"$folder/sky.tif"
   mkdir "$folder/elsewhere" "$folder/scenes"
-  cp "$SOURCE"/scenes/{cornell-box.gltf,room-spot.gltf,smoke.vdb} "$folder/scenes"
+  cp "$SOURCE"/scenes/{cornell-box.gltf,material-layers.gltf,room-spot.gltf,smoke.vdb} "$folder/scenes"
   (cd "$folder/elsewhere" && "$python" "$here/check_wheel.py" .. "$VERSION" "$OPENVDB" "$SOURCE/docs/python.md" \
-    "$FAKE_OIDN")
+    "$FAKE_OIDN" "$BUILD/apps/bdpt")
 }
 
 # Configures with BDPT_BUILD_IO=OFF and nothing else: the core and its tests, without looking for the libraries of the

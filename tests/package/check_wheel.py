@@ -1,8 +1,8 @@
-"""Tests an installed wheel whose build folder is gone: check_wheel.py FOLDER VERSION OPENVDB PAGE FAKE_DENOISER.
+"""Tests an installed wheel whose build folder is gone: check_wheel.py FOLDER VERSION OPENVDB PAGE FAKE_DENOISER OTHER.
 
-FOLDER has sky.tif and scenes: cornell-box.gltf, room-spot.gltf, smoke.vdb. OPENVDB is 1 if the wheel was built with
-OpenVDB. PAGE is docs/python.md, whose programs are run. FAKE_DENOISER, if not empty, is a library with the interface of
-Open Image Denoise.
+FOLDER has sky.tif and scenes: cornell-box.gltf, material-layers.gltf, room-spot.gltf, smoke.vdb. OPENVDB is 1 if the
+wheel was built with OpenVDB. PAGE is docs/python.md, whose programs are run. FAKE_DENOISER, if not empty, is a
+library with the interface of Open Image Denoise. OTHER is the command of another build.
 """
 
 import ast
@@ -44,6 +44,20 @@ def check_command(box, version):
     ours = bdpt.render(bdpt.load(box), size=(12, 8), spp=2, integrator="bdpt")
     assert ours.image.any() and np.array_equal(ours.image, bdpt.read_part("its.part.exr").image)
     assert "absent.glb: no such file" in run("render", "absent.glb", "-o", "a.png", code=3)
+
+
+def check_other_build(folder, other):
+    """Tests that another build, which may be of another compiler with other optimizations, renders the same bits."""
+    sky = folder / "sky.tif"
+    for name, integrator, options in (("cornell-box", "bdpt", {}), ("room-spot", "vcm", {}),
+                                      ("material-layers", "mis", {"env": sky})):
+        scene = folder / f"scenes/{name}.gltf"
+        words = [word for key, value in options.items() for word in (f"--{key}", value)]
+        subprocess.run([other, "render", scene, "--size", "48x32", "--spp", "4", "--integrator", integrator, "--quiet",
+                        *words, "--part", f"{name}.part.exr"], check=True)
+        ours = bdpt.render(bdpt.load(scene, **options), size=(48, 32), spp=4, integrator=integrator)
+        different = int((ours.image != bdpt.read_part(f"{name}.part.exr").image).sum())
+        assert ours.image.any() and different == 0, (name, different)
 
 
 def check_companions(folder, openvdb):
@@ -119,12 +133,13 @@ def run_page(page, denoises):
 
 
 def main():
-    folder, version, openvdb, page, fake = sys.argv[1:]
+    folder, version, openvdb, page, fake, other = sys.argv[1:]
     folder, openvdb = pathlib.Path(folder).resolve(), openvdb == "1"
     box = folder / "scenes/cornell-box.gltf"
     assert bdpt.__version__ == version, bdpt.__version__
     check_metadata(version)
     check_command(box, version)
+    check_other_build(folder, other)
     check_companions(folder, openvdb)
     if fake:
         check_fake_denoiser(box, fake)

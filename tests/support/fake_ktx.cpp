@@ -75,7 +75,7 @@ FAKE int ktxTexture2_CreateFromMemory(const std::uint8_t* bytes, std::size_t siz
         throw std::runtime_error("no C++ exceptions");
     }
     if (wants("greedy")) {
-        void* const memory = std::malloc(std::size_t{64} << 30U);
+        void* volatile memory = std::malloc(std::size_t{64} << 30U);  // not optimised away
         return memory == nullptr ? out_of_memory : success;
     }
     constexpr std::uint32_t load_image_data = 1;

@@ -96,7 +96,8 @@ public:
     template <HasFields Desc>
     void add(const Desc& desc)
     {
-        for_each_field(desc, [this](const auto& /*field*/, const auto& value) { add(value); });
+        for_each_field(desc,
+                       [this](const auto& /*field*/, const auto& value) { this->add(value); });
     }
 
     [[nodiscard]] ContentHash hash() const { return hasher_.hash(); }

@@ -271,8 +271,8 @@ TEST_CASE("next-event estimation has the density that others are weighed against
     CHECK(through > 50);  // glass and paper
     CHECK((changed > 100) == knows);
     CHECK((other_choices > compared / 2) == knows);
-    CHECK((full > compared / 2) ==
-          knows);  // else some light that the tree meets cannot shine there
+    // Elsewhere some light that the tree meets cannot shine there.
+    CHECK((full > compared / 4) == knows);
 }
 
 }  // namespace bdpt::path_weights_test

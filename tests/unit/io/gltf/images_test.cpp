@@ -17,7 +17,7 @@ namespace {
 GltfFixture with_image(const nlohmann::json& image)
 {
     GltfFixture fixture = GltfFixture::triangle();
-    fixture.json["images"] = {image};
+    fixture.json["images"] = nlohmann::json::array({image});
     fixture.json["textures"] = {{{"source", 0}}};
     fixture.json["materials"] = {
         {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};

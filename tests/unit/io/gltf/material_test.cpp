@@ -14,7 +14,7 @@ namespace {
 GltfFixture with_material(const nlohmann::json& material)
 {
     GltfFixture fixture = GltfFixture::triangle();
-    fixture.json["materials"] = {material};
+    fixture.json["materials"] = nlohmann::json::array({material});
     fixture.json["meshes"][0]["primitives"][0]["material"] = 0;
     return fixture;
 }

@@ -182,7 +182,7 @@ TEST_CASE("facts count the whole file")
     fixture.json["asset"]["copyright"] = "nobody";
     fixture.json["extensionsUsed"] = {"KHR_materials_ior", "MSFT_texture_dds", "EXT_unheard_of"};
     fixture.json["extensionsRequired"] = {"KHR_materials_ior"};
-    fixture.json["animations"] = {nlohmann::json::object()};
+    fixture.json["animations"] = nlohmann::json::array({nlohmann::json::object()});
     fixture.json["extensions"]["KHR_xmp"]["packets"] = {{{"dc:creator", "nobody"}}};
     fixture.json["asset"]["extensions"]["KHR_xmp"]["packet"] = 0;
     const LoadedScene loaded = fixture.load();

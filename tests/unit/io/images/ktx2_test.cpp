@@ -87,7 +87,7 @@ GltfFixture with_ktx2(const std::string& bytes, bool fallback = false)
         {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
     fixture.json["extensionsUsed"] = {"KHR_texture_basisu"};
     fixture.json["textures"] = {{{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}}};
-    fixture.json["images"] = {data_uri(bytes)};
+    fixture.json["images"] = nlohmann::json::array({data_uri(bytes)});
     if (fallback) {
         fixture.json["images"].push_back(data_uri(png(1, 1, 8, 0, {raw({7})})));
         fixture.json["textures"][0]["source"] = 1;

@@ -17,7 +17,7 @@ UNMARKED = re.compile(r"^(?!.*BDPT_EXPORT)(?:\[\[nodiscard\]\] )?(?!inline|const
 # function, too. fmt makes its exceptions visible itself from version 10 on.
 STANDARD = re.compile(r"^(?:(?:typeinfo|typeinfo name|vtable|VTT|guard variable) for )?"
                       r"(?:(?:(?:unsigned|long|int|bool|char|void|float|double|short|auto) )+(?:\((?:\*\)\()?)?)?"
-                      r"(?:std|__gnu_cxx|__cxxabiv1)::|^decltype\(.*\) std::|^__|^operator (?:new|delete)"
+                      r"(?:std|__gnu_cxx|__cxxabiv1)::|^decltype ?\(.*\) std::|^__|^operator (?:new|delete)"
                       r"|^(?:typeinfo|typeinfo name|vtable) for fmt::v\d+::\w+_error$")
 OF_CLASS = r"(?:(?:typeinfo|typeinfo name|vtable|VTT) for )?"
 

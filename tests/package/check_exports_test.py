@@ -33,6 +33,7 @@ SYMBOLS = """0000000000001000 T bdpt::Film::width() const
 0000000000001052 W unsigned long __gnu_cxx::__stoa<unsigned long, char>(char const*)
 0000000000001053 W auto std::filesystem::__detail::__effective_range<char [2]>(char const (&) [2])
 0000000000001053 W decltype(::new((void*)(0)) std::string(std::declval<char>())) std::construct_at<std::string>(std::string*)
+0000000000001053 W decltype (::new((void*)(0)) std::string(std::declval<char>())) std::construct_at<std::string>(std::string*)
 0000000000001054 V typeinfo for bool (*)(std::string const&, void*)
 0000000000001056 V typeinfo name for bool (std::string const&, void*)
 0000000000001058 V vtable for fmt::v10::format_error

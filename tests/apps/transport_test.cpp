@@ -158,6 +158,7 @@ TEST_CASE("every integrator and heuristic shows the same light")
 }
 
 }  // namespace
+
 TEST_CASE("auto is not misled by a rare bright path in a small image")
 {
     // With one in 16 pixels, the pilot took mis here, with 1.6 times the error at equal time.

@@ -2,7 +2,7 @@
 """Tests that our objects call no functions of the C library whose last bits depend on the CPU or on the library's
 version: check_math.py READELF OBJECT...
 
-It reads machine code by `readelf`; `nm` would show the intermediate code that objects of clang contain, too. Images
+Symbols are read by `readelf`: `nm` may list those of the intermediate code that objects of clang contain, too. Images
 are equal to the bit on all machines, so code that affects the film uses lib/src/math/elementary.h instead.
 """
 

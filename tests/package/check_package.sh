@@ -223,8 +223,8 @@ use_add_subdirectory() {
   [[ ! -e $trap/caught ]] || fail "a program of the current folder was run"
 }
 
-# Builds a wheel like "pip wheel .", but without optimization. Deletes the sources before the wheel is tested, in an
-# environment of its own.
+# Builds a wheel like "pip wheel .", by the system's compiler, with warnings as errors and without LTO. Deletes the
+# sources before the wheel is tested, in an environment of its own.
 make_wheel() {
   local folder=$WORK/wheel python name
   rm -rf "$folder"
@@ -238,8 +238,9 @@ make_wheel() {
   for name in CMakeLists.txt pyproject.toml LICENSE README.md CHANGELOG.md apps cmake docs lib; do
     cp -r "$SOURCE/$name" "$folder/source/"
   done
-  TMPDIR=$folder/tmp CMAKE_BUILD_PARALLEL_LEVEL=2 "${pip[@]}" wheel "$folder/source" --no-deps -w "$folder" \
-    --config-settings=cmake.build-type=Debug --config-settings=cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0 \
+  TMPDIR=$folder/tmp CMAKE_BUILD_PARALLEL_LEVEL=2 CXX=c++ "${pip[@]}" wheel "$folder/source" --no-deps -w "$folder" \
+    --config-settings=cmake.build-type=Debug --config-settings=cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O2 \
+    --config-settings=cmake.define.BDPT_WERROR=ON \
     --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER"
   rm -rf "$folder/source" "$folder/tmp"
   "${pip[@]}" uninstall -q -y scikit-build-core

@@ -13,7 +13,12 @@ inline SceneBuilder random_lights(std::uint64_t seed, int count)
 {
     Random random(seed);
     const auto between = [&](float low, float high) { return low + (high - low) * random.next(); };
-    const auto place = [&] { return Vec3(between(-1, 1), between(-1, 1), between(-1, 1)); };
+    // Compilers evaluate the arguments of one call in different orders.
+    const auto place = [&] {
+        const float z = between(-1, 1);
+        const float y = between(-1, 1);
+        return Vec3(between(-1, 1), y, z);
+    };
     SceneBuilder builder;
     for (int i = 0; i < count; ++i) {
         const Rgb light(between(0.01f, 1.0f) * (i % 7 == 0 ? 50.0f : 1.0f));

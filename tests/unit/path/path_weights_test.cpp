@@ -272,7 +272,7 @@ TEST_CASE("next-event estimation has the density that others are weighed against
     CHECK((changed > 100) == knows);
     CHECK((other_choices > compared / 2) == knows);
     // Elsewhere some light that the tree meets cannot shine there.
-    CHECK((full > compared / 4) == knows);
+    CHECK((full > compared / 2) == knows);
 }
 
 }  // namespace bdpt::path_weights_test

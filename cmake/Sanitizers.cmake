@@ -22,5 +22,9 @@ if(bdpt_sanitizers)
   list(JOIN bdpt_sanitizers "," bdpt_sanitizers)
   add_compile_options(-fsanitize=${bdpt_sanitizers} -fno-omit-frame-pointer
                       -fno-sanitize-recover=all)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    # Functions of libktx are called through types of our own declarations.
+    add_compile_options(-fno-sanitize=function)
+  endif()
   add_link_options(-fsanitize=${bdpt_sanitizers})
 endif()

@@ -72,8 +72,9 @@ TEST_CASE("an object fills the image but for the margin, from all sides", "[fram
     const SceneDesc desc = board_and_ball();
     const Scene scene(desc);
     constexpr float quarter = 1.5707964f;
+    // Catch2 2 keeps references to all values if the first is no temporary.
     const ViewDirection direction = GENERATE(
-        three_quarter_view, ViewDirection{0.0f, 0.0f}, ViewDirection{quarter, 0.0f},
+        ViewDirection(three_quarter_view), ViewDirection{0.0f, 0.0f}, ViewDirection{quarter, 0.0f},
         ViewDirection{0.0f, quarter}, ViewDirection{0.4f, -quarter}, ViewDirection{-2.0f, 0.7f});
     const float aspect = GENERATE(0.5f, 1.0f, 2.0f);
     const float margin = GENERATE(0.0f, 0.1f, 0.3f);

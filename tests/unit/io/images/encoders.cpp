@@ -5,6 +5,7 @@
 #include <jpeglib.h>
 #include <webp/encode.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -62,7 +63,7 @@ std::string number(int value, int bytes)
 {
     std::string text;
     for (int i = 0; i < bytes; ++i) {
-        text.push_back(static_cast<char>(value >> (8 * i) & 255));
+        text.push_back(static_cast<char>(std::int64_t{value} >> (8 * i) & 255));
     }
     return text;
 }

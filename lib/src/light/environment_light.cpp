@@ -148,19 +148,22 @@ std::optional<EnvironmentLight::Direction> EnvironmentLight::sample_direction(
     Vec2 u, const LightSampleContext& receiver, EnvironmentSampling sampling) const
 {
     const auto cell = tiles_->sample(u, in_image(receiver.normal), receiver.visibility, sampling);
-    if (!cell) {
-        return std::nullopt;
-    }
-    const auto y = static_cast<std::size_t>(cell->row);
-    const float cosine = row_cosines_[y] + cell->offset.y * (row_cosines_[y + 1] - row_cosines_[y]);
+    return cell ? std::optional(direction_of(*cell)) : std::nullopt;
+}
+
+EnvironmentLight::Direction EnvironmentLight::direction_of(
+    const EnvironmentTiles::Sample& cell) const
+{
+    const auto y = static_cast<std::size_t>(cell.row);
+    const float cosine = row_cosines_[y] + cell.offset.y * (row_cosines_[y + 1] - row_cosines_[y]);
     const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
     const float across =
-        (static_cast<float>(cell->column) + cell->offset.x) / static_cast<float>(tiles_->columns());
+        (static_cast<float>(cell.column) + cell.offset.x) / static_cast<float>(tiles_->columns());
     const SinCos phi = sin_cos(2.0f * pi * (across - 0.5f));
     const Vec3 local(sine * phi.sin, cosine, -sine * phi.cos);
-    return Direction{.to_light = normalize(world_from_environment_ * local),
+    return {.to_light = normalize(world_from_environment_ * local),
                      .uv = {across, acos_exact(cosine) * inv_pi},
-                     .pdf = to_solid_angle(cell->pdf, cell->row)};
+                     .pdf = to_solid_angle(cell.pdf, cell.row)};
 }
 
 std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position, Vec2 u_direction,
@@ -181,32 +184,29 @@ std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position,
 std::optional<EmissionSample> EnvironmentLight::sample_emission(
     Vec2 u_position, Vec2 u_direction, const EnvironmentEntries& entries) const
 {
-    const auto from = sample_direction(u_direction, {.visibility = &entries.tiles()},
-                                       EnvironmentSampling::plain);
-    if (!from) {
+    const auto cell = tiles_->sample(u_direction, entries.worth(), EnvironmentSampling::plain);
+    if (!cell) {
         return std::nullopt;
     }
+    const Direction from = direction_of(*cell);
     const EntryWindow::Entry entry =
-        entries.window(tile_to(from->to_light)).sample(-from->to_light, u_position);
+        entries.window(tile_to(from.to_light)).sample(-from.to_light, u_position);
     return EmissionSample{.end = {.p = entry.p},
-                          .direction = -from->to_light,
-                          .weight = lookup(from->uv) / (from->pdf.value * entry.pdf.value),
-                          .pdf_position = {from->pdf.value},
+                          .direction = -from.to_light,
+                          .weight = lookup(from.uv) / (from.pdf.value * entry.pdf.value),
+                          .pdf_position = {from.pdf.value},
                           .pdf_direction = {},
                           .pdf_entry = entry.pdf};
 }
 
-AreaPdf EnvironmentLight::pdf_position(const LightPoint& x0,
-                                       const EnvironmentEntries& entries) const
+EnvironmentLight::EntryPdfs EnvironmentLight::pdf_emission(Vec3 to_light, Vec3 p,
+                                                           const EnvironmentEntries& entries) const
 {
-    return {pdf_direction_to(x0.p, {.visibility = &entries.tiles()}, EnvironmentSampling::plain)
-                .value};
-}
-
-PlanarPdf EnvironmentLight::pdf_entry(Vec3 to_light, Vec3 p,
-                                      const EnvironmentEntries& entries) const
-{
-    return entries.window(tile_to(to_light)).pdf(p, -to_light);
+    const Cell cell = cell_to(to_light);
+    const float pdf =
+        tiles_->pdf(cell.column, cell.row, entries.worth(), EnvironmentSampling::plain);
+    return {.direction = {to_solid_angle(pdf, cell.row).value},
+            .entry = entries.window(tiles_->find_tile(cell.column, cell.row)).pdf(p, -to_light)};
 }
 
 std::optional<IncidentSample> EnvironmentLight::sample_incident(const LightSampleContext& receiver,

@@ -44,12 +44,14 @@ public:
     /// Samples emission by learned entries.
     [[nodiscard]] std::optional<EmissionSample> sample_emission(
         Vec2 u_position, Vec2 u_direction, const EnvironmentEntries& entries) const;
-    /// Returns the density of the direction of such a sample.
-    [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0,
-                                       const EnvironmentEntries& entries) const;
-    /// Returns the density of its entry, of light from direction `to_light` through `p`.
-    [[nodiscard]] PlanarPdf pdf_entry(Vec3 to_light, Vec3 p,
-                                      const EnvironmentEntries& entries) const;
+    /// Densities of a sample of emission.
+    struct EntryPdfs {
+        AreaPdf direction;
+        PlanarPdf entry;
+    };
+    /// Returns the densities of such a sample, of light from direction `to_light` through `p`.
+    [[nodiscard]] EntryPdfs pdf_emission(Vec3 to_light, Vec3 p,
+                                         const EnvironmentEntries& entries) const;
     [[nodiscard]] std::optional<IncidentSample> sample_incident(const LightSampleContext& receiver,
                                                                 Vec2 u,
                                                                 EnvironmentSampling sampling,
@@ -85,6 +87,8 @@ private:
     [[nodiscard]] std::optional<Direction> sample_direction(Vec2 u,
                                                             const LightSampleContext& receiver,
                                                             EnvironmentSampling sampling) const;
+    /// Returns the direction of a sampled cell.
+    [[nodiscard]] Direction direction_of(const EnvironmentTiles::Sample& cell) const;
     [[nodiscard]] SolidAnglePdf pdf_direction_to(Vec3 to_light, const LightSampleContext& receiver,
                                                  EnvironmentSampling sampling) const;
     [[nodiscard]] Cell cell_to(Vec3 to_light) const;

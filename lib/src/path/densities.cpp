@@ -46,8 +46,8 @@ LightDensities light_densities(const SampleContext& sample, const PathVertex& x0
     const float chosen = lights.emission_probability(*x0.light);
     if (const auto* entries = lights.learned_entries(*x0.light, sampling)) {
         const auto& environment = std::get<EnvironmentLight>(light.model());
-        return {.emit = environment.pdf_position(point, *entries) * chosen,
-                .to_next = to_area(environment.pdf_entry(to_light, x1.p, *entries), cosine)};
+        const auto pdf = environment.pdf_emission(to_light, x1.p, *entries);
+        return {.emit = pdf.direction * chosen, .to_next = to_area(pdf.entry, cosine)};
     }
     if (const EntryWindow* window = LightSet::learned_window(*x0.light, sampling)) {
         return {.emit = light.pdf_position(point) * chosen,

@@ -137,7 +137,7 @@ TEST_CASE("entries: all light can start, with the density that weights assume", 
     const EnvironmentLight sky = even_sky();
     const EnvironmentEntries entries(through_opening(sky, 5000), sky.tiles(), bounds);
     const auto [least, most] =
-        std::minmax_element(entries.tiles().of.begin(), entries.tiles().of.end());
+        std::minmax_element(entries.factors().of.begin(), entries.factors().of.end());
     CHECK(*least == EnvironmentEntries::min_factor);
     CHECK(*most == 1.0f);
     // The flux through a small sphere, wherever it is: pi^2 r^2 L.
@@ -149,10 +149,9 @@ TEST_CASE("entries: all light can start, with the density that weights assume", 
             const auto emitted = sky.sample_emission(random.next_2d(), random.next_2d(), entries);
             REQUIRE(emitted);
             const LightPoint x0{.p = -emitted->direction};
-            REQUIRE(sky.pdf_position(x0, entries).value ==
-                    Approx(emitted->pdf_position.value).epsilon(1e-4));
-            REQUIRE(sky.pdf_entry(x0.p, emitted->end.p, entries).value ==
-                    emitted->pdf_entry.value);
+            const auto pdf = sky.pdf_emission(x0.p, emitted->end.p, entries);
+            REQUIRE(pdf.direction.value == Approx(emitted->pdf_position.value).epsilon(1e-4));
+            REQUIRE(pdf.entry.value == emitted->pdf_entry.value);
             const Vec3 offset = place - emitted->end.p;
             const float along = dot(offset, emitted->direction);
             const bool hits = dot(offset, offset) - along * along < radius * radius;
@@ -209,7 +208,7 @@ TEST_CASE("entries: without escapes light starts everywhere alike", "[light][ent
     const std::vector<Escape> black{{.p = Vec3(1.0f), .direction = {0, 1, 0}, .tile = 3}};
     for (const auto& escapes : {std::vector<Escape>{}, black}) {
         const EnvironmentEntries entries(escapes, sky.tiles(), bounds);
-        for (const float factor : entries.tiles().of) {
+        for (const float factor : entries.factors().of) {
             CHECK(factor == 1.0f);
         }
         CHECK(entries.window(3).pdf(bounds.center, {0, -1, 0}).value == bounds.pdf_disk().value);

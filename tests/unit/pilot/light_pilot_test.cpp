@@ -256,7 +256,7 @@ TEST_CASE("light pilot: threads, crop, samples and seed do not matter", "[pilot]
         REQUIRE(again);
         REQUIRE(again->visibility->cells() == first->visibility->cells());
         REQUIRE(again->groups->cells() == first->groups->cells());
-        REQUIRE(again->entries->tiles().of == first->entries->tiles().of);
+        REQUIRE(again->entries->factors().of == first->entries->factors().of);
         Random random(5);
         for (int i = 0; i < 1000; ++i) {
             const Vec3 p = 2.0f * Vec3(random.next(), random.next(), random.next()) - 1.0f;

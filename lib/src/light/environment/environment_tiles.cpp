@@ -388,6 +388,13 @@ std::size_t EnvironmentTiles::find_tile(int column, int row) const noexcept
            find_part(static_cast<std::uint32_t>(row), rows_, height_);
 }
 
+float EnvironmentTiles::pdf_in_tile(std::size_t tile, int column, int row,
+                                    EnvironmentSampling sampling) const noexcept
+{
+    return cell_pdf(tile, static_cast<std::uint32_t>(column) - column_begins_[tile / max_rows],
+                    static_cast<std::uint32_t>(row) - row_begins_[tile % max_rows], sampling);
+}
+
 float EnvironmentTiles::pdf(int column, int row, const std::optional<Vec3>& normal,
                             const TileFactors* factors, EnvironmentSampling sampling) const noexcept
 {
@@ -396,14 +403,27 @@ float EnvironmentTiles::pdf(int column, int row, const std::optional<Vec3>& norm
     if (!(known.of[tile] > 0.0f)) {
         return 0.0f;
     }
-    const float of_cell =
-        cell_pdf(tile, static_cast<std::uint32_t>(column) - column_begins_[tile / max_rows],
-                 static_cast<std::uint32_t>(row) - row_begins_[tile % max_rows], sampling);
-    if ((!normal && factors == nullptr) || !(of_cell > 0.0f)) {
-        return density(tile, known, of_cell);
+    const float in_tile = pdf_in_tile(tile, column, row, sampling);
+    if ((!normal && factors == nullptr) || !(in_tile > 0.0f)) {
+        return density(tile, known, in_tile);
     }
     const Worth seen = worth(known, normal, factors);
-    return seen.of[tile] > 0.0f ? density(tile, seen, of_cell) : 0.0f;
+    return seen.of[tile] > 0.0f ? density(tile, seen, in_tile) : 0.0f;
+}
+
+EnvironmentTiles::Worth EnvironmentTiles::worth(const TileFactors& factors,
+                                                EnvironmentSampling sampling) const noexcept
+{
+    return worth(shares(sampling), std::nullopt, &factors);
+}
+
+float EnvironmentTiles::pdf(int column, int row, const Worth& worth,
+                            EnvironmentSampling sampling) const noexcept
+{
+    const std::size_t tile = find_tile(column, row);
+    return worth.of[tile] > 0.0f
+               ? density(tile, worth, pdf_in_tile(tile, column, row, sampling))
+               : 0.0f;
 }
 
 }  // namespace bdpt

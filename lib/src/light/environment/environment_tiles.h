@@ -54,7 +54,20 @@ public:
         [[nodiscard]] std::uint32_t size() const { return end - begin; }
     };
 
-    static constexpr std::size_t tile_count = 128;
+    static constexpr std::uint32_t tile_columns = 16;
+    static constexpr std::uint32_t max_rows = 8;
+    static constexpr std::size_t tile_count = std::size_t{tile_columns} * max_rows;
+    /// One number per tile, column-major; zero where there are fewer tiles.
+    using PerTile = std::array<float, tile_count>;
+    /// Unnormalized importance of the tiles to a receiver.
+    struct Worth {
+        alignas(16) PerTile of;
+        std::array<float, max_rows> row_sums;
+        float sum;
+
+        /// Computes the sums.
+        void sum_up() noexcept;
+    };
 
     /// Builds the distribution; if all weights are zero it cannot be sampled.
     explicit EnvironmentTiles(const EnvironmentWeights& weights);
@@ -74,6 +87,15 @@ public:
         int column, int row, const std::optional<Vec3>& normal,
         const TileFactors* factors = nullptr,
         EnvironmentSampling sampling = EnvironmentSampling::compensated) const noexcept;
+    /// Returns the weights of the tiles times `factors`, without a normal.
+    [[nodiscard]] Worth worth(const TileFactors& factors,
+                              EnvironmentSampling sampling) const noexcept;
+    /// Samples a cell by these weights.
+    [[nodiscard]] std::optional<Sample> sample(Vec2 u, const Worth& worth,
+                                               EnvironmentSampling sampling) const noexcept;
+    /// Returns the density of such a sample.
+    [[nodiscard]] float pdf(int column, int row, const Worth& worth,
+                            EnvironmentSampling sampling) const noexcept;
     /// Returns the tile that contains the cell, in [0, tile_count).
     [[nodiscard]] std::size_t find_tile(int column, int row) const noexcept;
     /// Returns the solid angle of a tile [sr].
@@ -82,28 +104,15 @@ public:
     [[nodiscard]] std::size_t bytes() const noexcept { return cells_.bytes() + parts_.bytes(); }
 
 private:
-    static constexpr std::uint32_t tile_columns = 16;
-    static constexpr std::uint32_t max_rows = 8;
-    /// One number per tile, column-major; zero where there are fewer tiles.
-    using PerTile = std::array<float, tile_count>;
-    static_assert(tile_columns * max_rows == tile_count);
-    /// Unnormalized importance of the tiles to a receiver.
-    struct Worth {
-        alignas(16) PerTile of;
-        std::array<float, max_rows> row_sums;
-        float sum;
-
-        /// Computes the sums.
-        void sum_up() noexcept;
-    };
     void add_shape(std::size_t tile, Range columns, Range rows);
     /// Adds the `bright` and `dim` weights of a tile's cells.
     void add_tile(std::size_t tile, std::span<const float> bright, std::span<const float> dim,
                   double total);
     [[nodiscard]] Worth worth(const Worth& shares, const std::optional<Vec3>& normal,
                               const TileFactors* factors) const noexcept;
-    [[nodiscard]] std::optional<Sample> sample(Vec2 u, const Worth& worth,
-                                               EnvironmentSampling sampling) const noexcept;
+    /// Returns the density in the cell, in the tile's own unit square.
+    [[nodiscard]] float pdf_in_tile(std::size_t tile, int column, int row,
+                                    EnvironmentSampling sampling) const noexcept;
     [[nodiscard]] CellTables::Cell sample_cell(std::size_t tile, Vec2 u,
                                                EnvironmentSampling sampling) const noexcept;
     [[nodiscard]] float density(std::size_t tile, const Worth& worth,

@@ -46,6 +46,7 @@ EnvironmentEntries::EnvironmentEntries(std::vector<Escape> escapes, const Enviro
         const double factor = most > 0.0 ? importance[tile] / most : 1.0;
         factors_.of[tile] = std::max(min_factor, static_cast<float>(factor));
     }
+    worth_ = tiles.worth(factors_, EnvironmentSampling::plain);
 }
 
 }  // namespace bdpt

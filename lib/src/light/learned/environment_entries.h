@@ -18,7 +18,9 @@ public:
                        const BoundingSphere& bounds);
 
     /// Returns the factors of the tiles' weights, in [min_factor, 1].
-    [[nodiscard]] const TileFactors& tiles() const noexcept { return factors_; }
+    [[nodiscard]] const TileFactors& factors() const noexcept { return factors_; }
+    /// Returns the weights of the tiles.
+    [[nodiscard]] const EnvironmentTiles::Worth& worth() const noexcept { return worth_; }
     /// Returns where light of a tile enters the scene.
     [[nodiscard]] const EntryWindow& window(std::size_t tile) const noexcept
     {
@@ -30,6 +32,7 @@ public:
 
 private:
     TileFactors factors_;
+    EnvironmentTiles::Worth worth_;
     std::vector<EntryWindow> windows_;  // per tile
 };
 

@@ -5,19 +5,19 @@
 namespace bdpt {
 namespace {
 
-/// Cost factors fitted to the CPU time of 26 scenes x 8 candidates, up to one factor per scene
+/// Cost factors fitted to the CPU time of 48 scenes x 8 candidates, up to one factor per scene
 /// (root mean square residual: 5 %). Only their ratios matter [ns].
 struct CostModel {
     double sample;
     double segment;  ///< segment of a walk
     double shadow;   ///< shadow ray of a connection, with its BSDFs and weights
 };
-constexpr CostModel path_tracing{.sample = 485.0, .segment = 125.0, .shadow = 240.0};
-constexpr CostModel camera_path{.sample = 400.0, .segment = 190.0, .shadow = 320.0};
-constexpr CostModel light_path{.sample = 30.0, .segment = 285.0, .shadow = 250.0};
-constexpr double connection = 180.0;         // its shadow ray
-constexpr double shared_light_path = 330.0;  // to store it in memory
-constexpr double shared_choice = 70.0;       // to fetch it from there
+constexpr CostModel path_tracing{.sample = 20.0, .segment = 305.0, .shadow = 285.0};
+constexpr CostModel camera_path{.sample = 140.0, .segment = 345.0, .shadow = 310.0};
+constexpr CostModel light_path{.sample = 20.0, .segment = 400.0, .shadow = 205.0};
+constexpr double connection = 200.0;         // its shadow ray
+constexpr double shared_light_path = 150.0;  // to store it in memory
+constexpr double shared_choice = 30.0;       // to fetch it from there
 
 double cost(const CostModel& model, double segments, double shadow_rays)
 {

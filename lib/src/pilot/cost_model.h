@@ -12,6 +12,6 @@ namespace bdpt {
 [[nodiscard]] double sample_cost(const Candidate& candidate, const RenderStats& pilot);
 
 /// Additional cost of connecting a point on a light to the lens [ns].
-inline constexpr double visible_light_cost = 230.0;
+inline constexpr double visible_light_cost = 270.0;
 
 }  // namespace bdpt

@@ -52,11 +52,11 @@ PathShares::PathShares(const PathContribution& path, Heuristic heuristic, double
         of_light += vertices - s <= 1 ? path.shares[static_cast<std::size_t>(s)] : 0.0f;
         const double share =
             static_cast<double>(path.shares[static_cast<std::size_t>(s)]) / samples[group];
-        found_by_one_ += share;
+        shares_[group] += share;
         raised_[group] += raise(share);
         moments_[group] += squares_ ? share * share * share : share;
     }
-    if (!(found_by_one_ > 0.0)) {
+    if (!(found_by_one() > 0.0)) {
         return;  // only merging finds it
     }
     constexpr float often = 0.1f;
@@ -67,6 +67,16 @@ PathShares::PathShares(const PathContribution& path, Heuristic heuristic, double
     } else if (!by_camera && of_camera < often) {
         splat_mean_ = mean_ / of_light;
     }
+}
+
+PerCandidate<double> PathShares::numbers() const
+{
+    PerCandidate<double> result;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        result[k] = shares_[own] + first[splats][k] * shares_[splats] +
+                    first[connections][k] * shares_[connections];
+    }
+    return result;
 }
 
 PerCandidate<double> PathShares::sums() const

@@ -29,20 +29,17 @@ public:
     [[nodiscard]] double camera_mean() const { return camera_mean_; }
     [[nodiscard]] double splat_mean() const { return splat_mean_; }
     [[nodiscard]] int edges() const { return edges_; }
-    /// Returns the path's contribution to the mean of its pixel if only merging can find it [nit],
-    /// else 0.
-    [[nodiscard]] double merged_mean() const
-    {
-        return found_by_one_ > 0.0 ? 0.0 : static_cast<double>(mean_);
-    }
+    /// Returns the path's contribution to the mean of its pixel [nit].
+    [[nodiscard]] double mean() const { return static_cast<double>(mean_); }
     /// Returns how often one light path per camera path, and one connection, finds such paths,
     /// relative to the pilot; 0 if no candidate can.
-    [[nodiscard]] double found_by_one() const { return found_by_one_; }
-    /// Returns the value of such a path when found that way, with balance weights [nit].
-    [[nodiscard]] double value() const
+    [[nodiscard]] double found_by_one() const
     {
-        return found_by_one_ > 0.0 ? static_cast<double>(mean_) / found_by_one_ : 0.0;
+        return shares_[own] + shares_[splats] + shares_[connections];
     }
+    /// Returns how often each candidate finds such paths, relative to the pilot. Each time they
+    /// bring the mean over this number, with balance weights.
+    [[nodiscard]] PerCandidate<double> numbers() const;
     /// Returns each candidate's weight of the strategy that found the path.
     [[nodiscard]] PerCandidate<double> weights() const;
 
@@ -72,13 +69,13 @@ private:
     [[nodiscard]] PerCandidate<double> sums() const;
 
     float mean_;  ///< by the balance heuristic of all strategies and merges
-    double found_by_one_ = 0.0;
     float camera_mean_ = 0.0f;
     float splat_mean_ = 0.0f;
     double used_share_;
     Group used_;
     int edges_;
     bool squares_;
+    PerGroup shares_{};   ///< sums of a
     PerGroup raised_{};   ///< sums of raise(a)
     PerGroup moments_{};  ///< sums of raise(a)^2 / a
 };

@@ -3,7 +3,7 @@
 #include "geometry/flush_denormals.h"
 #include "integrator/bidirectional/bidirectional_integrator.h"
 #include "pilot/cost_model.h"
-#include "pilot/merging_errors.h"
+#include "pilot/merged_paths.h"
 #include "pilot/pilot_errors.h"
 #include "pilot/visible_lights.h"
 

@@ -1,34 +1,58 @@
 #include "pilot/pilot_errors.h"
 
 #include "geometry/flush_denormals.h"
-#include "pilot/merging_errors.h"
+#include "pilot/errors_by_value.h"
+#include "pilot/merged_paths.h"
 #include "pilot/qmc_variance_factor.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace bdpt {
 namespace {
 
-void add(const PerCandidate<double>& errors, double times, PerCandidate<double>& sum)
-{
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        sum[k] += times * errors[k];
+// What the brightest paths of a usual render may be without counting.
+constexpr double max_dots = 0.0003;           ///< number over that of the pixels
+constexpr double max_light_of_dots = 0.0025;  ///< light over that of the image
+
+/// Errors of a part of a pilot's contributions.
+struct PartOfErrors {
+    PerCandidate<ErrorsByValue> of_paths{};
+    PerCandidate<double> of_sums{};  ///< of the products of different paths of a sample
+
+    /// Adds the path, one of the pilot's `paths` per image of `pixels` pixels.
+    void add(const PathShares& path, double scale, double pixels, double paths)
+    {
+        const PerCandidate<double> errors = remaining_errors(path, scale);
+        const PerCandidate<double> numbers = path.numbers();
+        const double relative = path.mean() * std::sqrt(scale);
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            of_paths[k].add(relative / numbers[k], usual_samples * pixels / paths * numbers[k],
+                            errors[k] / paths);
+        }
     }
-}
+    void add(const PartOfErrors& other)
+    {
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            of_paths[k].add(other.of_paths[k]);
+            of_sums[k] += other.of_sums[k];
+        }
+    }
+};
 
 /// Returns the errors of a row of the grid.
-PerCandidate<double> compute_errors(const PilotRow& row, std::size_t first_cell,
-                                    const PilotContributions& contributions,
-                                    const PilotBrightness& brightness)
+PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
+                            const PilotContributions& contributions,
+                            const PilotBrightness& brightness)
 {
-    PerCandidate<double> errors{};
-    for (const PilotContribution& contribution : row.joined()) {
-        add(remaining_errors(contribution.shares, brightness.scale(contribution.cell)),
-            1.0 / contributions.camera_paths(), errors);
+    PartOfErrors errors;
+    for (const PilotContribution& path : row.joined()) {
+        errors.add(path.shares, brightness.scale(path.cell), contributions.grid.pixels(),
+                   contributions.camera_paths());
     }
     for (std::size_t i = 0; i < row.cells().size(); ++i) {
         const PilotCell& cell = row.cells()[i];
@@ -36,21 +60,21 @@ PerCandidate<double> compute_errors(const PilotRow& row, std::size_t first_cell,
             brightness.scale(first_cell + i) / static_cast<double>(contributions.grid.cells());
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             constexpr int samples = PilotRow::samples_of_cell;
-            errors[k] += scale * (left_of_direct_sums * cell.direct.variance(k, samples) +
-                                  left_of_indirect_sums * cell.indirect.variance(k, samples));
+            errors.of_sums[k] +=
+                scale * (left_of_direct_sums * cell.direct.variance(k, samples) +
+                         left_of_indirect_sums * cell.indirect.variance(k, samples));
         }
     }
     return errors;
 }
 
-PerCandidate<double> compute_errors(const PilotSplats& part,
-                                    const PilotContributions& contributions,
-                                    const PilotBrightness& brightness)
+PartOfErrors compute_errors(const PilotSplats& part, const PilotContributions& contributions,
+                            const PilotBrightness& brightness)
 {
-    PerCandidate<double> errors{};
+    PartOfErrors errors;
     for (const PilotContribution& splat : part.contributions()) {
-        add(remaining_errors(splat.shares, brightness.scale(splat)),
-            1.0 / contributions.splatted_pixels(), errors);
+        errors.add(splat.shares, brightness.scale(splat), contributions.grid.pixels(),
+                   contributions.splatted_pixels());
     }
     return errors;
 }
@@ -60,20 +84,31 @@ PerCandidate<double> compute_errors(const PilotContributions& contributions,
                                     const PilotBrightness& brightness)
 {
     const std::size_t rows = contributions.rows.size();
-    std::vector<PerCandidate<double>> errors(rows + contributions.parts.size());
-    tbb::parallel_for(std::size_t{0}, errors.size(), [&](std::size_t i) {
+    std::vector<PartOfErrors> parts(rows + contributions.parts.size());
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
         const FlushDenormals flush;
-        errors[i] = i < rows
-                        ? compute_errors(contributions.rows[i],
-                                         contributions.grid.index(0, static_cast<int>(i)),
-                                         contributions, brightness)
-                        : compute_errors(contributions.parts[i - rows], contributions, brightness);
+        parts[i] = i < rows
+                       ? compute_errors(contributions.rows[i],
+                                        contributions.grid.index(0, static_cast<int>(i)),
+                                        contributions, brightness)
+                       : compute_errors(contributions.parts[i - rows], contributions, brightness);
     });
-    PerCandidate<double> sum = merged_errors(contributions, brightness);
-    for (const PerCandidate<double>& part : errors) {
-        add(part, 1.0, sum);
+    PartOfErrors all;
+    for (const PilotContribution* path : findable_merged_paths(contributions, brightness)) {
+        all.add(path->shares, brightness.scale(path->cell), contributions.grid.pixels(),
+                contributions.camera_paths());
     }
-    return sum;
+    for (const PartOfErrors& part : parts) {
+        all.add(part);
+    }
+    PerCandidate<double> errors;
+    const double pixels = contributions.grid.pixels();
+    const double dots = max_dots * pixels;
+    const double light = max_light_of_dots * usual_samples * pixels;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        errors[k] = all.of_paths[k].without_brightest(dots, light) + all.of_sums[k];
+    }
+    return errors;
 }
 
 /// Adds the expected error of rare paths that no pilot finds to all candidates, so that a small

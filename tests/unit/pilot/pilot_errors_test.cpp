@@ -37,16 +37,57 @@ private:
     std::vector<float> shares_;
 };
 
-/// In an image of one pixel.
-PilotContributions contributions_of(const TwoLights& lights)
+/// Each camera path finds a light by next-event estimation. The first ones also find one by
+/// connections, which next-event estimation would do only once in 10,000 times.
+class Glints final : public Integrator {
+public:
+    explicit Glints(int count) : count_(count) {}
+    RenderStats render_tile(const Tile& /*tile*/, SampleRange /*samples*/,
+                            const Films& films) const override
+    {
+        films.on_path({.strategy = {.s = 1, .t = 3},
+                       .raster = Vec2(0.5f),
+                       .unweighted = Rgb(radiance),
+                       .weight = 1.0f,
+                       .shares = by_next_event_});
+        if (found_ < count_) {
+            ++found_;
+            films.on_path({.strategy = {.s = 2, .t = 2},
+                           .raster = Vec2(0.5f),
+                           .unweighted = Rgb(radiance),
+                           .weight = 1.0f,
+                           .shares = by_connections_});
+        }
+        return {};
+    }
+
+private:
+    int count_;
+    mutable int found_ = 0;
+    std::vector<float> by_next_event_{0.0f, 1.0f, 0.0f, 0.0f, 0.0f};
+    std::vector<float> by_connections_{0.0f, 1e-4f, 0.9999f, 0.0f, 0.0f};
+};
+
+PilotContributions contributions_of(const Integrator& lights, PilotGrid grid)
 {
     PilotContributions contributions{
-        .grid = PilotGrid(1, 1), .light_paths = 1.0, .rows = std::vector<PilotRow>(1), .parts = {}};
+        .grid = grid,
+        .light_paths = 1.0,
+        .rows = std::vector<PilotRow>(static_cast<std::size_t>(grid.rows())),
+        .parts = {}};
     for (int index = 0; index < PilotRow::samples_of_cell; ++index) {
-        contributions.rows[0].render(lights, contributions.grid, Heuristic::power, 0, index,
-                                     contributions.light_paths);
+        for (int row = 0; row < grid.rows(); ++row) {
+            contributions.rows[static_cast<std::size_t>(row)].render(
+                lights, grid, Heuristic::power, row, index, contributions.light_paths);
+        }
     }
     return contributions;
+}
+
+PerCandidate<double> errors_with_glints(int count)
+{
+    const PilotContributions contributions = contributions_of(Glints(count), PilotGrid(200, 100));
+    return predicted_errors(contributions, PilotBrightness(contributions));
 }
 
 }  // namespace
@@ -56,7 +97,8 @@ TEST_CASE("of the variance of sums a part is left, of direct light another than 
 {
     const bool direct = GENERATE(true, false);
     CAPTURE(direct);
-    const PilotContributions contributions = contributions_of(TwoLights(direct ? 2 : 3));
+    const PilotContributions contributions =
+        contributions_of(TwoLights(direct ? 2 : 3), PilotGrid(1, 1));
     const PilotBrightness brightness(contributions);
     const double scale = brightness.scale(0);
     REQUIRE(contributions.rows[0].joined().size() == 2);
@@ -68,7 +110,28 @@ TEST_CASE("of the variance of sums a part is left, of direct light another than 
     constexpr double with_unseen = 1.2;
     const PerCandidate<double> errors = predicted_errors(contributions, brightness);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        CHECK(errors[k] / with_unseen == Approx(of_one_path[k] + left * scale * variance_of_sums));
+        // Less a thousandth of a path.
+        CHECK(errors[k] / with_unseen ==
+              Approx(of_one_path[k] + left * scale * variance_of_sums).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("a path that a usual render hardly finds does not count, but many of them do", "[pilot]")
+{
+    const PerCandidate<double> none = errors_with_glints(0);
+    const PerCandidate<double> one = errors_with_glints(1);
+    const PerCandidate<double> many = errors_with_glints(2000);
+    REQUIRE(candidates[0].light_paths == 0.0);
+    CHECK(one[0] == Approx(none[0]).epsilon(0.02));
+    CHECK(many[0] > 100.0 * none[0]);
+    // A usual render has three of these, in 20,000 pixels, but with too much light to be left out.
+    CHECK(errors_with_glints(100)[0] > 10.0 * none[0]);
+    // With connections they are like all others.
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        if (candidates[k].connections >= 1.0) {
+            CHECK(one[k] == Approx(none[k]).epsilon(0.02));
+            CHECK(many[k] < 10.0 * none[k]);
+        }
     }
 }
 

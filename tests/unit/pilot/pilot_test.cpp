@@ -249,8 +249,8 @@ TEST_CASE("a connection costs its choice and the shadow rays that one of the pil
     const auto cost = [&](double connections) {
         return sample_cost({.light_paths = 0.25, .connections = connections}, stats);
     };
-    constexpr double shadow_ray = 180.0;  // [ns]
-    constexpr double choice = 70.0;
+    constexpr double shadow_ray = 200.0;  // [ns]
+    constexpr double choice = 30.0;
     CHECK(cost(1.0) - cost(0.25) == Approx(0.75 * (choice + shadow_rays * shadow_ray)));
 }
 

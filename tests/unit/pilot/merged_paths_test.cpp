@@ -10,7 +10,7 @@
 #include <cmath>
 #include <utility>
 
-namespace bdpt::test::merged_finds_test {
+namespace bdpt::test::merged_paths_test {
 namespace {
 
 constexpr float albedo = 0.5f;
@@ -78,7 +78,7 @@ TEST_CASE("a pilot knows by merging what rare hits of a lamp bring", "[pilot]")
     }
 }
 
-TEST_CASE("a pilot leaves out light that no render of usual length contributions", "[pilot]")
+TEST_CASE("a pilot excludes light that no render of usual length finds", "[pilot]")
 {
     // One in a hundred million samples hits it.
     for (const double error : pilot_of(under_glass(0.0003f)).errors) {
@@ -86,4 +86,4 @@ TEST_CASE("a pilot leaves out light that no render of usual length contributions
     }
 }
 
-}  // namespace bdpt::test::merged_finds_test
+}  // namespace bdpt::test::merged_paths_test

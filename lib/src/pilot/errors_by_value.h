@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace bdpt {
+
+/// Errors of a candidate's paths, by their value relative to the local brightness. The brightest
+/// may be so rare that a usual render has dots in a few pixels and else lacks their light, while
+/// their squares exceed all other errors. Choices exclude them, up to a limit.
+class ErrorsByValue {
+public:
+    /// Adds paths that a usual render finds `number` times, which bring `value` each, and whose
+    /// relMSE is `error`. If `number` is 0, the candidate cannot find them, and `error` always
+    /// counts.
+    void add(double value, double number, double error) noexcept;
+    void add(const ErrorsByValue& other) noexcept;
+
+    /// Returns the sum of all errors but those of the brightest paths: at most `number`, whose
+    /// values add up to at most `light`.
+    [[nodiscard]] double without_brightest(double number, double light) const noexcept;
+
+private:
+    /// Paths whose values have the same power of two.
+    struct Octave {
+        double number = 0.0;
+        double light = 0.0;
+        double error = 0.0;
+    };
+    static constexpr int least_exponent = -16;
+
+    std::array<Octave, 64> octaves_{};
+    double never_found_ = 0.0;
+};
+
+}  // namespace bdpt

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Judges where another program chooses otherwise: changed_choices.py OLD NEW MODEL... [--env ENV]
+"""Compares two programs where `auto` chooses differently: changed_choices.py OLD NEW MODEL... [--env ENV]
 
 OLD and NEW are programs `bdpt`. For each model for which their `--integrator auto` chooses different integrators or
-numbers of light paths and connections, prints both choices, and CPU time (with the pilot, without loading) times squared
-relative error of NEW over that of OLD: of all pixels, and without the worst 0.03, 0.1 and 0.3 %. Errors are those from a
-reference of `bdpt`, so light that a program loses counts. Needs numpy."""
+numbers of light paths and connections, prints both choices, and CPU time (with the pilot, without loading) times
+squared relative error of NEW over that of OLD: of all pixels, and without the worst 0.03, 0.1 and 0.3 %. Errors are
+relative to a reference rendered by `bdpt`, so light that a program loses counts. Needs numpy."""
 
 import argparse
 import json
@@ -29,8 +29,8 @@ def render(program, model, image, arguments, *options):
     """Renders the model; returns CPU seconds and the settings."""
     scene = (model, *(("--env", arguments.env) if arguments.env else ()))
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    told = subprocess.run([program, "render", *scene, "--size", arguments.size, "-o", image, "--quiet", "--threads", "1",
-                           "--stats", "-", *options], check=True, capture_output=True, text=True)
+    told = subprocess.run([program, "render", *scene, "--size", arguments.size, "-o", image, "--quiet",
+                           "--threads", "1", "--stats", "-", *options], check=True, capture_output=True, text=True)
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, json.loads(told.stdout)["settings"]
 
 
@@ -80,7 +80,8 @@ def main():
             first, second = (compute_products(program, model, image, reference, load, arguments)
                              for program in arguments.programs)
             ratios.append(second / first)
-            print(f"{pathlib.Path(model).name:40} {old:14} {new:14}" + "".join(f"{r:7.2f}" for r in ratios[-1]), flush=True)
+            row = "".join(f"{ratio:7.2f}" for ratio in ratios[-1])
+            print(f"{pathlib.Path(model).name:40} {old:14} {new:14}{row}", flush=True)
     if ratios:
         means = np.exp(np.log(ratios).mean(axis=0))
         print(f"{'geometric mean':70}" + "".join(f"{r:7.2f}" for r in means))

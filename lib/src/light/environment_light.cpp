@@ -162,8 +162,8 @@ EnvironmentLight::Direction EnvironmentLight::direction_of(
     const SinCos phi = sin_cos(2.0f * pi * (across - 0.5f));
     const Vec3 local(sine * phi.sin, cosine, -sine * phi.cos);
     return {.to_light = normalize(world_from_environment_ * local),
-                     .uv = {across, acos_exact(cosine) * inv_pi},
-                     .pdf = to_solid_angle(cell.pdf, cell.row)};
+            .uv = {across, acos_exact(cosine) * inv_pi},
+            .pdf = to_solid_angle(cell.pdf, cell.row)};
 }
 
 std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position, Vec2 u_direction,

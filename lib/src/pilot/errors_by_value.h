@@ -6,8 +6,8 @@
 namespace bdpt {
 
 /// Errors of a candidate's paths, by their value relative to the local brightness. The brightest
-/// may be so rare that a usual render has dots in a few pixels and else lacks their light, while
-/// their squares exceed all other errors. Choices exclude them, up to a limit.
+/// paths can be so rare that a usual render shows them as dots in a few pixels, while their squared
+/// errors exceed those of all others. The choice of a candidate excludes them, up to a limit.
 class ErrorsByValue {
 public:
     /// Adds paths that a usual render finds `number` times, which bring `value` each, and whose

@@ -360,10 +360,9 @@ std::unique_ptr<const LearnedLight> learn_light(const World& world, const Moving
         std::copy_if(all.to_suns.begin(), all.to_suns.end(), std::back_inserter(of_sun),
                      [sun](const Escape& escape) { return escape.tile == sun; });
         if (!of_sun.empty()) {
-            learned.suns.push_back(
-                {.sun = suns[sun],
-                 .window = EntryWindow(of_sun, world.bounding_sphere().center,
-                                       world.bounding_sphere())});
+            learned.suns.push_back({.sun = suns[sun],
+                                    .window = EntryWindow(of_sun, world.bounding_sphere().center,
+                                                          world.bounding_sphere())});
         }
     }
     return learned.visibility || learned.groups || !learned.suns.empty()

@@ -15,7 +15,7 @@
 namespace bdpt {
 namespace {
 
-// What the brightest paths of a usual render may be without counting.
+// The brightest paths of a usual render do not count, up to these limits.
 constexpr double max_dots = 0.0003;           ///< number over that of the pixels
 constexpr double max_light_of_dots = 0.0025;  ///< light over that of the image
 

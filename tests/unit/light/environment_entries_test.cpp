@@ -95,8 +95,8 @@ TEST_CASE("entries: samples follow their density", "[light][entries]")
         for (int i = 0; i < 20000; ++i) {
             const auto entry = window.sample(direction, random.next_2d());
             REQUIRE(entry.pdf.value == window.pdf(entry.p, direction).value);
-            nearest = std::min(
-                nearest, -static_cast<double>(dot(entry.p - bounds.center, direction)));
+            nearest =
+                std::min(nearest, -static_cast<double>(dot(entry.p - bounds.center, direction)));
             const Vec2 at = (on_disk(entry.p, direction) + 1.0f) / bin;
             const auto index = [](float x) {
                 return std::clamp<std::size_t>(static_cast<std::size_t>(x), 0, side - 1);
@@ -224,8 +224,8 @@ TEST_CASE("entries: a tile of all directions is safe", "[light][entries]")
     test::Random random(5);
     std::vector<Escape> escapes;
     for (int i = 0; i < 4000; ++i) {
-        const Vec3 direction = normalize(2.0f * Vec3(random.next(), random.next(), random.next()) -
-                                         Vec3(0.999f));
+        const Vec3 direction =
+            normalize(2.0f * Vec3(random.next(), random.next(), random.next()) - Vec3(0.999f));
         escapes.push_back({.p = bounds.center + random.next(),
                            .direction = direction,
                            .tile = sky.tile_to(direction),
@@ -236,8 +236,7 @@ TEST_CASE("entries: a tile of all directions is safe", "[light][entries]")
         const auto emitted = sky.sample_emission(random.next_2d(), random.next_2d(), entries);
         REQUIRE(emitted);
         REQUIRE(std::isfinite(emitted->weight.g));
-        REQUIRE(emitted->pdf_entry.value >=
-                EntryWindow::uniform_part * bounds.pdf_disk().value);
+        REQUIRE(emitted->pdf_entry.value >= EntryWindow::uniform_part * bounds.pdf_disk().value);
         REQUIRE(emitted->pdf_entry.value < 1e3f);
     }
 }

@@ -167,8 +167,8 @@ TEST_CASE("light pilot: light paths from sky and sun enter the room", "[pilot]")
             if (path.size() == 2) {
                 const Vec3 p = abs(path[1].end.p);
                 inside += p.x < 1.01f && p.y < 1.01f && p.z < 1.01f ? 1 : 0;
-                const LightDensities densities = light_densities(
-                    sample, path[0], path[1].end, {.learned = table});
+                const LightDensities densities =
+                    light_densities(sample, path[0], path[1].end, {.learned = table});
                 REQUIRE(densities.emit.value == Approx(path[0].pdf_fwd.value).epsilon(1e-4));
                 REQUIRE(densities.to_next.value == Approx(path[1].pdf_fwd.value).epsilon(2e-3));
             }
@@ -343,13 +343,11 @@ TEST_CASE("light pilot: the image is right whatever was learned", "[pilot]")
     while (!std::holds_alternative<DirectionalLight>(lights[sun].model())) {
         sun = LightId{static_cast<std::uint32_t>(sun) + 1};
     }
-    const LearnedLight misled{.visibility = EnvironmentVisibility(wrong),
-                              .groups = GroupShares(findings, 3),
-                              .entries = EnvironmentEntries(escapes, sky_of(scene).tiles(),
-                                                            world.bounding_sphere()),
-                              .suns = {{.sun = sun,
-                                        .window = EntryWindow(wrong_side, {},
-                                                              world.bounding_sphere())}}};
+    const LearnedLight misled{
+        .visibility = EnvironmentVisibility(wrong),
+        .groups = GroupShares(findings, 3),
+        .entries = EnvironmentEntries(escapes, sky_of(scene).tiles(), world.bounding_sphere()),
+        .suns = {{.sun = sun, .window = EntryWindow(wrong_side, {}, world.bounding_sphere())}}};
     for (const auto kind : {IntegratorKind::mis, IntegratorKind::bdpt}) {
         RenderOptions options = options_of(kind);
         const auto right = learned(scene, options);

@@ -166,6 +166,7 @@ TEST_CASE("a path that a pilot found by merging counts for all strategies, too",
         PathContribution joined = path_of(1);
         joined.unweighted = Rgb(2.0f * 0.95f * others / shares[1]);
         const PathShares once(joined, heuristic, pilot_light_paths);
+        CHECK(found.found_by_one() == Approx(once.found_by_one() / 20.0));
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             CAPTURE(candidates[k].light_paths, candidates[k].connections);
             CHECK(found.numbers()[k] == Approx(once.numbers()[k] / 20.0));

@@ -421,9 +421,8 @@ float EnvironmentTiles::pdf(int column, int row, const Worth& worth,
                             EnvironmentSampling sampling) const noexcept
 {
     const std::size_t tile = find_tile(column, row);
-    return worth.of[tile] > 0.0f
-               ? density(tile, worth, pdf_in_tile(tile, column, row, sampling))
-               : 0.0f;
+    return worth.of[tile] > 0.0f ? density(tile, worth, pdf_in_tile(tile, column, row, sampling))
+                                 : 0.0f;
 }
 
 }  // namespace bdpt

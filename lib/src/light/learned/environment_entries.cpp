@@ -37,8 +37,7 @@ EnvironmentEntries::EnvironmentEntries(std::vector<Escape> escapes, const Enviro
             std::find_if(begin, escapes.end(), [tile](const Escape& e) { return e.tile != tile; });
         windows_[tile] = EntryWindow(std::span(begin, end), center, bounds);
         // Per solid angle, as the weights of tiles are integrals over it.
-        importance[tile] =
-            windows_[tile].root_of_throughput() / std::sqrt(tiles.solid_angle(tile));
+        importance[tile] = windows_[tile].root_of_throughput() / std::sqrt(tiles.solid_angle(tile));
         begin = end;
     }
     const double most = *std::max_element(importance.begin(), importance.end());

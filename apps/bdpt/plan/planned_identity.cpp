@@ -18,7 +18,8 @@ std::vector<std::string_view> own_options(const RenderArguments& asked)
     std::vector<std::string_view> names{seed_name};
     if (asked.options.integrator == IntegratorKind::automatic) {
         names.insert(names.end(),
-                     {"option: integrator", "option: light_paths", "option: connections"});
+                     {"option: integrator", "option: light_paths", "option: connections",
+                      "option: disable"});
     }
     if (asked.sequence->cameras == SequenceCameras::all && !asked.size) {
         names.insert(names.end(), {"option: width", "option: height"});

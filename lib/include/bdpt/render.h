@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stop_token>
 
@@ -80,6 +81,11 @@ struct IntegratorChoice {
     /// the sun or of delta lights, seen in mirrors or through glass. Only `vcm` finds it. 0 if the
     /// pilot found none, or if there was no pilot.
     double unseen_light = 0.0;
+    /// Rates of samples that reduce error times time by a tenth or more, for
+    /// `SamplingOptions::rates`; null if there are none, or if there was no pilot. They are not
+    /// part of `options`, as they need samples that begin and end at multiples of
+    /// `SampleRates::group`.
+    std::shared_ptr<const SampleRates> rates{};
 };
 
 /// Returns `options` with IntegratorKind::automatic replaced: by mis, or by bdpt with `light_paths`

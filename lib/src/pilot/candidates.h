@@ -9,6 +9,8 @@ namespace bdpt {
 struct Candidate {
     double light_paths = 0.0;
     double connections = 0.0;
+
+    [[nodiscard]] bool operator==(const Candidate&) const = default;
 };
 
 /// All candidates. With fewer than 1/16 light paths, sharing them would show in correlated errors

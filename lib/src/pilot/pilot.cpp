@@ -3,9 +3,9 @@
 #include "geometry/flush_denormals.h"
 #include "integrator/bidirectional/bidirectional_integrator.h"
 #include "pilot/cost_model.h"
-#include "pilot/merged_paths.h"
-#include "pilot/pilot_errors.h"
-#include "pilot/visible_lights.h"
+#include "pilot/errors/merged_paths.h"
+#include "pilot/errors/pilot_errors.h"
+#include "pilot/errors/visible_lights.h"
 
 #include <tbb/parallel_for.h>
 
@@ -142,10 +142,12 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
         }
     }
     const PilotBrightness brightness(contributions);
-    PilotResult result{.errors = predicted_errors(contributions, brightness),
+    PilotErrors errors = predict_errors(contributions, brightness);
+    PilotResult result{.errors = errors.of_image,
                        .visible_lights = visible_light_errors(contributions, brightness),
                        .costs = {},
                        .merging_alone = share_of_merging_alone(contributions, brightness),
+                       .cells = std::move(errors.of_cells),
                        .stats = {}};
     // Shadow rays to directly visible lights are not part of next-event estimation.
     std::uint64_t to_lamps = 0;
@@ -183,6 +185,21 @@ RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
         }
     }
     return *best;
+}
+
+std::shared_ptr<const SampleRates> best_rates(const PilotResult& pilot, const RenderOptions& chosen)
+{
+    Candidate numbers;
+    if (chosen.integrator == IntegratorKind::bdpt) {
+        numbers.light_paths = chosen.bidirectional.light_paths;
+        numbers.connections =
+            chosen.bidirectional.connections.value_or(chosen.bidirectional.light_paths);
+    }
+    const auto found = std::find(candidates.begin(), candidates.end(), numbers);
+    return found == candidates.end()
+               ? nullptr
+               : choose_rates(PilotGrid(chosen.film.width, chosen.film.height), pilot.cells,
+                              static_cast<std::size_t>(found - candidates.begin()));
 }
 
 }  // namespace bdpt

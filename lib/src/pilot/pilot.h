@@ -1,11 +1,13 @@
 #pragma once
 
 #include "pilot/candidates.h"
-#include "pilot/visible_lights.h"
+#include "pilot/errors/visible_lights.h"
+#include "pilot/pilot_rates.h"
 
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
 
+#include <memory>
 #include <stop_token>
 
 namespace bdpt {
@@ -22,6 +24,7 @@ struct PilotResult {
     PerCandidate<double> costs{};       ///< cost of a sample [ns on the machine of the cost model]
     /// Fraction of the light that no candidate finds, in [0, 1].
     double merging_alone = 0.0;
+    CellErrors cells;   ///< errors of parts of the image
     RenderStats stats;  ///< work of the pilot itself
 };
 
@@ -38,5 +41,10 @@ struct PilotResult {
 /// Returns `options` with the integrator and the numbers that have the smallest error at equal cost
 /// in `pilot`, among those that fit into `light_path_memory`.
 [[nodiscard]] RenderOptions with_best(const PilotResult& pilot, const RenderOptions& options);
+
+/// Returns rates of samples for the options that with_best() returned; null if they gain too
+/// little.
+[[nodiscard]] std::shared_ptr<const SampleRates> best_rates(const PilotResult& pilot,
+                                                            const RenderOptions& chosen);
 
 }  // namespace bdpt

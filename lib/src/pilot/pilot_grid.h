@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace bdpt {
 
@@ -31,6 +32,8 @@ public:
     {
         return static_cast<double>(width_) * static_cast<double>(height_);
     }
+    [[nodiscard]] int width() const { return width_; }    ///< of the image [pixels]
+    [[nodiscard]] int height() const { return height_; }  ///< of the image [pixels]
     [[nodiscard]] std::size_t cells() const { return index(0, rows_); }
     [[nodiscard]] std::size_t index(int column, int row) const
     {
@@ -42,6 +45,10 @@ public:
     {
         return index(cell(raster.x, columns_, width_), cell(raster.y, rows_, height_));
     }
+    /// Returns the column of cells of each column of pixels.
+    [[nodiscard]] std::vector<int> columns_of_pixels() const { return spread(columns_, width_); }
+    /// Returns the row of cells of each row of pixels.
+    [[nodiscard]] std::vector<int> rows_of_pixels() const { return spread(rows_, height_); }
     /// Returns the pixel of a cell, at a random position in it.
     [[nodiscard]] Tile pixel(int column, int row) const
     {
@@ -65,6 +72,16 @@ private:
     {
         return std::clamp(static_cast<int>(static_cast<double>(raster) * cells / pixels), 0,
                           cells - 1);
+    }
+
+    static std::vector<int> spread(int cells, int pixels)
+    {
+        std::vector<int> result;
+        result.reserve(static_cast<std::size_t>(pixels));
+        for (int i = 0; i < pixels; ++i) {
+            result.push_back(cell(static_cast<float>(i) + 0.5f, cells, pixels));
+        }
+        return result;
     }
 
     int width_;

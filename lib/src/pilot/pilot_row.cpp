@@ -57,8 +57,10 @@ void PilotRow::render(const Integrator& integrator, const PilotGrid& grid, Heuri
         cell_index = grid.index(column, row);
         direct = {};
         indirect = {};
-        stats_ += integrator.render_tile(grid.pixel(column, row),
-                                         {.begin = index, .end = index + 1}, films);
+        const RenderStats stats = integrator.render_tile(grid.pixel(column, row),
+                                                         {.begin = index, .end = index + 1}, films);
+        stats_ += stats;
+        cell->stats += stats;
         cell->direct.add(direct);
         cell->indirect.add(indirect);
     }

@@ -12,6 +12,7 @@ struct PilotCell {
     double mean = 0.0;         ///< mean of the paths that they find well [nit]
     VarianceOfSamples direct;  ///< of paths of two edges
     VarianceOfSamples indirect;
+    RenderStats stats;  ///< work of its samples
 };
 
 /// A point on a light seen through the lens (s = t = 1).

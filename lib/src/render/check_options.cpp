@@ -63,8 +63,7 @@ void check_rates(const RenderOptions& options)
     }
     check_takes_rates(options.integrator);
     const SampleRange& samples = options.sampling.samples;
-    check_range("last round with rates of samples", samples.end, 1,
-                std::int64_t{1} << (32 - SampleRates::max_exponent));
+    check_range("last round with rates of samples", samples.end, 1, SampleRates::max_rounds);
     for (const std::int64_t border : {samples.begin, samples.end}) {
         if (border % SampleRates::group != 0) {
             throw Error(

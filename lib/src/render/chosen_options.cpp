@@ -51,6 +51,9 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     threads.execute([&] {
         const PilotResult pilot = run_pilot(scene.world(), opened, whole, learned.get(), abandon);
         choice = {.options = with_best(pilot, options), .unseen_light = pilot.merging_alone};
+        if (!abandon.stop_requested()) {
+            choice.rates = best_rates(pilot, choice.options);
+        }
     });
     return choice;
 }

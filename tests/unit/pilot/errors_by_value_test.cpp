@@ -1,4 +1,4 @@
-#include "pilot/errors_by_value.h"
+#include "pilot/errors/errors_by_value.h"
 
 #include "catch.hpp"
 

@@ -1,7 +1,7 @@
-#include "pilot/pilot_errors.h"
+#include "pilot/errors/pilot_errors.h"
 
 #include "catch.hpp"
-#include "pilot/qmc_variance_factor.h"
+#include "pilot/errors/qmc_variance_factor.h"
 
 #include <cstddef>
 #include <vector>
@@ -81,10 +81,15 @@ PilotContributions contributions_of(const Integrator& lights, PilotGrid grid)
     return contributions;
 }
 
-PerCandidate<double> errors_with_glints(int count)
+PilotErrors prediction_with_glints(int count)
 {
     const PilotContributions contributions = contributions_of(Glints(count), PilotGrid(200, 100));
-    return predicted_errors(contributions, PilotBrightness(contributions));
+    return predict_errors(contributions, PilotBrightness(contributions));
+}
+
+PerCandidate<double> errors_with_glints(int count)
+{
+    return prediction_with_glints(count).of_image;
 }
 
 }  // namespace
@@ -99,15 +104,19 @@ TEST_CASE("of the variance of sums a part is left, of direct light another than 
     const PilotBrightness brightness(contributions);
     const double scale = brightness.scale(0);
     REQUIRE(contributions.rows[0].joined().size() == 2);
-    const PerCandidate<double> of_one_path =
+    const RemainingErrors of_one_path =
         remaining_errors(contributions.rows[0].joined()[0].shares, scale);
     // Sums of 2 L and of 0: the products of different paths of a sample are 2 L^2 and 0.
     const double variance_of_sums = static_cast<double>(radiance * radiance);
     const double left = direct ? left_of_direct_sums : left_of_indirect_sums;
     constexpr double with_unseen = 1.2;
-    const PerCandidate<double> errors = predicted_errors(contributions, brightness);
+    const PilotErrors errors = predict_errors(contributions, brightness);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        CHECK(errors[k] / with_unseen == Approx(of_one_path[k] + left * scale * variance_of_sums));
+        const double of_sums = left * scale * variance_of_sums;
+        CHECK(errors.of_image[k] / with_unseen == Approx(of_one_path.sum(k) + of_sums));
+        // The only cell is the image.
+        CHECK(errors.of_cells.camera[0][k] == Approx(of_one_path.camera[k] + of_sums));
+        CHECK(errors.of_cells.splats[k] == Approx(of_one_path.splats[k]));
     }
 }
 
@@ -119,6 +128,11 @@ TEST_CASE("a path that a usual render hardly finds does not count, but many of t
     REQUIRE(candidates[0].light_paths == 0.0);
     CHECK(one[0] == Approx(none[0]).epsilon(0.02));
     CHECK(many[0] > 100.0 * none[0]);
+    // Of one, the choice of rates knows that it is somewhere.
+    const PilotErrors of_one = prediction_with_glints(1);
+    CHECK(of_one.of_cells.dots[0] > 10.0 * none[0]);
+    CHECK(of_one.of_cells.dots[0] < many[0]);
+    CHECK(prediction_with_glints(0).of_cells.dots[0] < 0.1 * none[0]);
     // A usual render has three of these, in 20,000 pixels, but with too much light to be left out.
     CHECK(errors_with_glints(100)[0] > 10.0 * none[0]);
     // With connections they are like all others.

@@ -161,6 +161,37 @@ TEST_CASE("auto tells of light that only vcm finds", "[auto]")
     CHECK(choose_integrator(sunny, camera, named).unseen_light == 0.0);
 }
 
+TEST_CASE("the pilot of auto proposes rates for an object before an empty background", "[auto]")
+{
+    SceneBuilder builder;
+    builder.sphere({0.0f, 0.0f, 0.0f}, 0.4f, lambertian(Rgb(0.7f)));
+    builder.light(
+        PointLightDesc{.position = {1.0f, 2.0f, 2.0f}, .intensity = Rgb(30.0f), .radius = 0.5f});
+    const Scene ball(std::move(builder.desc));
+    const CameraDesc camera = camera_at({0.0f, 0.0f, 3.0f}, {0.0f, 0.0f, 0.0f}, 0.7f);
+    RenderOptions options = small();
+    options.film.width = 96;
+    options.film.height = 64;
+    const IntegratorChoice chosen = choose_integrator(ball, camera, options);
+    REQUIRE(chosen.rates != nullptr);
+    CHECK(chosen.options.sampling.rates == nullptr);
+    CHECK(chosen.rates->width() == 96);
+    CHECK(chosen.rates->height() == 64);
+    CHECK(chosen.rates->rate(4, 4) < chosen.rates->rate(48, 32));
+    // Rates, like the integrator, depend on scene, camera and size alone.
+    RenderOptions other = options;
+    other.sampling.seed = 7;
+    other.sampling.samples = {.begin = 8, .end = 24};
+    other.film.crop = PixelRect{.x0 = 3, .y0 = 5, .x1 = 20, .y1 = 40};
+    other.system.threads = 1;
+    other.system.tile_size = 5;
+    CHECK(*choose_integrator(ball, camera, other).rates == *chosen.rates);
+    options.integrator = chosen.options.integrator;
+    CHECK(choose_integrator(ball, camera, options).rates == nullptr);
+    // A room has light everywhere.
+    CHECK(choose_integrator(room(), room_camera(), small()).rates == nullptr);
+}
+
 TEST_CASE("auto renders scenes without light or surfaces by path tracing", "[auto]")
 {
     CHECK(choice(Scene(SceneDesc{}), small()).integrator == IntegratorKind::mis);

@@ -38,6 +38,8 @@ public:
     /// Number of rounds, starting at a multiple of it, that gives each pixel samples in both halves
     /// of the film. Renders with rates begin and end at multiples of this number.
     static constexpr std::int64_t group = std::int64_t{2} << -min_exponent;
+    /// Maximum number of rounds: pixels of the greatest rate take 2^32 samples.
+    static constexpr std::int64_t max_rounds = std::int64_t{1} << (32 - max_exponent);
 
     /// Takes `exponents` row by row from the top left. Throws `Error` (usage) if there are not
     /// width x height of them, or if one is out of range.

@@ -1,4 +1,4 @@
-#include "pilot/visible_lights.h"
+#include "pilot/errors/visible_lights.h"
 
 #include <algorithm>
 #include <span>

@@ -1,4 +1,4 @@
-#include "pilot/qmc_variance_factor.h"
+#include "pilot/errors/qmc_variance_factor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,10 +35,10 @@ PerCandidate<double> left_by_more_connections()
 
 }  // namespace
 
-PerCandidate<double> remaining_errors(const PathShares& shares, double scale)
+RemainingErrors remaining_errors(const PathShares& shares, double scale)
 {
     constexpr int direct_edges = 2;
-    PerCandidate<double> result{};
+    RemainingErrors result;
     if (shares.edges() < direct_edges) {
         return result;  // directly visible light is accounted for separately
     }
@@ -49,9 +49,9 @@ PerCandidate<double> remaining_errors(const PathShares& shares, double scale)
     static const PerCandidate<double> of_connections = left_by_more_connections();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const double own = direct ? left_of_direct : left_of_own(values[k] * per_brightness);
-        result[k] = scale * (own * moments.own[k] +
-                             left_of_connections * of_connections[k] * moments.connections[k] +
-                             moments.splats[k]);
+        result.camera[k] = scale * (own * moments.own[k] + left_of_connections * of_connections[k] *
+                                                               moments.connections[k]);
+        result.splats[k] = scale * moments.splats[k];
     }
     return result;
 }

@@ -1,4 +1,4 @@
-#include "pilot/merged_paths.h"
+#include "pilot/errors/merged_paths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,180 @@
+#include "pilot/errors/pilot_errors.h"
+
+#include "geometry/flush_denormals.h"
+#include "pilot/cost_model.h"
+#include "pilot/errors/errors_by_value.h"
+#include "pilot/errors/merged_paths.h"
+#include "pilot/errors/qmc_variance_factor.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+// The brightest paths of a usual render do not count, up to these limits.
+constexpr double max_dots = 0.0003;           ///< number over that of the pixels
+constexpr double max_light_of_dots = 0.0025;  ///< light over that of the image
+
+/// Errors of a part of a pilot's contributions.
+struct PartOfErrors {
+    PerCandidate<ErrorsByValue> of_paths{};
+    PerCandidate<double> of_sums{};  ///< of the products of different paths of a sample
+    PerCandidate<double> of_splats{};
+
+    /// Adds the path, one of the pilot's `paths` per image of `pixels` pixels. Returns its errors.
+    RemainingErrors add(const PathShares& path, double scale, double pixels, double paths)
+    {
+        const RemainingErrors errors = remaining_errors(path, scale);
+        const PerCandidate<double> numbers = path.numbers();
+        const double relative = path.mean() * std::sqrt(scale);
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            of_paths[k].add(relative / numbers[k], usual_samples * pixels / paths * numbers[k],
+                            errors.sum(k) / paths);
+            of_splats[k] += errors.splats[k] / paths;
+        }
+        return errors;
+    }
+    void add(const PartOfErrors& other)
+    {
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            of_paths[k].add(other.of_paths[k]);
+            of_sums[k] += other.of_sums[k];
+            of_splats[k] += other.of_splats[k];
+        }
+    }
+};
+
+/// Errors that a path adds to a cell.
+struct CellError {
+    std::size_t cell;
+    PerCandidate<double> camera;
+};
+
+void add(PerCandidate<double>& to, const PerCandidate<double>& errors, double factor)
+{
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        to[k] += errors[k] * factor;
+    }
+}
+
+/// Returns the errors of a row of the grid, and writes those of its cells.
+PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
+                            const PilotContributions& contributions,
+                            const PilotBrightness& brightness, CellErrors& of_cells)
+{
+    constexpr int samples = PilotRow::samples_of_cell;
+    PartOfErrors errors;
+    for (const PilotContribution& path : row.joined()) {
+        const RemainingErrors of_path =
+            errors.add(path.shares, brightness.scale(path.cell), contributions.grid.pixels(),
+                       contributions.camera_paths());
+        add(of_cells.camera[path.cell], of_path.camera, 1.0 / samples);
+    }
+    const auto cells = static_cast<double>(contributions.grid.cells());
+    for (std::size_t i = 0; i < row.cells().size(); ++i) {
+        const PilotCell& cell = row.cells()[i];
+        const double scale = brightness.scale(first_cell + i);
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            const double error =
+                scale * (left_of_direct_sums * cell.direct.variance(k, samples) +
+                         left_of_indirect_sums * cell.indirect.variance(k, samples));
+            errors.of_sums[k] += error / cells;
+            of_cells.camera[first_cell + i][k] += error;
+            of_cells.costs[first_cell + i][k] = sample_cost(candidates[k], cell.stats);
+        }
+    }
+    return errors;
+}
+
+/// Returns the errors of splats, and adds those of cells to `of_cells`: what a splat says about
+/// camera paths that are rare there.
+PartOfErrors compute_errors(const PilotSplats& part, const PilotContributions& contributions,
+                            const PilotBrightness& brightness, std::vector<CellError>& of_cells)
+{
+    PartOfErrors errors;
+    for (const PilotContribution& splat : part.contributions()) {
+        const RemainingErrors of_splat =
+            errors.add(splat.shares, brightness.scale(splat), contributions.grid.pixels(),
+                       contributions.splatted_pixels());
+        of_cells.push_back({.cell = splat.cell, .camera = of_splat.camera});
+    }
+    return errors;
+}
+
+/// Sums in the same order for any number of threads, so that sums are bit-identical.
+PilotErrors compute_errors(const PilotContributions& contributions,
+                           const PilotBrightness& brightness)
+{
+    const PilotGrid& grid = contributions.grid;
+    const std::size_t rows = contributions.rows.size();
+    CellErrors of_cells{.camera = std::vector<PerCandidate<double>>(grid.cells()),
+                        .costs = std::vector<PerCandidate<double>>(grid.cells())};
+    std::vector<PartOfErrors> parts(rows + contributions.parts.size());
+    std::vector<std::vector<CellError>> of_splats(contributions.parts.size());
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+        const FlushDenormals flush;
+        parts[i] = i < rows
+                       ? compute_errors(contributions.rows[i], grid.index(0, static_cast<int>(i)),
+                                        contributions, brightness, of_cells)
+                       : compute_errors(contributions.parts[i - rows], contributions, brightness,
+                                        of_splats[i - rows]);
+    });
+    PartOfErrors all;
+    const auto cells = static_cast<double>(grid.cells());
+    for (const PilotContribution* path : findable_merged_paths(contributions, brightness)) {
+        const RemainingErrors of_path = all.add(path->shares, brightness.scale(path->cell),
+                                                grid.pixels(), contributions.camera_paths());
+        add(of_cells.camera[path->cell], of_path.camera, cells / contributions.camera_paths());
+    }
+    for (const PartOfErrors& part : parts) {
+        all.add(part);
+    }
+    for (const std::vector<CellError>& part : of_splats) {
+        for (const CellError& error : part) {
+            add(of_cells.camera[error.cell], error.camera, cells / contributions.splatted_pixels());
+        }
+    }
+    of_cells.splats = all.of_splats;
+    PilotErrors errors{.of_cells = std::move(of_cells)};
+    const double dots = max_dots * grid.pixels();
+    const double light = max_light_of_dots * usual_samples * grid.pixels();
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double usual = all.of_paths[k].without_brightest(dots, light);
+        errors.of_image[k] = usual + all.of_sums[k];
+        errors.of_cells.dots[k] = all.of_paths[k].without_brightest(0.0, 0.0) - usual;
+    }
+    return errors;
+}
+
+/// Adds the expected error of rare paths that no pilot finds to all candidates, so that a small
+/// gain does not justify a much more expensive one.
+PerCandidate<double> with_unseen(PerCandidate<double> errors)
+{
+    constexpr double share = 0.2;  // fraction of the error with one light path per camera path
+    const auto one = std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) {
+        return c.light_paths == 1.0 && c.connections == 1.0;
+    });
+    const double unseen = share * errors[static_cast<std::size_t>(one - candidates.begin())];
+    for (double& error : errors) {
+        error += unseen;
+    }
+    return errors;
+}
+
+}  // namespace
+
+PilotErrors predict_errors(const PilotContributions& contributions,
+                           const PilotBrightness& brightness)
+{
+    PilotErrors errors = compute_errors(contributions, brightness);
+    errors.of_image = with_unseen(errors.of_image);
+    return errors;
+}
+
+}  // namespace bdpt

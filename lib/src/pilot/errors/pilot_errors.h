@@ -1,0 +1,33 @@
+#pragma once
+
+#include "pilot/pilot_brightness.h"
+
+#include <vector>
+
+namespace bdpt {
+
+/// Errors and costs of the cells of a pilot's grid, by which rates of samples are chosen.
+struct CellErrors {
+    /// relMSE of one camera sample per pixel, of the pixels of each cell.
+    std::vector<PerCandidate<double>> camera;
+    /// Cost of a camera sample in each cell, with its share of light paths [unit of the cost
+    /// model].
+    std::vector<PerCandidate<double>> costs;
+    /// relMSE of splats of light paths, mean of all pixels: rates do not change their number.
+    PerCandidate<double> splats{};
+    /// relMSE of the rare bright paths that the choice of a candidate excludes: the pilot does not
+    /// know where a render finds them.
+    PerCandidate<double> dots{};
+};
+
+/// Errors excluding directly visible light.
+struct PilotErrors {
+    PerCandidate<double> of_image{};  ///< relMSE of one sample per pixel
+    CellErrors of_cells;
+};
+
+/// Predicts errors of renders.
+[[nodiscard]] PilotErrors predict_errors(const PilotContributions& contributions,
+                                         const PilotBrightness& brightness);
+
+}  // namespace bdpt

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "pilot/path_shares.h"
+
+#include <cstddef>
+
+namespace bdpt {
+
+/// Contribution of a path to the errors that remain with well-distributed random numbers: relMSE.
+struct RemainingErrors {
+    PerCandidate<double> camera{};  ///< of camera paths (t >= 2)
+    PerCandidate<double> splats{};  ///< of light paths (t <= 1)
+
+    [[nodiscard]] double sum(std::size_t candidate) const
+    {
+        return camera[candidate] + splats[candidate];
+    }
+};
+
+/// `scale` is the factor of squared errors in relMSE [1/nit^2].
+[[nodiscard]] RemainingErrors remaining_errors(const PathShares& shares, double scale);
+
+/// Remaining fractions of the variances of sums.
+inline constexpr double left_of_direct_sums = 0.25;
+inline constexpr double left_of_indirect_sums = 0.4;
+
+}  // namespace bdpt

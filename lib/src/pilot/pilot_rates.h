@@ -1,0 +1,19 @@
+#pragma once
+
+#include "pilot/errors/pilot_errors.h"
+
+#include <bdpt/part/sample_rates.h>
+
+#include <cstddef>
+#include <memory>
+
+namespace bdpt {
+
+/// Returns rates of samples from 1/2 to 2, equal in all pixels of a cell, for a render by that
+/// candidate: in proportion to the root of error over cost (Neyman's allocation). Null if they
+/// would gain too little over equal numbers of samples: those are better distributed.
+[[nodiscard]] std::shared_ptr<const SampleRates> choose_rates(const PilotGrid& grid,
+                                                              const CellErrors& cells,
+                                                              std::size_t candidate);
+
+}  // namespace bdpt

@@ -95,10 +95,21 @@ Identity identity_of_tasks(Plan plan, const fs::path& file, const PreparedScene&
     return identity(stage.scene, stage.camera, arguments.options);
 }
 
-/// Returns the number whose multiples ranges of samples are.
-std::int64_t min_samples_of_task(const RenderOptions& options)
+/// Returns the number whose multiples ranges of samples are. Any image of a sequence may choose
+/// rates.
+std::int64_t min_samples_of_task(const RenderArguments& asked, const RenderOptions& chosen)
 {
-    return options.sampling.rates ? SampleRates::group : 1;
+    const bool may_choose = asked.sequence.has_value() && asked.may_adapt;
+    return chosen.sampling.rates || may_choose ? SampleRates::group : 1;
+}
+
+/// Tests whether there are enough samples for tasks of renders with rates.
+bool has_samples_for_rates(const PlanArguments& arguments, std::size_t images)
+{
+    const SampleRange& samples = arguments.render.samples;
+    return !arguments.parts ||
+           *arguments.parts * SampleRates::group <=
+               static_cast<std::int64_t>(images) * (samples.end - samples.begin);
 }
 
 /// Returns the number of tasks that take about as long as allowed.
@@ -121,7 +132,7 @@ std::int64_t measured_tasks(const PlanArguments& arguments, RenderOptions option
                     "start",
                     seconds, start));
     return tasks_of_time(images, samples, arguments.minutes * minute, seconds, start,
-                         min_samples_of_task(options));
+                         min_samples_of_task(arguments.render, options));
 }
 
 /// Returns the number of tasks. Throws `OptionError` for more than there are samples to render.
@@ -133,7 +144,7 @@ std::int64_t number_of_tasks(const PlanArguments& arguments, const RenderOptions
     }
     const SampleRange samples = options.sampling.samples;
     const std::int64_t all = static_cast<std::int64_t>(images) * (samples.end - samples.begin);
-    const std::int64_t least = min_samples_of_task(options);
+    const std::int64_t least = min_samples_of_task(arguments.render, options);
     if (*arguments.parts > all / least) {
         reject("--parts", fmt::format("{}", *arguments.parts),
                fmt::format("at most one for each {}of the {} samples{}{}",
@@ -186,12 +197,16 @@ Plan make_plan(const PlanArguments& arguments, const fs::path& folder, const Ren
         plan.render_options.push_back(
             fmt::format("--strategy-depth={}", chosen.bidirectional.strategy_depth));
     }
-    if (chosen.sampling.rates) {
+    if (chosen.sampling.rates && !asked.sequence) {
         plan.rates = "rates.exr";
     }
     std::erase_if(plan.render_options, [](const std::string& word) {
-        return word.starts_with("--isa=") || word == "--integrator=auto";
+        return word.starts_with("--isa=") || word == "--integrator=auto" ||
+               word.starts_with("--adaptive");
     });
+    if (asked.sequence && !asked.may_adapt) {
+        plan.render_options.emplace_back("--adaptive=false");
+    }
     // Images of a sequence choose options individually, as without a plan.
     const bool pinned =
         asked.options.integrator == IntegratorKind::automatic && !asked.sequence.has_value();
@@ -284,9 +299,10 @@ void identify(Plan& plan, const fs::path& file, const FirstImage& first,
 
 }  // namespace
 
-int run_plan(const PlanArguments& arguments)
+int run_plan(const PlanArguments& given)
 {
-    const RenderArguments& asked = arguments.render;
+    PlanArguments arguments = given;
+    RenderArguments& asked = arguments.render;
     check_patterns(asked);
     if (asked.display.backdrop && !asked.display.backdrop->photo.empty()) {
         throw OptionError(
@@ -306,6 +322,7 @@ int run_plan(const PlanArguments& arguments)
     check_files(arguments, inputs);
     tell_findings(console, stage);
     const std::vector<SequenceView> views = make_views(asked, camera_names(stage));
+    asked.may_adapt = asked.may_adapt && has_samples_for_rates(arguments, views.size());
     const FirstImage first = first_image(asked, views.front(), stage, console);
     const RenderOptions& options = first.arguments.options;
     Plan plan = make_plan(arguments, folder, options, stage.scene.isa());
@@ -315,7 +332,7 @@ int run_plan(const PlanArguments& arguments)
     }
     plan.tasks = split_plan(plan, options.sampling.samples,
                             number_of_tasks(arguments, options, views.size(), stage, console),
-                            min_samples_of_task(options));
+                            min_samples_of_task(asked, options));
     identify(plan, folder / "plan.json", first, asked, stage, console);
     const std::vector<EngineFile> files = engine_files(arguments.engine, plan, folder);
     for (const EngineFile& file : files) {

@@ -38,18 +38,19 @@ void add_how(OptionList& options, RenderRequest& request)
     add_size_option(options, request,
                     "Image size. Default: the largest with the camera's aspect ratio within "
                     "1280x720");
+    const Choices<Adaptivity> adaptivity{{{"true", Adaptivity::on}, {"false", Adaptivity::off}}};
     options
         .add_flag("--adaptive",
                   "Adaptive sampling: 1/4 to 4 times --spp samples, by the noise in a test render "
                   "of 8 samples per pixel; --spp is the mean, a multiple of 8. Unbiased. Not for "
-                  "lt and vcm",
-                  request.adaptive)
-        .uses.plan_render = false;  // plans store rates in a file
+                  "lt and vcm. Without it, --integrator auto gives 1/2 to 2 times --spp where that "
+                  "helps; --adaptive=false: equally many for all pixels",
+                  request.adaptive, adaptivity.type());
     options
         .add("--rates", "FILE",
              "Adaptive sampling by an .exr of --save-rates, without a test render",
              request.rates.file, file_path())
-        .uses.plan_render = false;
+        .uses.plan_render = false;  // plans store it in their folder
     add_fields(options, render.sampling);
     options.section("How to render", {.python_render = true});
     add_fields(options, render.system);
@@ -159,15 +160,33 @@ Goal choose_goal(const RenderRequest& request)
     return goal;
 }
 
+/// Tests whether rates of samples were asked for.
+bool takes_rates(const RenderRequest& request)
+{
+    return request.adaptive == Adaptivity::on || request.rates.file;
+}
+
+bool starts_group(std::int64_t sample)
+{
+    return sample % SampleRates::group == 0;
+}
+
+/// Tests whether the pilot of the integrator may choose rates. Renders of a given time end after
+/// any number of samples.
+bool may_adapt(const RenderRequest& request, const SampleRange& samples)
+{
+    return request.adaptive == Adaptivity::automatic && !takes_rates(request) &&
+           starts_group(samples.begin) && starts_group(samples.end) &&
+           samples.end <= SampleRates::max_rounds && !request.seconds;
+}
+
 SampleRange choose_samples(const RenderRequest& request, const Goal& goal)
 {
     // With --time alone, more samples than anyone has time for.
     constexpr std::int64_t no_limit = std::int64_t{1} << 30;
     const SampleRange samples =
         request.samples.value_or(SampleRange{.begin = 0, .end = goal.samples.value_or(no_limit)});
-    const bool adaptive = request.adaptive || request.rates.file;
-    if (adaptive &&
-        (samples.begin % SampleRates::group != 0 || samples.end % SampleRates::group != 0)) {
+    if (takes_rates(request) && !(starts_group(samples.begin) && starts_group(samples.end))) {
         reject(request.samples ? "--samples" : "--spp",
                request.samples ? option_text(samples) : option_text(samples.end),
                "multiples of 8 with --adaptive and --rates");
@@ -339,9 +358,12 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
     check_combinations(options, result.camera);
     result.goal = choose_goal(request);
     result.samples = choose_samples(request, result.goal);
-    if (request.adaptive || request.rates.file) {
+    if (takes_rates(request)) {
         result.rates = request.rates;
+    } else if (request.rates.saved) {
+        throw OptionError("--save-rates: --adaptive=false has none");
     }
+    result.may_adapt = may_adapt(request, result.samples);
     result.options = with_transport(result.options, request.only, options);
     if (!result.options.film.aovs.empty() && !writes_exr(result.outputs) && !result.part) {
         throw OptionError("--aov needs an .exr file among the outputs, or --part");

@@ -38,6 +38,13 @@ struct RatesChoice {
     std::optional<std::filesystem::path> saved{};  ///< .exr or .png
 };
 
+/// Whether pixels take different numbers of samples.
+enum class Adaptivity : std::uint8_t {
+    automatic,  ///< if the integrator is automatic, and its pilot finds that it helps
+    on,
+    off,
+};
+
 /// Form of file paths in a render's metadata.
 enum class PathNames : std::uint8_t {
     files,  ///< names without folders, for privacy
@@ -73,6 +80,7 @@ struct RenderArguments {
     std::optional<PartChoice> part{};           ///< part that the render continues
     SampleRange samples{};                      ///< per pixel
     std::optional<RatesChoice> rates{};         ///< set if pixels take different numbers of samples
+    bool may_adapt = false;                     ///< the pilot of the integrator may choose rates
     std::optional<Sequence> sequence{};         ///< set if there are several images
     std::optional<SequenceView> sequence_view{};  ///< the image of the sequence that this is
     std::optional<DisplayAddress> viewer{};       ///< viewer that shows the render
@@ -90,7 +98,7 @@ struct RenderRequest {
     std::optional<std::uint64_t> max_memory{};  ///< [bytes]
     PathsOnly only = PathsOnly::all;
     Ground ground = Ground::none;
-    bool adaptive = false;
+    Adaptivity adaptive = Adaptivity::automatic;
     MediumDesc fog{};
     VolumeChoice volume{};
     DenoiseArguments denoise{};

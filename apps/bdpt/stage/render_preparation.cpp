@@ -158,7 +158,12 @@ RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stag
             100.0 * choice.unseen_light));
     }
     arguments.options = choice.options;
-    if (arguments.rates && !arguments.options.sampling.rates) {
+    if (arguments.may_adapt && choice.rates) {
+        arguments.options.sampling.rates = choice.rates;
+        console.note(
+            fmt::format("adaptive: {} to {} samples per pixel and round, {:.3f} on average",
+                        choice.rates->least(), choice.rates->greatest(), choice.rates->mean()));
+    } else if (arguments.rates && !arguments.options.sampling.rates) {
         arguments.options.sampling.rates = prepare_rates(arguments, stage, console);
     }
     return arguments;

@@ -74,6 +74,10 @@ ViewWords ViewWords::ending_after(std::int64_t samples) const
     ViewWords result = *this;
     result.remove("--noise");
     result.set("--spp", std::to_string(samples));
+    // Views show any number of samples, so auto has no rates in them.
+    if (!has("--adaptive") && !has("--rates") && (text("--integrator").empty() || text("--integrator") == "auto")) {
+        result.set("--adaptive", "false");
+    }
     return result;
 }
 

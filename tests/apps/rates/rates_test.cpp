@@ -160,6 +160,83 @@ TEST_CASE("tasks of an adaptive plan take the rates of the plan", "[command]")
     CHECK(changed.err.find("option: rates") != std::string::npos);
 }
 
+TEST_CASE("auto gives noisy pixels more samples where that helps", "[command]")
+{
+    const ScratchFolder folder;
+    const Words words{BDPT_SOURCE_DIR "/scenes/cornell-box.gltf", "--size", "64x48", "--max-depth",
+                      "4"};
+    const auto image = [&](const std::string& name, const Words& more) {
+        succeed(joined(joined({"render"}, words), joined({"-o", path(folder, name), "--quiet",
+                                                          "--stats", path(folder, "stats.json")},
+                                                         more)));
+        return pixels(folder, name);
+    };
+    const auto rates = [&] {
+        return json::parse(std::ifstream(folder / "stats.json"))["settings"].value("rates", json());
+    };
+    const std::vector<Rgb> whole = image("whole.exr", {"--spp", "16"});
+    REQUIRE(rates().is_object());
+    CHECK(rates()["least"] == 0.5);
+    CHECK(rates()["greatest"] == 2.0);
+    CHECK(rates()["pilot_samples"] == 0);
+    CHECK((image("threads.exr", {"--spp", "16", "--threads", "1"}) == whole));
+
+    for (const Words& equal : {Words{"--spp", "16", "--adaptive=false"}, Words{"--spp", "12"},
+                               Words{"--samples", "4:20"}, Words{"--spp", "16", "--time", "1h"},
+                               Words{"--spp", "16", "--integrator", "mis"}}) {
+        CAPTURE(equal);
+        CHECK((image("equal.exr", equal) != whole));
+        CHECK(rates().is_null());
+    }
+
+    // Parts have them too, if they can.
+    image("a.exr", {"--samples", "0:8", "--part", path(folder, "a.part.exr")});
+    image("b.exr", {"--samples", "8:16", "--part", path(folder, "b.part.exr")});
+    succeed({"merge", path(folder, "a.part.exr"), path(folder, "b.part.exr"), "-o",
+             path(folder, "merged.exr")});
+    CHECK((pixels(folder, "merged.exr") == whole));
+    image("c.exr", {"--samples", "8:15", "--part", path(folder, "c.part.exr")});
+    const Outcome mixed = run({"merge", path(folder, "a.part.exr"), path(folder, "c.part.exr"),
+                               "-o", path(folder, "mixed.exr")});
+    CAPTURE(mixed.err);
+    CHECK(mixed.exit_code == 4);
+    CHECK(mixed.err.find("rates") != std::string::npos);
+
+    // And tasks of plans, of one image and of several.
+    const auto by_plan = [&](const Words& more, int tasks) {
+        const std::string plan = path(folder, "job/plan.json");
+        succeed(joined(joined({"plan"}, words),
+                       joined({"--spp", "16", "--for", "make", "-d", path(folder, "job"),
+                               "--restart", "--parts", std::to_string(tasks)},
+                              more)));
+        for (int task = 0; task < tasks; ++task) {
+            succeed({"render", "--plan", plan, "--task", std::to_string(task)});
+        }
+        succeed({"merge", "--plan", plan});
+    };
+    by_plan({"-o", path(folder, "planned.exr")}, 2);
+    CHECK(fs::exists(folder / "job/rates.exr"));
+    CHECK((pixels(folder, "planned.exr") == whole));
+    const std::vector<Rgb> equal = image("equal.exr", {"--spp", "16", "--adaptive=false"});
+    by_plan({"-o", path(folder, "planned.exr")}, 3);
+    CHECK((pixels(folder, "planned.exr") == equal));
+    for (const int tasks : {4, 6}) {
+        CAPTURE(tasks);
+        by_plan({"--orbit", "2", "-o", path(folder, "planned.#.exr")}, tasks);
+        CHECK_FALSE(fs::exists(folder / "job/rates.exr"));
+        Words turn = joined(joined({"render"}, words),
+                            {"--spp", "16", "--orbit", "2", "-o", path(folder, "turn.#.exr")});
+        if (tasks > 4) {
+            turn.emplace_back("--adaptive=false");
+        }
+        succeed(turn);
+        for (const char* number : {"1", "2"}) {
+            const std::string end = std::string(".") + number + ".exr";
+            CHECK((pixels(folder, "planned" + end) == pixels(folder, "turn" + end)));
+        }
+    }
+}
+
 TEST_CASE("what does not go with rates is refused", "[command]")
 {
     const ScratchFolder folder;

@@ -160,9 +160,10 @@ RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stag
     arguments.options = choice.options;
     if (arguments.may_adapt && choice.rates) {
         arguments.options.sampling.rates = choice.rates;
-        console.note(
-            fmt::format("adaptive: {} to {} samples per pixel and round, {:.3f} on average",
-                        choice.rates->least(), choice.rates->greatest(), choice.rates->mean()));
+        console.note(fmt::format(
+            "adaptive: pixels take {} to {} times --spp samples, by their noise (--adaptive=false: "
+            "all the same)",
+            choice.rates->least(), choice.rates->greatest()));
     } else if (arguments.rates && !arguments.options.sampling.rates) {
         arguments.options.sampling.rates = prepare_rates(arguments, stage, console);
     }

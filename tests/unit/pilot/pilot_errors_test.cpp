@@ -3,6 +3,7 @@
 #include "catch.hpp"
 #include "pilot/errors/qmc_variance_factor.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -40,6 +41,20 @@ public:
 private:
     int edges_;
     std::vector<float> shares_;
+};
+
+/// Each camera path finds a light that light paths find as often, by splats.
+class SplattedLight final : public Integrator {
+public:
+    RenderStats render_tile(const Tile& /*tile*/, SampleRange /*samples*/,
+                            const Films& films) const override
+    {
+        films.on_path(path_of({.s = 1, .t = 3}, shares_));
+        return {};
+    }
+
+private:
+    std::vector<float> shares_{0.0f, 0.5f, 0.0f, 0.5f, 0.0f};
 };
 
 /// Each camera path finds a light by next-event estimation. The first ones also find one by
@@ -117,6 +132,25 @@ TEST_CASE("of the variance of sums a part is left, of direct light another than 
         // The only cell is the image.
         CHECK(errors.of_cells.camera[0][k] == Approx(of_one_path.camera[k] + of_sums));
         CHECK(errors.of_cells.splats[k] == Approx(of_one_path.splats[k]));
+    }
+}
+
+TEST_CASE("errors of cells are apart from those of splats, which rates do not change", "[pilot]")
+{
+    const PilotContributions contributions = contributions_of(SplattedLight(), PilotGrid(200, 100));
+    const PilotErrors errors = predict_errors(contributions, PilotBrightness(contributions));
+    const auto one = static_cast<std::size_t>(
+        std::find(candidates.begin(), candidates.end(), Candidate{1.0, 1.0}) - candidates.begin());
+    const double unseen = errors.of_image[one] * (0.2 / 1.2);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        CAPTURE(k);
+        double camera = 0.0;
+        for (const PerCandidate<double>& cell : errors.of_cells.camera) {
+            camera += cell[k] / static_cast<double>(errors.of_cells.camera.size());
+        }
+        CHECK((errors.of_cells.splats[k] > 0.0) == (candidates[k].light_paths > 0.0));
+        CHECK(errors.of_image[k] - unseen ==
+              Approx(camera + errors.of_cells.splats[k]).margin(1e-5));
     }
 }
 

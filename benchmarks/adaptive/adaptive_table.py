@@ -54,7 +54,7 @@ def measure(bdpt, scene, integrator, arguments):
         one_pixel = ("--spp", "1", "--integrator", "mis", "--crop", "0,0,1,1")
         start = min(render(bdpt, scene, image, arguments, *one_pixel) for _ in range(2))
         found = {}
-        for name, more in (("uniform", ()), ("adaptive", ("--adaptive",))):
+        for name, more in (("uniform", ("--adaptive=false",)), ("adaptive", ("--adaptive",))):
             runs = []
             for seed in range(1, arguments.seeds + 1):
                 seconds = render(bdpt, scene, image, arguments, "--spp", str(arguments.spp), "--seed", str(seed),

@@ -265,6 +265,14 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
     console.event("done", fields);
 }
 
+/// Tests whether the pilot of the integrator may choose rates. A part keeps those that it has, or
+/// none. Renders of a given time have none: they may end before a group of samples.
+bool may_choose_rates(const RenderArguments& asked, const std::optional<PartKeeper>& keeper)
+{
+    const std::optional<bool> of_part = keeper ? keeper->has_rates() : std::nullopt;
+    return asked.may_adapt && of_part.value_or(!std::isfinite(asked.goal.seconds));
+}
+
 /// Returns `images` and all other files that were written.
 std::vector<std::filesystem::path> written_files(const RenderArguments& arguments,
                                                  std::vector<std::filesystem::path> images)
@@ -296,11 +304,13 @@ ImageLabel make_label(const RenderArguments& arguments)
             .count = view.count};
 }
 
-std::optional<JobImage> render_view(const RenderArguments& asked, const PreparedScene& stage,
+std::optional<JobImage> render_view(const RenderArguments& given, const PreparedScene& stage,
                                     std::optional<PartKeeper>& keeper, const RenderSession& session)
 {
     Console& console = session.console;
     Interrupt& interrupt = session.interrupt;
+    RenderArguments asked = given;
+    asked.may_adapt = may_choose_rates(given, keeper);
     const auto choosing_start = std::chrono::steady_clock::now();
     const RenderArguments arguments = with_choice(asked, stage, console, interrupt.stop_token());
     if (interrupt.stopped_by()) {

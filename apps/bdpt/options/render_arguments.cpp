@@ -43,8 +43,8 @@ void add_how(OptionList& options, RenderRequest& request)
         .add_flag("--adaptive",
                   "Adaptive sampling: 1/4 to 4 times --spp samples, by the noise in a test render "
                   "of 8 samples per pixel; --spp is the mean, a multiple of 8. Unbiased. Not for "
-                  "lt and vcm. Without it, --integrator auto gives 1/2 to 2 times --spp where that "
-                  "helps; --adaptive=false: equally many for all pixels",
+                  "lt and vcm. By default, --integrator auto gives pixels 1/2 to 2 times "
+                  "--spp where that helps; --adaptive=false gives all equally many",
                   request.adaptive, adaptivity.type());
     options
         .add("--rates", "FILE",
@@ -171,13 +171,14 @@ bool starts_group(std::int64_t sample)
     return sample % SampleRates::group == 0;
 }
 
-/// Tests whether the pilot of the integrator may choose rates. Renders of a given time end after
-/// any number of samples.
-bool may_adapt(const RenderRequest& request, const SampleRange& samples)
+/// Tests whether the pilot of the integrator may choose rates.
+bool may_adapt(const RenderRequest& request, const RenderArguments& arguments)
 {
+    const SampleRange& samples = arguments.samples;
     return request.adaptive == Adaptivity::automatic && !takes_rates(request) &&
+           arguments.options.integrator == IntegratorKind::automatic &&
            starts_group(samples.begin) && starts_group(samples.end) &&
-           samples.end <= SampleRates::max_rounds && !request.seconds;
+           samples.end <= SampleRates::max_rounds;
 }
 
 SampleRange choose_samples(const RenderRequest& request, const Goal& goal)
@@ -363,8 +364,8 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
     } else if (request.rates.saved) {
         throw OptionError("--save-rates: --adaptive=false has none");
     }
-    result.may_adapt = may_adapt(request, result.samples);
     result.options = with_transport(result.options, request.only, options);
+    result.may_adapt = may_adapt(request, result);
     if (!result.options.film.aovs.empty() && !writes_exr(result.outputs) && !result.part) {
         throw OptionError("--aov needs an .exr file among the outputs, or --part");
     }

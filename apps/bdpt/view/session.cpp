@@ -488,10 +488,8 @@ bool Session::advance(std::optional<LiveRender>& render, std::size_t slot)
         if (generation_ > 1 && mailbox_.wait_for(rest)) {
             return true;
         }
-        RenderArguments asked = words_of_slot(slot).arguments();
-        asked.may_adapt = false;  // pictures show sooner than after a group of samples
         RenderArguments arguments =
-            with_choice(std::move(asked), scene_.stage(), quiet_, stops.now);
+            with_choice(words_of_slot(slot).arguments(), scene_.stage(), quiet_, stops.now);
         if (stops.now.stop_requested()) {
             return true;
         }

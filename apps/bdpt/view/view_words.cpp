@@ -27,6 +27,10 @@ ViewWords::ViewWords(const OptionList& given)
             texts_[option.name()] = option.texts;
         }
     }
+    // Views show any number of samples, and rates that auto chooses need multiples of a group.
+    if (!has("--adaptive") && !has("--rates")) {
+        set("--adaptive", "false");
+    }
 }
 
 void ViewWords::set(std::string_view option, std::string text)
@@ -74,10 +78,6 @@ ViewWords ViewWords::ending_after(std::int64_t samples) const
     ViewWords result = *this;
     result.remove("--noise");
     result.set("--spp", std::to_string(samples));
-    // Views show any number of samples, so auto has no rates in them.
-    if (!has("--adaptive") && !has("--rates") && (text("--integrator").empty() || text("--integrator") == "auto")) {
-        result.set("--adaptive", "false");
-    }
     return result;
 }
 

@@ -15,7 +15,8 @@ namespace bdpt::app {
 /// Everything rendered, copied and saved uses them, so that all agree.
 class ViewWords {
 public:
-    /// Takes the options given to `bdpt view` that `bdpt render` has, too.
+    /// Takes the options given to `bdpt view` that `bdpt render` has, too. Without an option for
+    /// adaptive sampling, all pixels take equally many samples.
     explicit ViewWords(const OptionList& given);
 
     void set(std::string_view option, std::string text);

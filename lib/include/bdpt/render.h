@@ -81,10 +81,9 @@ struct IntegratorChoice {
     /// the sun or of delta lights, seen in mirrors or through glass. Only `vcm` finds it. 0 if the
     /// pilot found none, or if there was no pilot.
     double unseen_light = 0.0;
-    /// Rates of samples that reduce error times time by a tenth or more, for
-    /// `SamplingOptions::rates`; null if there are none, or if there was no pilot. They are not
-    /// part of `options`, as they need samples that begin and end at multiples of
-    /// `SampleRates::group`.
+    /// Rates of samples for `SamplingOptions::rates` that should reduce error times time by 6 % or
+    /// more; null if there are none, or if there was no pilot. They are not part of `options`, as
+    /// they need samples that begin and end at multiples of `SampleRates::group`.
     std::shared_ptr<const SampleRates> rates{};
 };
 

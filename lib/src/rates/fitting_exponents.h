@@ -16,8 +16,8 @@ struct ExponentRange {
 };
 
 /// Returns exponents of rates that are in proportion to `wanted`, whose values must be positive.
-/// Element i counts `pixels[i]` times, or once if `pixels` is empty. The mean rate is 1, or less by
-/// less than one more step of an element, or less if no rates in `range` reach it.
+/// Element i counts `pixels[i]` times, or once if `pixels` is empty. The mean rate is at most 1,
+/// and raising one more element would exceed that, unless all have the greatest in `range`.
 [[nodiscard]] std::vector<std::int8_t> fitting_exponents(const Plane& wanted,
                                                          const std::vector<std::int64_t>& pixels,
                                                          ExponentRange range = {});

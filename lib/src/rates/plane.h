@@ -12,10 +12,10 @@ struct PlaneSize {
     int height;
 };
 
-/// Returns the means over squares of 2 radius + 1 values around each; beyond the edges there are
-/// none.
+/// Returns the mean over a square of (2 radius + 1) x (2 radius + 1) values around each; squares
+/// end at the edges.
 [[nodiscard]] Plane local_mean(const Plane& plane, PlaneSize size, int radius);
-/// Returns the greatest values of those squares.
+/// Returns the greatest value of each of those squares.
 [[nodiscard]] Plane local_greatest(const Plane& plane, PlaneSize size, int radius);
 [[nodiscard]] double mean_of(const Plane& plane);
 

@@ -202,6 +202,14 @@ TEST_CASE("auto gives noisy pixels more samples where that helps", "[command]")
     CHECK(mixed.exit_code == 4);
     CHECK(mixed.err.find("rates") != std::string::npos);
 
+    // A part that goes on has rates or not as it began, whatever --time says.
+    image("d.exr", {"--spp", "8", "--part", path(folder, "d.part.exr")});
+    CHECK((image("d.exr", {"--spp", "16", "--time", "1h", "--part", path(folder, "d.part.exr")}) ==
+           whole));
+    image("e.exr", {"--spp", "8", "--time", "1h", "--part", path(folder, "e.part.exr")});
+    CHECK((image("e.exr", {"--spp", "16", "--part", path(folder, "e.part.exr")}) ==
+           image("equal.exr", {"--spp", "16", "--adaptive=false"})));
+
     // And tasks of plans, of one image and of several.
     const auto by_plan = [&](const Words& more, int tasks) {
         const std::string plan = path(folder, "job/plan.json");
@@ -248,6 +256,8 @@ TEST_CASE("what does not go with rates is refused", "[command]")
     check_refused(folder, {"--adaptive", "--integrator", "vcm"}, 2, {"integrator vcm"});
     check_refused(folder, {"--adaptive", "--rates", rates}, 2, {"--rates", "--adaptive"});
     check_refused(folder, {"--save-rates", rates}, 2, {"--save-rates", "--adaptive"});
+    check_refused(folder, {"--adaptive=false", "--save-rates", rates}, 2,
+                  {"--save-rates", "--adaptive=false"});
     check_refused(folder, {"--adaptive", "--save-rates", path(folder, "rates.jpg")}, 2,
                   {"rates.jpg", ".exr or .png"});
     check_refused(folder, {"--adaptive", "--save-rates", path(folder, "refused.exr")}, 2,

@@ -8,6 +8,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace bdpt::app {
 namespace {
@@ -48,6 +49,16 @@ bool PartKeeper::is_complete(SampleRange samples) const
 {
     return planned_ && there_ && !difference(there_->identity, *planned_) &&
            there_->samples.contains(SampleSet(samples));
+}
+
+std::optional<bool> PartKeeper::has_rates() const
+{
+    if (!there_) {
+        return std::nullopt;
+    }
+    const std::vector<IdentityComponent>& components = there_->identity.components;
+    return std::any_of(components.begin(), components.end(),
+                       [](const auto& component) { return component.name == "option: rates"; });
 }
 
 RenderResult PartKeeper::start(const Identity& identity, io::PartNotes notes)

@@ -27,6 +27,9 @@ public:
     /// Tests whether nothing is left to do: the file has all of these samples, and satisfies the
     /// plan.
     [[nodiscard]] bool is_complete(SampleRange samples) const;
+    /// Tests whether pixels of the part to continue have different numbers of samples; nullopt if
+    /// the render begins.
+    [[nodiscard]] std::optional<bool> has_rates() const;
     /// Returns the part to continue; without samples if the render begins. `identity` is that of
     /// the render, `notes` are written into the file. Throws `Error` (invalid_input) if the file is
     /// a part of another render, or the plan is one of another.

@@ -43,7 +43,7 @@ LightDensities light_densities(const SampleContext& sample, const PathVertex& x0
     const Vec3 to_light = infinite ? x0.end.p : offset * (1.0f / std::sqrt(distance_squared));
     const LightPoint point = light_point(x0, sample.time);
     const float cosine = abs_cosine(x1, to_light);
-    const float chosen = lights.emission_probability(*x0.light);
+    const float chosen = lights.emission_probability(*x0.light, sampling.learned);
     if (const auto* entries = lights.learned_entries(*x0.light, sampling)) {
         const auto& environment = std::get<EnvironmentLight>(light.model());
         const auto pdf = environment.pdf_emission(to_light, x1.p, *entries);

@@ -219,8 +219,8 @@ void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
     Sampler& sampler = sample.sampler;
     sampler.start(SampleUse::light_start);
     const Vec2 u_position = sampler.next_2d();
-    const auto choice =
-        world.lights().choose_for_emission(u_position, [&sampler] { return sampler.next_fine(); });
+    const auto choice = world.lights().choose_for_emission(
+        u_position, [&sampler] { return sampler.next_fine(); }, sampling.learned);
     if (!choice || limits.max_vertices < 1) {
         return;
     }

@@ -6,6 +6,7 @@
 #include "math/rgb.h"
 #include "path/densities.h"
 #include "path/random_walk.h"
+#include "pilot/light_starts.h"
 
 #include <tbb/parallel_for.h>
 
@@ -30,6 +31,7 @@ struct Finds {
     std::vector<GroupShares::Finding> findings;
     std::vector<Escape> escapes;
     std::vector<Escape> to_suns;
+    std::vector<IndirectLight> indirect;
 
     Finds& operator+=(const Finds& more)
     {
@@ -37,6 +39,7 @@ struct Finds {
         findings.insert(findings.end(), more.findings.begin(), more.findings.end());
         escapes.insert(escapes.end(), more.escapes.begin(), more.escapes.end());
         to_suns.insert(to_suns.end(), more.to_suns.begin(), more.to_suns.end());
+        indirect.insert(indirect.end(), more.indirect.begin(), more.indirect.end());
         return *this;
     }
 };
@@ -161,6 +164,7 @@ private:
     void note_path(SampleContext& sample)
     {
         note_escape();
+        note_hits(sample);
         for (int t = 2; t <= path_.size(); ++t) {
             const PathVertex& vertex = path_[t - 1];
             if (!scatters(vertex.kind) || !vertex.connectible) {
@@ -178,7 +182,8 @@ private:
             }
             sample.sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(t));
             if (environment_ != nullptr) {
-                sample_light(sample, vertex, t, *world_.lights().environment(), 1.0f);
+                sample_light(sample, t, {.id = *world_.lights().environment(), .probability = 1.0f},
+                             1.0f);
             }
             if (learns_groups_) {
                 sample_group(sample, vertex, t);
@@ -245,15 +250,17 @@ private:
         const auto chosen = lights.choose_of_group(group, light_sample_context(vertex),
                                                    fine_uniform(sample.sampler.next_fine()));
         if (chosen) {
-            sample_light(sample, vertex, t, chosen->id, chosen->probability);
+            sample_light(sample, t, *chosen, others);
         } else {
             note_finding(vertex, static_cast<std::uint32_t>(group), 0.0f);
         }
     }
 
-    void sample_light(SampleContext& sample, const PathVertex& vertex, int t, LightId id,
-                      float probability)
+    /// Samples a light for the last of `t` vertices; its group was one of `groups`.
+    void sample_light(SampleContext& sample, int t, NextEventLights::Choice chosen, float groups)
     {
+        const auto [id, probability] = chosen;
+        const PathVertex& vertex = path_[t - 1];
         const auto group =
             static_cast<std::uint32_t>(world_.lights().next_event_lights().group(id));
         const Light& light = world_.lights()[id];
@@ -276,14 +283,46 @@ private:
         float value = 0.0f;
         if (transmission && learns_groups_) {
             // A BSDF sample may find the same light, and takes its share of the weight.
+            const Rgb found =
+                f.f_cos * light.incident_weight(*incident) * transmission->transmittance;
             const float by_light = incident->pdf_solid_angle.value * probability;
             const float by_bsdf =
                 light.is_delta() ? 0.0f : f.pdf_fwd.value * transmission->p_unscattered;
-            value = luminance(f.f_cos * light.incident_weight(*incident) *
-                              transmission->transmittance) /
-                    probability * (by_light / (by_light + by_bsdf));
+            value = luminance(found) / probability * (by_light / (by_light + by_bsdf));
+            if (has_connectible(t - 1)) {
+                const float by_any = incident->pdf_solid_angle.value *
+                                     world_.lights().next_event_probability(
+                                         id, light_sample_context(vertex), unlearned);
+                note_indirect(id, vertex.beta * found,
+                              groups / probability * (by_any / (by_any + by_bsdf)));
+            }
         }
         note_finding(vertex, group, value);
+    }
+
+    /// Records the lights that the path hit after vertices which light paths can be connected to.
+    void note_hits(SampleContext& sample)
+    {
+        for (int k = 2; learns_groups_ && k < path_.size(); ++k) {
+            const PathVertex& x0 = path_[k];
+            const PathVertex& x1 = path_[k - 1];
+            if (x0.light && !is_black(x0.emission) && has_connectible(k - 1)) {
+                const float by_light =
+                    joinable(x1) ? next_event_density(sample, x0, x1, unlearned).value : 0.0f;
+                note_indirect(*x0.light, x0.beta * x0.emission,
+                              x0.pdf_fwd.value / (x0.pdf_fwd.value + by_light));
+            }
+        }
+    }
+
+    /// Records a contribution to the image and its MIS weight.
+    void note_indirect(LightId id, Rgb contribution, float weight)
+    {
+        const float value = luminance(contribution) * weight;
+        if (value > 0.0f && std::isfinite(value) &&
+            world_.lights().next_event_lights().has_power(id)) {
+            contributions_.indirect.push_back({.light = id, .value = value});
+        }
     }
 
     void note_finding(const PathVertex& vertex, std::uint32_t group, float value)
@@ -300,6 +339,11 @@ private:
              .tile = static_cast<std::uint32_t>(environment_->tile_to(direction)),
              .visible = visible});
     }
+
+    /// Densities of the pilot's light samples, but for the choice among groups: weights that are
+    /// good enough to compare lights.
+    static constexpr NextEventSampling unlearned{.environments = EnvironmentSampling::compensated,
+                                                 .lights = LightSampling::tree};
 
     const World& world_;
     const MovingCamera& camera_;
@@ -349,7 +393,8 @@ std::unique_ptr<const LearnedLight> learn_light(const World& world, const Moving
         all += row;
     }
     LearnedLight learned{.visibility = make_visibility(std::move(all.trials)),
-                         .groups = make_shares(std::move(all.findings), world)};
+                         .groups = make_shares(std::move(all.findings), world),
+                         .starts = learn_starts(all.indirect, world.lights())};
     if (learned.visibility) {
         learned.entries.emplace(std::move(all.escapes), find_environment(world)->tiles(),
                                 world.bounding_sphere());
@@ -365,7 +410,7 @@ std::unique_ptr<const LearnedLight> learn_light(const World& world, const Moving
                                                           world.bounding_sphere())});
         }
     }
-    return learned.visibility || learned.groups || !learned.suns.empty()
+    return learned.visibility || learned.groups || learned.starts || !learned.suns.empty()
                ? std::make_unique<const LearnedLight>(std::move(learned))
                : nullptr;
 }

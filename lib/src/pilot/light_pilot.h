@@ -18,11 +18,11 @@ class World;
 [[nodiscard]] bool can_learn_light(const World& world, const RenderOptions& options);
 
 /// Traces camera paths all over the image and records the contributions of light samples at their
-/// vertices, and from where rays reach the environment and suns. Returns null if that does not
-/// help: unless `can_learn_light`, and if nearly all of a single environment is visible everywhere;
-/// also once `abandon` is requested. A pure function of scene, camera, size of the film and
-/// transport options: independent of seed, samples, crop and threads. `camera` is that of the whole
-/// image.
+/// vertices, the lights that they hit, and from where rays reach the environment and suns. Returns
+/// null if that does not help: unless `can_learn_light`, and if nearly all of a single environment
+/// is visible everywhere; also once `abandon` is requested. A pure function of scene, camera, size
+/// of the film and transport options: independent of seed, samples, crop and threads. `camera` is
+/// that of the whole image.
 [[nodiscard]] std::unique_ptr<const LearnedLight> learn_light(const World& world,
                                                               const MovingCamera& camera,
                                                               const RenderOptions& options,

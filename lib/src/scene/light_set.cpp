@@ -103,12 +103,12 @@ LightSet::LightSet(std::span<const MaterialId> material_ids, std::span<const Pla
     prefers_tree_ = next_event_.placed_count() >= many_lights || next_event_.has_both_kinds();
 }
 
-std::optional<LightSet::Choice> LightSet::choose_for_emission(Vec2 u) const
+std::optional<LightSet::Choice> LightSet::choose(const AliasTable& table, Vec2 u)
 {
-    if (by_power_.empty()) {
+    if (table.empty()) {
         return std::nullopt;
     }
-    const auto choice = by_power_.sample(fine_uniform(u));
+    const auto choice = table.sample(fine_uniform(u));
     return Choice{.id = LightId{choice.index}, .probability = choice.probability};
 }
 
@@ -130,12 +130,6 @@ const EntryWindow* LightSet::learned_window(LightId id, const NextEventSampling&
         }
     }
     return nullptr;
-}
-
-float LightSet::emission_probability(LightId id) const
-{
-    // Triangles may emit so little that no light has any power in the range of floats.
-    return by_power_.empty() ? 0.0f : by_power_.probability(static_cast<std::uint32_t>(id));
 }
 
 std::optional<LightId> LightSet::of_triangle(std::uint32_t instance, std::uint32_t triangle) const

@@ -38,32 +38,43 @@ public:
     }
 
     /// Chooses a light in proportion to power; nullopt if no light has any.
-    [[nodiscard]] std::optional<Choice> choose_for_emission(Vec2 u) const;
+    [[nodiscard]] std::optional<Choice> choose_for_emission(Vec2 u) const
+    {
+        return choose(by_power_, u);
+    }
     /// A light, and the remaining random numbers for a point on it, uniform in [0, 1)^2.
     struct ChoiceAndNumbers {
         LightId id{};
         float probability = 0.0f;
         Vec2 u{0.0f};
     };
-    /// Chooses a light by `u` and reuses the remainder if there are few lights; otherwise by the
-    /// number from `draw_fine()`.
+    /// Chooses a light in the learned proportions, or by power. Uses `u` and returns the remainder
+    /// if there are few lights; otherwise uses the number from `draw_fine()`.
     template <typename DrawFine>
     [[nodiscard]] std::optional<ChoiceAndNumbers> choose_for_emission(
-        Vec2 u, const DrawFine& draw_fine) const
+        Vec2 u, const DrawFine& draw_fine, const LearnedLight* learned = nullptr) const
     {
+        const AliasTable& table = starts(learned);
         if (lights_.size() > few_lights) {
-            const auto choice = choose_for_emission(draw_fine());
+            const auto choice = choose(table, draw_fine());
             return choice ? std::optional(ChoiceAndNumbers{choice->id, choice->probability, u})
                           : std::nullopt;
         }
-        if (by_power_.empty()) {
+        if (table.empty()) {
             return std::nullopt;
         }
-        const auto choice = by_power_.sample_coarse(u.x);
+        const auto choice = table.sample_coarse(u.x);
         return ChoiceAndNumbers{
             LightId{choice.index}, choice.probability, {choice.u_remapped, u.y}};
     }
-    [[nodiscard]] float emission_probability(LightId id) const;
+    /// Returns the probability of that choice.
+    [[nodiscard]] float emission_probability(LightId id,
+                                             const LearnedLight* learned = nullptr) const
+    {
+        // Triangles may emit so little that no light has any power in the range of floats.
+        const AliasTable& table = starts(learned);
+        return table.empty() ? 0.0f : table.probability(static_cast<std::uint32_t>(id));
+    }
     /// Returns where light of an environment enters the scene, as learned; null if that is unknown.
     [[nodiscard]] const EnvironmentEntries* learned_entries(
         LightId id, const NextEventSampling& sampling) const;
@@ -178,6 +189,13 @@ public:
 private:
     /// Maximum number of lights for which one float has enough digits for a choice and a point.
     static constexpr std::size_t few_lights = 64;
+
+    /// Returns the table that chooses the light of a light path.
+    [[nodiscard]] const AliasTable& starts(const LearnedLight* learned) const
+    {
+        return learned != nullptr && learned->starts ? *learned->starts : by_power_;
+    }
+    [[nodiscard]] static std::optional<Choice> choose(const AliasTable& table, Vec2 u);
 
     /// Returns the learned shares of the groups of lights; null if none were learned.
     [[nodiscard]] static const GroupShares::Shares* learned_shares(

@@ -8,6 +8,7 @@
 #include "make_sample.h"
 #include "path/densities.h"
 #include "path/random_walk.h"
+#include "pilot/light_starts.h"
 #include "render/learned_light.h"
 #include "render/pass.h"
 #include "scene/world.h"
@@ -180,6 +181,76 @@ TEST_CASE("light pilot: light paths from sky and sun enter the room", "[pilot]")
     CHECK(fraction_inside(found.get()) > 6.0 * uniform);
 }
 
+TEST_CASE("light pilot: light paths start where the image's indirect light comes from", "[pilot]")
+{
+    // Closed, in full daylight.
+    const auto dim_lamp_by_day = [](const MaterialDesc& front) {
+        SceneBuilder builder;
+        builder.walls(lambertian(Rgb(0.7f)), lambertian(Rgb(0.6f)));
+        builder.ceiling(lambertian(Rgb(0.7f))).lamp(0.9f, 0.1f, Rgb(1.0f));
+        builder.front(front);
+        builder.quad({-9, -9, -9}, {9, -9, -9}, {9, -9, 9}, {-9, -9, 9}, lambertian(Rgb(0.5f)));
+        builder.light(EnvironmentLightDesc{.radiance = sky_image()});
+        return builder;
+    };
+    const CameraDesc inside = camera_at({0.0f, 0.0f, 0.9f}, {0.0f, 0.0f, 0.0f}, 1.2f);
+    const auto probability_of_sky = [&](const MaterialDesc& front) {
+        const Scene scene(dim_lamp_by_day(front).desc);
+        const LightSet& lights = scene.world().lights();
+        const LightId sky = *lights.environment();
+        REQUIRE(lights.emission_probability(sky) > 0.99f);
+        const auto found = learned_light(scene.world(), inside, options_of(IntegratorKind::bdpt));
+        REQUIRE(found);
+        REQUIRE(found->starts);
+        const Camera camera(inside, 16, 12);
+        Subpath path(3);
+        RayCounts rays;
+        int starts = 0;
+        constexpr int count = 4000;
+        for (int i = 0; i < count; ++i) {
+            SampleContext sample = make_sample(scene.world(), camera,
+                                               {SamplerKind::independent, 3, i % 16, 0, i}, rays);
+            trace_light_subpath(sample, {.max_vertices = 3}, {.learned = found.get()}, path);
+            starts += path[0].light == sky ? 1 : 0;
+            if (path.size() >= 2) {
+                const LightDensities densities =
+                    light_densities(sample, path[0], path[1].end, {.learned = found.get()});
+                REQUIRE(densities.emit.value == Approx(path[0].pdf_fwd.value).epsilon(1e-4));
+            }
+        }
+        const float probability = lights.emission_probability(sky, found.get());
+        CHECK(starts / static_cast<double>(count) == Approx(probability).margin(0.03));
+        return probability;
+    };
+    CHECK(probability_of_sky(lambertian(Rgb(0.7f))) < 0.2f);
+    // Light samples do not find the sky behind a window, but camera paths do.
+    CHECK(probability_of_sky(thin_glass(0.0f)) > 0.7f);
+}
+
+TEST_CASE("light pilot: direct light brings no light paths", "[pilot]")
+{
+    // The sun shines on a dark terrace alone, which reflects little of it into the room; the lamp
+    // shines upwards.
+    SceneBuilder builder;
+    builder.walls(lambertian(Rgb(0.8f)), lambertian(Rgb(0.8f)));
+    builder.ceiling(lambertian(Rgb(0.8f)));
+    builder.quad({-0.3f, 0.5f, 0.3f}, {0.3f, 0.5f, 0.3f}, {0.3f, 0.5f, -0.3f}, {-0.3f, 0.5f, -0.3f},
+                 emitter(Rgb(3.0f)));
+    builder.quad({-3, -1, 4}, {3, -1, 4}, {3, -1, 1}, {-3, -1, 1}, lambertian(Rgb(0.02f)));
+    builder.light(
+        DirectionalLightDesc{.direction = {0.0f, -1.0f, 0.0f}, .illuminance = Rgb(20.0f)});
+    const Scene scene(std::move(builder.desc));
+    const auto found =
+        learned_light(scene.world(), camera_at({0.0f, 2.0f, 6.0f}, {0.0f, -0.5f, 1.0f}, 0.75f),
+                      options_of(IntegratorKind::bdpt));
+    REQUIRE(found);
+    REQUIRE(found->starts);
+    const LightSet& lights = scene.world().lights();
+    const LightId sun = lights.next_event_lights().infinite().front();
+    CHECK(lights.emission_probability(sun) > 0.9f);
+    CHECK(lights.emission_probability(sun, found.get()) < 0.45f);
+}
+
 TEST_CASE("light pilot: it learns nothing where nothing can be learned", "[pilot]")
 {
     const Scene scene(open_room().desc);
@@ -269,6 +340,9 @@ TEST_CASE("light pilot: threads, crop, samples and seed do not matter", "[pilot]
             REQUIRE(again->suns.front().window.pdf(p, d).value ==
                     first->suns.front().window.pdf(p, d).value);
         }
+        for (std::size_t light = 0; light < first->starts->size(); ++light) {
+            REQUIRE(again->starts->probability(light) == first->starts->probability(light));
+        }
     }
 }
 
@@ -311,8 +385,8 @@ TEST_CASE("light pilot: all renders of a view learn once", "[pilot]")
 TEST_CASE("light pilot: the image is right whatever was learned", "[pilot]")
 {
     // Also what is wrong on purpose: that only what is blocked is visible, on one side of the room,
-    // that each place has light of another group alone, that light of the sky enters from below,
-    // and light of the sun beside the room.
+    // that each place has light of another group alone, that light paths start at one half of the
+    // lamp, that light of the sky enters from below, and light of the sun beside the room.
     const Scene scene(room_and_terrace().desc);
     const World& world = scene.world();
     const MovingCamera camera(room_camera(), Camera(room_camera(), 16, 12));
@@ -343,9 +417,11 @@ TEST_CASE("light pilot: the image is right whatever was learned", "[pilot]")
     while (!std::holds_alternative<DirectionalLight>(lights[sun].model())) {
         sun = LightId{static_cast<std::uint32_t>(sun) + 1};
     }
+    const std::vector<IndirectLight> half_of_lamp(500, {.light = LightId{0}, .value = 1.0f});
     const LearnedLight misled{
         .visibility = EnvironmentVisibility(wrong),
         .groups = GroupShares(findings, 3),
+        .starts = learn_starts(half_of_lamp, lights),
         .entries = EnvironmentEntries(escapes, sky_of(scene).tiles(), world.bounding_sphere()),
         .suns = {{.sun = sun, .window = EntryWindow(wrong_side, {}, world.bounding_sphere())}}};
     for (const auto kind : {IntegratorKind::mis, IntegratorKind::bdpt}) {
@@ -353,6 +429,7 @@ TEST_CASE("light pilot: the image is right whatever was learned", "[pilot]")
         const auto right = learned(scene, options);
         REQUIRE(right);
         REQUIRE(right->entries);
+        REQUIRE(right->starts);
         REQUIRE(right->suns.size() == 1);
         options.film.width = 16;
         options.film.height = 12;

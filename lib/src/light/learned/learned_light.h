@@ -5,6 +5,7 @@
 #include "light/learned/environment_entries.h"
 #include "light/learned/group_shares.h"
 #include "light/light_samples.h"
+#include "math/alias_table.h"
 
 #include <optional>
 #include <vector>
@@ -24,6 +25,9 @@ struct LearnedLight {
     std::optional<EnvironmentVisibility> visibility{};
     /// Shares of groups of lights; nullopt if there is only one group, or no light was found.
     std::optional<GroupShares> groups{};
+    /// Chooses the light of each light path; nullopt if there is only one group, or no indirect
+    /// light was found.
+    std::optional<AliasTable> starts{};
     /// Where light of the environment enters the scene; nullopt without `visibility`.
     std::optional<EnvironmentEntries> entries{};
     /// Of directional lights, of which some light was found.

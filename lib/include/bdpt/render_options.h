@@ -86,7 +86,8 @@ enum class EnvironmentSampling : std::uint8_t {
     /// place: the visible fraction of the environment (docs/decisions/0068-learned-visibility.md),
     /// and the shares of light from the environment, from suns and from placed lights
     /// (docs/decisions/0071-learned-groups-of-lights.md). Light paths of bdpt and vcm start where
-    /// light of the environment and of suns enters (docs/decisions/0073-learned-entries.md).
+    /// light of the environment and of suns enters (docs/decisions/0073-learned-entries.md), and at
+    /// the lights that bring most indirect light (docs/decisions/0075-learned-starts.md).
     learned,
 };
 

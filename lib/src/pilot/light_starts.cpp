@@ -13,7 +13,8 @@ namespace {
 /// lights whose light it missed: behind glass, or far away.
 constexpr double power_part = 0.1;  // in proportion to power
 constexpr double even_part = 0.1;   // equal for all groups of lights
-/// Within a group, each light counts as found so many times with the power of its part.
+/// Each light of a group counts as found so many more times, with values in proportion to power:
+/// there may be more lights than the pilot has paths.
 constexpr double prior_findings = 16.0;
 
 /// Lights that next-event estimation treats as one: all with a position, or one at infinity.

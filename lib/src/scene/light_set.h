@@ -48,8 +48,8 @@ public:
         float probability = 0.0f;
         Vec2 u{0.0f};
     };
-    /// Chooses a light in the learned proportions, or by power. Uses `u` and returns the remainder
-    /// if there are few lights; otherwise uses the number from `draw_fine()`.
+    /// Chooses a light in the proportions that were learned, if any, else by power. Uses `u` and
+    /// returns the remainder if there are few lights; otherwise uses the number from `draw_fine()`.
     template <typename DrawFine>
     [[nodiscard]] std::optional<ChoiceAndNumbers> choose_for_emission(
         Vec2 u, const DrawFine& draw_fine, const LearnedLight* learned = nullptr) const

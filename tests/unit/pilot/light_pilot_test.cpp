@@ -183,7 +183,7 @@ TEST_CASE("light pilot: light paths from sky and sun enter the room", "[pilot]")
 
 TEST_CASE("light pilot: light paths start where the image's indirect light comes from", "[pilot]")
 {
-    // Closed, in full daylight.
+    // A closed room in full daylight; on the wide ground below, the sky has nearly all power.
     const auto dim_lamp_by_day = [](const MaterialDesc& front) {
         SceneBuilder builder;
         builder.walls(lambertian(Rgb(0.7f)), lambertian(Rgb(0.6f)));
@@ -211,6 +211,7 @@ TEST_CASE("light pilot: light paths start where the image's indirect light comes
             SampleContext sample = make_sample(scene.world(), camera,
                                                {SamplerKind::independent, 3, i % 16, 0, i}, rays);
             trace_light_subpath(sample, {.max_vertices = 3}, {.learned = found.get()}, path);
+            REQUIRE(path.size() >= 1);
             starts += path[0].light == sky ? 1 : 0;
             if (path.size() >= 2) {
                 const LightDensities densities =

@@ -4,6 +4,7 @@
 #include "scene/light_set.h"
 #include "scene/world.h"
 #include "scene_builder.h"
+#include "statistics.h"
 
 #include <bdpt/scene.h>
 
@@ -16,7 +17,7 @@
 namespace bdpt::test::light_starts_test {
 namespace {
 
-/// Four point lights, of which the last has no power, and a sun of 90 % of all power.
+/// Four point lights, of which the last has no power, and a sun.
 Scene lights_and_sun()
 {
     SceneBuilder builder;
@@ -78,6 +79,36 @@ TEST_CASE("light starts: groups by what was found, with parts by power and for e
               Approx(0.05 * power(0) / lamps + 0.1 * power(0)).epsilon(1e-5));
         CHECK(of_sun->probability(2) == Approx(2.0 * of_sun->probability(0)).epsilon(1e-5));
     }
+}
+
+TEST_CASE("light starts: light paths choose by the table, among few lights and many", "[pilot]")
+{
+    const int count = GENERATE(4, 200);
+    SceneBuilder builder;
+    builder.quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}, lambertian(Rgb(0.5f)));
+    for (int i = 0; i < count; ++i) {
+        builder.light(PointLightDesc{.position = {0.0f, 1.0f, 0.0f}});
+    }
+    builder.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, 0.0f}});
+    const Scene scene(std::move(builder.desc));
+    const LightSet& lights = scene.world().lights();
+    const auto sun = static_cast<std::uint32_t>(count);
+    LearnedLight learned;
+    learned.starts = learn_starts(repeat(sun, 1.0f, 500), lights);
+    REQUIRE(lights.emission_probability(LightId{sun}) < 0.2f);
+    REQUIRE(lights.emission_probability(LightId{sun}, &learned) > 0.8f);
+    Random random(4);
+    const auto draw = [&random] { return Vec2(random.next(), random.next()); };
+    int of_sun = 0;
+    constexpr int draws = 4000;
+    for (int i = 0; i < draws; ++i) {
+        const auto choice = lights.choose_for_emission(draw(), draw, &learned);
+        REQUIRE(choice);
+        REQUIRE(choice->probability == lights.emission_probability(choice->id, &learned));
+        of_sun += choice->id == LightId{sun} ? 1 : 0;
+    }
+    CHECK(of_sun / static_cast<double>(draws) ==
+          Approx(lights.emission_probability(LightId{sun}, &learned)).margin(0.025));
 }
 
 }  // namespace bdpt::test::light_starts_test

@@ -167,8 +167,11 @@ TEST_CASE("each strategy alone, in a body that absorbs", "[strategies]")
 TEST_CASE("each strategy alone, in fog", "[strategies][media]")
 {
     // Joins of vertices in a medium, which may be as close as they like, have no finite variance by
-    // themselves.
+    // themselves. The lamp has the colour that the fog takes away most, so that walks from it and
+    // from the lens choose different channels for their distances.
     SceneBuilder builder = open_stage_builder();
+    builder.desc.instances.pop_back();
+    builder.lamp(1.0f, 1.1f, Rgb(0.0f, 1.0f, 12.0f));
     builder.desc.fog = MediumDesc{
         .extinction = {0.1f, 0.2f, 0.3f}, .albedo = {0.9f, 0.8f, 0.7f}, .anisotropy = 0.3f};
     const Scene scene(std::move(builder.desc));

@@ -54,6 +54,18 @@ inline MaterialDesc glass(float roughness)
     return material;
 }
 
+/// Returns wax: light enters and leaves it diffusely, and scatters in it many times.
+inline MaterialDesc wax()
+{
+    MaterialDesc material = lambertian(Rgb(1.0f));
+    material.diffuse_transmission.factor = 0.9f;
+    material.thickness = 1.0f;
+    material.attenuation_color = {0.4f, 0.3f, 0.2f};
+    material.attenuation_distance = 0.1f;
+    material.volume_scatter = {.color = {0.9f, 0.8f, 0.6f}, .anisotropy = 0.0f};
+    return material;
+}
+
 inline MaterialDesc thin_glass(float roughness)
 {
     MaterialDesc material = glass(roughness);

@@ -28,6 +28,21 @@ namespace {
 
 }  // namespace
 
+float Medium::mean_scatterings(float mean_chord) const
+{
+    constexpr float most = 30.0f;
+    float sum = 0.0f;
+    for (int channel = 0; channel < 3; ++channel) {
+        const float absorption = extinction[channel] - scattering[channel];
+        const float turning = (1.0f - anisotropy) * scattering[channel];
+        const float until_absorbed = absorption > 0.0f ? 1.0f + turning / absorption : most;
+        // Walks that enter spend the mean chord inside, however often they scatter.
+        const float until_outside = 1.0f + turning * mean_chord;
+        sum += std::min({most, until_absorbed, until_outside});
+    }
+    return sum / 3.0f;
+}
+
 bool has_inside(const MaterialDesc& desc)
 {
     return desc.thickness > 0.0f && !desc.unlit &&

@@ -12,6 +12,11 @@ struct Medium {
 
     [[nodiscard]] bool is_clear() const { return extinction == Rgb(0.0f); }
     [[nodiscard]] bool scatters() const { return scattering != Rgb(0.0f); }
+    /// Returns about how often a walk scatters in a body before it is absorbed or leaves, in [1,
+    /// 30]: the mean over the channels. `mean_chord` is the mean length of straight ways through
+    /// the body [m]. Forward scattering counts like the isotropic scattering that moves light as
+    /// far.
+    [[nodiscard]] float mean_scatterings(float mean_chord) const;
     friend bool operator==(const Medium&, const Medium&) = default;
 };
 

@@ -28,4 +28,22 @@ struct LightDensities {
 /// light.
 [[nodiscard]] bool can_be_seen_directly(const Light& light, const Camera& camera);
 
+/// Returns how many samples MIS weights count for a connection between two vertices, in (0, 1].
+///
+/// A camera path and a light path that scatter n times in the same body have n^2 connections there,
+/// which vary together: they are bright where the light path happens to come near. Weights that
+/// count each as a sample of its own would prefer them to what one path finds alone, such as
+/// splats. Weights that count 1 / n^2 treat them like one sample [cf. Grittmann et al. 2021,
+/// "Correlation-Aware Multiple Importance Sampling for Bidirectional Rendering Algorithms"].
+[[nodiscard]] inline float connection_count(const World& world, const PathVertex& a,
+                                            const PathVertex& b)
+{
+    const auto scatterings = [&world](const PathVertex& vertex) {
+        return vertex.kind == VertexKind::medium
+                   ? world.media().mean_scatterings(vertex.end.media.ahead)
+                   : 1.0f;
+    };
+    return 1.0f / (scatterings(a) * scatterings(b));
+}
+
 }  // namespace bdpt

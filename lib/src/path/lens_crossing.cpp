@@ -19,8 +19,12 @@ void look_for_lens(const SampleContext& sample, const WalkStep& step, float free
     const float distance_squared = hit->distance * hit->distance;
     const float cosine = std::abs(dot(hit->lens.ng, step.direction));
     const PathVertex& last = path.back();
+    const Media& media = sample.world.media();
     const SegmentTransmission transmission =
-        sample.world.media().transmission(*step.origin, hit->lens, step.direction, hit->distance);
+        media.transmission(*step.origin, hit->lens, step.direction, hit->distance);
+    const ChannelChoice channels(step.beta);
+    const float walk_density = media.walk_density(*step.origin, hit->lens, step.direction,
+                                                  transmission.transmittance, channels, false);
     LensCrossing crossing;
     crossing.light_vertices = path.size();
     crossing.raster = hit->raster;
@@ -33,9 +37,9 @@ void look_for_lens(const SampleContext& sample, const WalkStep& step, float free
     PathVertex& lens = crossing.lens;
     lens.kind = VertexKind::camera;
     lens.end = hit->lens;
-    lens.beta = step.beta * (transmission.transmittance / transmission.p_unscattered) *
+    lens.beta = step.beta * (transmission.transmittance / walk_density) *
                 sample.world.volumes().weight_of_passing(step.origin->p, step.direction,
-                                                         hit->distance, segment);
+                                                         hit->distance, channels, segment);
     // Both densities of the lens point: that of the light walk, and that of a camera path's start.
     lens.pdf_rev = step.pdf_of_point(cosine, distance_squared) * transmission.p_unscattered;
     lens.pdf_fwd = hit->pdf_lens;

@@ -152,6 +152,9 @@ void PathWeigher::gather_sample_counts(std::span<const PathVertex> light,
         const bool right = is_joinable(i);
         const int from_light = static_cast<int>(i);
         sample_counts_[i] = left && right ? strategies_.count(from_light, n - from_light) : 0.0f;
+        if (i >= 2 && i + 1 < size_) {
+            sample_counts_[i] *= connection_count(world_, vertex(i - 1), vertex(i));
+        }
         const bool merges = right && i + 1 < size_ && vertex(i).kind == VertexKind::surface &&
                             strategies_.merges(from_light + 1, n - from_light);
         merge_weights_[i] = merges ? static_cast<float>(merge_weight_) * vertex(i).opacity : 0.0f;

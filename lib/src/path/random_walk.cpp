@@ -110,9 +110,9 @@ void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path
             rules.from_camera() ? sample.segment(0, path.size()) : sample.segment(path.size(), 0);
         // The interaction may lie beyond the last vertex; then it only bounds the search for the
         // lens.
-        const SegmentSample event =
-            sample_segment(sample, *step.origin, step.direction, segment,
-                           {.from_camera = rules.from_camera(), .vertices = path.size()});
+        const SegmentSample event = sample_segment(
+            sample, *step.origin, step.direction, segment,
+            {.from_camera = rules.from_camera(), .vertices = path.size(), .beta = step.beta});
         const SurfacePoint* hit = shade(sample, step, event, segment, path);
         if (watches_lens) {
             look_for_lens(sample, step,

@@ -19,11 +19,12 @@ void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
         distance = glm::distance(end.p, origin.p);
     }
     event.fog = media.fog_between(origin, end, direction, distance);
+    const ChannelChoice channels(place.beta);
     if (media.scatter(origin, end, direction)) {
         const auto vertex = static_cast<std::uint32_t>(2 * place.vertices);
         sample.sampler.start(SampleUse::scatter_distance, vertex + (place.from_camera ? 0U : 1U));
         const Vec2 u = sample.sampler.next_2d();
-        event.in_medium = media.draw_event(origin, end, direction, distance, u);
+        event.in_medium = media.draw_event(origin, end, direction, distance, channels, u);
     }
     if (event.in_medium) {
         distance = event.in_medium->distance;
@@ -32,7 +33,8 @@ void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
     }
     const Volumes& volumes = sample.world.volumes();
     if (volumes.any()) {
-        const VolumePassage passage = volumes.walk(origin.p, direction, distance, segment);
+        const VolumePassage passage =
+            volumes.walk(origin.p, direction, distance, channels, segment);
         event.in_volume = passage.event;
         event.volume_weight = passage.weight;
     }
@@ -43,6 +45,9 @@ void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
         end = {.p = origin.p + distance * direction, .media = SideMedia::around(event.around)};
     }
     event.transmission = media.transmission(origin, end, direction, distance);
+    event.walk_density =
+        media.walk_density(origin, end, direction, event.transmission.transmittance, channels,
+                           event.in_medium.has_value());
 }
 
 }  // namespace

@@ -20,20 +20,22 @@ struct SegmentSample {
     Rgb volume_weight{1.0f};  ///< weight of `VolumePassage`
     /// Surface hit of the ray, even if the walk scatters before it.
     std::optional<RayHit> surface;
-    std::optional<FogSpan> fog;         ///< fog on the segment, whether or not it scatters
-    SegmentTransmission transmission;   ///< transmission to the end of the segment
+    std::optional<FogSpan> fog;        ///< fog on the segment, whether or not it scatters
+    SegmentTransmission transmission;  ///< transmission to the end of the segment
+    /// `Media::walk_density` of the end, for the throughput of this walk.
+    float walk_density = 1.0f;
     MediumId around = MediumId::clear;  ///< medium around a scattering event in a volume
 
-    /// Returns the probability of reaching the surface, or the density of scattering along the ray.
-    /// Excludes transmittance and extinction of volumes.
+    /// Returns the probability of reaching the surface, or the density of scattering along the ray,
+    /// for MIS weights. Excludes transmittance and extinction of volumes.
     [[nodiscard]] float probability() const
     {
         return transmission.pdf_of_end(in_medium.has_value());
     }
-    /// Returns the factor of the throughput: transmittance over probability.
+    /// Returns the factor of the throughput: transmittance over the density of this walk.
     [[nodiscard]] Rgb weight() const
     {
-        return transmission.transmittance / probability() * volume_weight;
+        return transmission.transmittance / walk_density * volume_weight;
     }
     [[nodiscard]] bool is_nothing() const { return !in_medium && !in_volume && !surface; }
     [[nodiscard]] VertexKind kind() const
@@ -44,10 +46,11 @@ struct SegmentSample {
     }
 };
 
-/// Identifies the walk and its number of vertices.
+/// The walk that samples a segment.
 struct WalkPlace {
     bool from_camera = true;
     int vertices = 1;
+    Rgb beta{1.0f};  ///< throughput in the direction of the segment
 };
 
 /// Samples a segment of the ray from `origin` in the unit direction `direction`.

@@ -40,20 +40,23 @@ double WeightSums::raise(double ratio) const
 
 // Every divisor below is a density with which a walk sampled, so it is never zero.
 
-/// Returns the term of the strategies that connect light paths (s >= 2) to the first `t` camera
-/// vertices.
-double WeightSums::camera_term(bool joins, std::size_t t) const
+/// Returns the term of the strategies that connect light paths (s >= 2), which end at `next`, to
+/// the camera path.
+double WeightSums::camera_term(std::span<const PathVertex> camera, const PathVertex& next,
+                               bool joins) const
 {
-    return !joins ? 0.0 : t == 1 ? splats_ : joins_;
+    return !joins ? 0.0 : camera.size() == 1 ? splats_ : connection_term(camera.back(), next);
 }
 
-/// Returns the term of the strategies that connect camera paths (t >= 2) to the first `s` vertices
-/// of the light path from `x0`.
-double WeightSums::light_term(const PathVertex& x0, bool joins, std::size_t s) const
+/// Returns the term of the strategies that connect camera paths (t >= 2), which end at `next`, to
+/// the light path.
+double WeightSums::light_term(std::span<const PathVertex> light, const PathVertex& next,
+                              bool joins) const
 {
-    return !joins   ? 0.0
-           : s == 1 ? light_samples_ * raise(quotient(x0.pdf_next_event, x0.pdf_fwd))
-                    : joins_;
+    return !joins ? 0.0
+           : light.size() == 1
+               ? light_samples_ * raise(quotient(light[0].pdf_next_event, light[0].pdf_fwd))
+               : connection_term(light.back(), next);
 }
 
 /// Returns the term of merging at `vertex`, relative to sampling it once with the density `pdf`.
@@ -72,7 +75,7 @@ double WeightSums::camera_sum(std::span<const PathVertex> camera, std::size_t k,
     if (k == 0) {  // t = 0
         return finite_lens_ ? ratio * splats_ : 0.0;
     }
-    return ratio * (camera_term(joins && joinable(camera[k - 1]), k) +
+    return ratio * (camera_term(camera.first(k), z, joins && joinable(camera[k - 1])) +
                     merge_term(z, z.pdf_fwd, joins) + before);
 }
 
@@ -84,7 +87,7 @@ double WeightSums::light_sum(std::span<const PathVertex> light, std::size_t k, A
     if (k == 0) {  // s = 0
         return world_.lights()[*y.light].is_delta() ? 0.0 : ratio;
     }
-    return ratio * (light_term(light[0], joins && joinable(light[k - 1]), k) +
+    return ratio * (light_term(light.first(k), y, joins && joinable(light[k - 1])) +
                     merge_term(y, y.pdf_fwd, joins) + before);
 }
 
@@ -140,7 +143,7 @@ float WeightSums::weight(std::span<const PathVertex> light, std::span<const Path
     }
     const double camera_side = camera_sum(camera, t - 1, join.light_at_camera_end, true, beyond);
     if (s >= 2) {
-        const double own = t == 1 ? splats_ : joins_;
+        const double own = t == 1 ? splats_ : connection_term(light.back(), camera.back());
         const double light_side = light_sum(light, s - 1, join.camera_at_light_end, true,
                                             beyond_light_end(light, join.camera_at_light_neighbor));
         return static_cast<float>(own / (own + camera_side + light_side));
@@ -160,9 +163,9 @@ float WeightSums::weight_of_merge(std::span<const PathVertex> light,
     const std::size_t t = camera.size();
     const PathVertex& y = light[s - 1];
     const PathVertex& z = camera[t - 1];
-    const double camera_side = camera_term(joinable(camera[t - 2]), t - 1) +
+    const double camera_side = camera_term(camera.first(t - 1), z, joinable(camera[t - 2])) +
                                beyond_camera_end(camera, join.light_at_camera_neighbor);
-    const double light_side = light_term(light[0], joinable(light[s - 2]), s - 1) +
+    const double light_side = light_term(light.first(s - 1), y, joinable(light[s - 2])) +
                               beyond_light_end(light, join.camera_at_light_end);
     return static_cast<float>(1.0 / (1.0 + camera_side / merge_term(z, z.pdf_fwd, true) +
                                      light_side / merge_term(z, y.pdf_fwd, true)));

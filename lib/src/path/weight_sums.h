@@ -1,5 +1,6 @@
 #pragma once
 
+#include "path/densities.h"
 #include "path/path_vertex.h"
 #include "path/strategy_set.h"
 
@@ -61,8 +62,18 @@ private:
     [[nodiscard]] double beyond_light_end(std::span<const PathVertex> light, AreaPdf pdf_rev) const;
 
     [[nodiscard]] double raise(double ratio) const;
-    [[nodiscard]] double camera_term(bool joins, std::size_t t) const;
-    [[nodiscard]] double light_term(const PathVertex& x0, bool joins, std::size_t s) const;
+    /// Returns the term of a strategy that connects light paths to these two vertices (s, t >= 2).
+    [[nodiscard]] double connection_term(const PathVertex& a, const PathVertex& b) const
+    {
+        if (a.kind != VertexKind::medium && b.kind != VertexKind::medium) [[likely]] {
+            return joins_;
+        }
+        return joins_ * raise(static_cast<double>(connection_count(world_, a, b)));
+    }
+    [[nodiscard]] double camera_term(std::span<const PathVertex> camera, const PathVertex& next,
+                                     bool joins) const;
+    [[nodiscard]] double light_term(std::span<const PathVertex> light, const PathVertex& next,
+                                    bool joins) const;
     [[nodiscard]] double merge_term(const PathVertex& vertex, AreaPdf pdf, bool joins) const;
 
     const World& world_;

@@ -133,8 +133,9 @@ private:
                 from.receiver = {.p = origin.p, .normal = point.bsdf.opaque_normal()};
             }
             const SegmentKey segment = sample.segment(0, vertices);
-            const SegmentSample met = sample_segment(sample, origin, scattered->wi, segment,
-                                                     {.from_camera = true, .vertices = vertices});
+            const SegmentSample met =
+                sample_segment(sample, origin, scattered->wi, segment,
+                               {.from_camera = true, .vertices = vertices, .beta = beta});
             beta *= met.weight();
             if (met.is_nothing()) {
                 return light + beta * sky(from, scattered->wi);

@@ -42,6 +42,7 @@ MediumId Media::add(const Medium& medium)
         return id;
     }
     media_.push_back(medium);
+    mean_scatterings_.push_back(1.0f);
     any_scatters_ = any_scatters_ || medium.scatters();
     return static_cast<MediumId>(media_.size() - 1);
 }
@@ -67,6 +68,12 @@ MediumId Media::scatterer(const SegmentEnd& a, const SegmentEnd& b, Vec3 w) cons
     const float density = mean((*this)[one].extinction);
     const float other_density = mean((*this)[other].extinction);
     return density > other_density || (density == other_density && one < other) ? one : other;
+}
+
+void Media::fill_body(MediumId id, float mean_chord)
+{
+    float& most = mean_scatterings_[static_cast<std::size_t>(id)];
+    most = std::max(most, (*this)[id].mean_scatterings(mean_chord));
 }
 
 MediumId Media::along(const SegmentEnd& a, const SegmentEnd& b, Vec3 w) const noexcept
@@ -127,11 +134,12 @@ std::optional<FogSpan> Media::fog_between(const SegmentEnd& a, const SegmentEnd&
 }
 
 std::optional<MediumEvent> Media::draw_event(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
-                                             float distance, Vec2 u) const noexcept
+                                             float distance, const ChannelChoice& channels,
+                                             Vec2 u) const noexcept
 {
     const MediumId id = scatterer(a, b, w);
     const FogSpan span = filled(id, a.p, w, distance);
-    const int channel = std::min(static_cast<int>(3.0f * u.y), 2);
+    const int channel = channels.sample(u.y);
     const float extinction = (*this)[id].extinction[channel];
     const float way = -log_exact(1.0f - u.x);
     // Avoids a ratio that may be infinite.
@@ -139,6 +147,16 @@ std::optional<MediumEvent> Media::draw_event(const SegmentEnd& a, const SegmentE
         return std::nullopt;
     }
     return MediumEvent{.distance = std::min(span.begin + way / extinction, span.end), .medium = id};
+}
+
+float Media::walk_density(const SegmentEnd& a, const SegmentEnd& b, Vec3 w, Rgb transmittance,
+                          const ChannelChoice& channels, bool in_medium) const noexcept
+{
+    if (!scatter(a, b, w)) {
+        return 1.0f;
+    }
+    return channels.mean(in_medium ? (*this)[scatterer(a, b, w)].extinction * transmittance
+                                   : transmittance);
 }
 
 }  // namespace bdpt

@@ -3,6 +3,7 @@
 #include "geometry/segment_end.h"
 #include "light/bounding_sphere.h"
 #include "material/medium.h"
+#include "math/channel_choice.h"
 
 #include <cstddef>
 #include <optional>
@@ -10,9 +11,9 @@
 
 namespace bdpt {
 
-/// Transmittance and densities of a segment that no surface blocks. Walks that scatter in a medium
-/// sample the distance in proportion to the mean of the channels' densities, so no channel is
-/// preferred [Wilkie et al. 2014, "Hero Wavelength Spectral Sampling"].
+/// Transmittance of a segment that no surface blocks, and the densities of walks along it for MIS
+/// weights: means of the channels' densities, which depend on the segment alone and are equal in
+/// both directions. What a walk really samples depends on its throughput (`ChannelChoice`).
 struct SegmentTransmission {
     Rgb transmittance{1.0f};
     float p_unscattered = 1.0f;  ///< probability that a walk reaches the end without scattering
@@ -79,11 +80,25 @@ public:
     [[nodiscard]] std::optional<FogSpan> fog_between(const SegmentEnd& a, const SegmentEnd& b,
                                                      Vec3 w, float distance) const noexcept;
     [[nodiscard]] MediumId fog() const { return fog_; }
-    /// Samples a scattering event; nullopt if the walk reaches `b`. `w` is unit length, and
-    /// `scatter` is true.
+    /// Takes note of a body that the medium fills.
+    void fill_body(MediumId id, float mean_chord);
+    /// Returns `Medium::mean_scatterings` in the largest of its bodies; 1 without any, as for fog.
+    [[nodiscard]] float mean_scatterings(MediumId id) const
+    {
+        return mean_scatterings_[static_cast<std::size_t>(id)];
+    }
+    /// Samples a scattering event at the distance that one of the channels determines; nullopt if
+    /// the walk reaches `b`. `w` is unit length, and `scatter` is true.
     [[nodiscard]] std::optional<MediumEvent> draw_event(const SegmentEnd& a, const SegmentEnd& b,
                                                         Vec3 w, float distance,
+                                                        const ChannelChoice& channels,
                                                         Vec2 u) const noexcept;
+    /// Returns the probability of `draw_event` reaching `b`, or with `in_medium` the density of a
+    /// scattering event there [1/m]; 1 if no medium scatters on the segment. `transmittance` is
+    /// that of the segment.
+    [[nodiscard]] float walk_density(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
+                                     Rgb transmittance, const ChannelChoice& channels,
+                                     bool in_medium) const noexcept;
 
 private:
     [[nodiscard]] SegmentTransmission transmission_through(const SegmentEnd& a, const SegmentEnd& b,
@@ -94,6 +109,7 @@ private:
     [[nodiscard]] FogSpan filled(MediumId medium, Vec3 from, Vec3 w, float distance) const noexcept;
 
     std::vector<Medium> media_{Medium{}};  // one per id
+    std::vector<float> mean_scatterings_{1.0f};
     bool any_scatters_ = false;
     MediumId fog_ = MediumId::clear;
     BoundingSphere extent_;  // extent of the fog

@@ -208,11 +208,11 @@ Volumes::Volumes(std::span<const VolumeDesc> descs)
 }
 
 VolumePassage Volumes::walk(Vec3 origin, Vec3 direction, float distance,
-                            SegmentKey segment) const noexcept
+                            const ChannelChoice& channels, SegmentKey segment) const noexcept
 {
     // A random number independent of those of the volumes.
     const float u = VolumeNoise(segment, static_cast<std::uint32_t>(volumes_.size())).next();
-    const int channel = std::min(static_cast<int>(3.0f * u), 2);
+    const int channel = channels.sample(u);
     VolumePassage passage;
     auto& first = passage.event;
     for (std::uint32_t i = 0; i < volumes_.size(); ++i) {
@@ -224,7 +224,7 @@ VolumePassage Volumes::walk(Vec3 origin, Vec3 direction, float distance,
         }
     }
     if (!are_grey_) {
-        passage.weight = colour_weight(origin, direction, distance, first, segment);
+        passage.weight = colour_weight(origin, direction, distance, first, channels, segment);
     } else if (first) {
         passage.weight = 1.0f / volumes_[first->volume].extinction(first->density);
     }
@@ -233,7 +233,7 @@ VolumePassage Volumes::walk(Vec3 origin, Vec3 direction, float distance,
 
 /// Returns the transmittance over the mean of the channels' walk probabilities.
 Rgb Volumes::colour_weight(Vec3 origin, Vec3 direction, float distance,
-                           const std::optional<VolumeEvent>& event,
+                           const std::optional<VolumeEvent>& event, const ChannelChoice& channels,
                            SegmentKey segment) const noexcept
 {
     Rgb probability(1.0f);
@@ -243,7 +243,7 @@ Rgb Volumes::colour_weight(Vec3 origin, Vec3 direction, float distance,
     }
     const Rgb found =
         event ? probability * volumes_[event->volume].extinction(event->density) : probability;
-    return probability * (3.0f / (found.r + found.g + found.b));
+    return probability / channels.mean(found);
 }
 
 Rgb Volumes::transmittance(Vec3 origin, Vec3 direction, float distance,

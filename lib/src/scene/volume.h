@@ -1,5 +1,6 @@
 #pragma once
 
+#include "math/channel_choice.h"
 #include "math/segment_key.h"
 
 #include <bdpt/volume_desc.h>
@@ -107,18 +108,21 @@ public:
 
     [[nodiscard]] bool any() const { return !volumes_.empty(); }
     [[nodiscard]] const Volume& operator[](std::uint32_t i) const { return volumes_[i]; }
-    /// Walks to the first scattering event of all volumes. One random channel determines the
+    /// Walks to the first scattering event of all volumes. One of the channels determines the
     /// distance, and the walks of all three are weighted by the balance heuristic [Miller et al.
     /// 2019, "A Null-Scattering Path Integral Formulation of Light Transport", sec. 5.2].
     [[nodiscard]] VolumePassage walk(Vec3 origin, Vec3 direction, float distance,
+                                     const ChannelChoice& channels,
                                      SegmentKey segment) const noexcept;
     /// Returns the throughput factor of a walk that passes `distance` without an event, if its
     /// `walk` with the same segment ends there or farther on.
     [[nodiscard]] Rgb weight_of_passing(Vec3 origin, Vec3 direction, float distance,
+                                        const ChannelChoice& channels,
                                         SegmentKey segment) const noexcept
     {
-        return are_grey_ ? Rgb(1.0f)
-                         : colour_weight(origin, direction, distance, std::nullopt, segment);
+        return are_grey_
+                   ? Rgb(1.0f)
+                   : colour_weight(origin, direction, distance, std::nullopt, channels, segment);
     }
     [[nodiscard]] Rgb transmittance(Vec3 origin, Vec3 direction, float distance,
                                     SegmentKey segment) const noexcept;
@@ -126,6 +130,7 @@ public:
 private:
     [[nodiscard]] Rgb colour_weight(Vec3 origin, Vec3 direction, float distance,
                                     const std::optional<VolumeEvent>& event,
+                                    const ChannelChoice& channels,
                                     SegmentKey segment) const noexcept;
 
     std::vector<Volume> volumes_;

@@ -2,6 +2,8 @@
 #include "scene/open_edges.h"
 #include "scene/world_builder.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -37,6 +39,7 @@ void WorldBuilder::find_enclosing_volumes()
         w.bodies_ = find_bodies(std::move(instances));
         give_surroundings(w.bodies_->around);
     }
+    measure_bodies();
 }
 
 /// Returns the bodies of `like_`, if they are the same and no ray passes surfaces at random.
@@ -82,6 +85,27 @@ void WorldBuilder::give_surroundings(const std::vector<std::optional<std::uint32
             add_material(static_cast<std::size_t>(own), exterior);
         }
         world_.material_ids_[i] = known->second;
+    }
+}
+
+void WorldBuilder::measure_bodies()
+{
+    World& w = world_;
+    for (std::size_t i = 0; i < w.desc_.instances.size(); ++i) {
+        const auto material = static_cast<std::size_t>(w.material_ids_[i]);
+        const MediumId within = w.material_sources_[material].within;
+        const InstanceDesc& instance = w.desc_.instances[i];
+        const auto& box = w.geometry_->boxes[static_cast<std::size_t>(instance.mesh)];
+        if (!w.media_[within].scatters() || !box) {
+            continue;
+        }
+        const auto edge = [&](int axis) {
+            return 2.0f * length(Vec3(instance.world_from_object[axis])) * box->half[axis];
+        };
+        const float faces = edge(0) * edge(1) + edge(1) * edge(2) + edge(2) * edge(0);
+        // The mean chord of a convex body is 4 V / S, of its box too.
+        w.media_.fill_body(within,
+                           faces > 0.0f ? 2.0f * edge(0) * edge(1) * edge(2) / faces : 0.0f);
     }
 }
 

@@ -27,6 +27,7 @@ SceneDesc room(bool foggy)
     if (foggy) {
         builder.desc.fog = MediumDesc{
             .extinction = {0.3f, 0.6f, 1.2f}, .albedo = {0.9f, 0.8f, 0.7f}, .anisotropy = 0.4f};
+        builder.sphere({0.0f, -0.7f, -0.4f}, 0.3f, test::wax(), 12);
     }
     builder.walls(test::plastic(Rgb(0.7f), 0.3f), test::lambertian(Rgb(0.6f)));
     builder.ceiling(test::lambertian(Rgb(0.7f))).lamp(0.9f, 0.5f, Rgb(5.0f));
@@ -273,6 +274,45 @@ TEST_CASE("next-event estimation has the density that others are weighed against
     CHECK((other_choices > compared / 2) == knows);
     // Elsewhere some light that the tree meets cannot shine there.
     CHECK((full > compared / 2) == knows);
+}
+
+TEST_CASE("distances in coloured media leave the sum of the throughput as it is", "[media]")
+{
+    SceneBuilder builder;
+    builder.walls(test::lambertian(Rgb(0.5f)), test::lambertian(Rgb(0.5f)));
+    builder.lamp(0.9f, 0.5f, Rgb(5.0f));
+    builder.desc.fog =
+        MediumDesc{.extinction = {2.0f, 8.0f, 30.0f}, .albedo = Rgb(1.0f), .anisotropy = 0.3f};
+    const World world(std::move(builder.desc));
+    const Camera camera(test::room_camera(), 16, 16);
+    const auto sum = [](Rgb beta) { return beta.r + beta.g + beta.b; };
+    RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
+    constexpr int vertices = 40;
+    Subpath path(vertices);
+    RayCounts rays;
+    int longest = 0;
+    const auto check = [&](float expected) {
+        for (int k = 1; k < path.size() && path[k].kind == VertexKind::medium; ++k) {
+            // The phase function of white scattering weighs by nothing, but `beta` of a medium
+            // vertex lacks sigma_s.
+            const Rgb scattered = path[k].beta * Rgb(2.0f, 8.0f, 30.0f);
+            REQUIRE(sum(scattered) == Approx(expected).epsilon(1e-4));
+            longest = std::max(longest, k);
+        }
+    };
+    for (int i = 0; i < 200; ++i) {
+        SampleContext sample =
+            test::make_sample(world, camera, {SamplerKind::sobol, 1, i % 16, i / 16, i}, rays);
+        trace_camera_subpath(sample, {8.5f, 8.5f}, {.max_vertices = vertices}, path);
+        check(3.0f);
+        trace_light_subpath(sample, {.max_vertices = vertices},
+                            StrategySet(options).next_event_sampling(), path);
+        if (path.size() > 1) {
+            check(sum(path[1].beta * Rgb(2.0f, 8.0f, 30.0f)));
+        }
+    }
+    CHECK(longest >= 20);
 }
 
 }  // namespace bdpt::path_weights_test

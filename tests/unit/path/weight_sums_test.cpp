@@ -4,6 +4,7 @@
 #include "catch.hpp"
 #include "make_sample.h"
 #include "path/connect.h"
+#include "path/densities.h"
 #include "path/merge.h"
 #include "path/random_walk.h"
 #include "scene_builder.h"
@@ -34,7 +35,8 @@ SceneDesc room(bool foggy)
     builder.walls(test::plastic(Rgb(0.7f), 0.3f), test::lambertian(Rgb(0.6f)));
     builder.lamp(0.9f, 0.5f, Rgb(5.0f));
     builder.sphere({-0.4f, -0.6f, 0.0f}, 0.4f, test::glass(0.0f));
-    builder.sphere({0.5f, -0.6f, 0.2f}, 0.4f, test::plastic(Rgb(0.5f), 0.0f));
+    builder.sphere({0.5f, -0.6f, 0.2f}, 0.4f,
+                   foggy ? test::wax() : test::plastic(Rgb(0.5f), 0.0f));
     MaterialDesc pane = test::plastic({0.2f, 0.7f, 0.3f}, 0.4f);
     pane.base_color.w = 0.4f;
     pane.alpha_mode = AlphaMode::blend;
@@ -148,6 +150,72 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
         }
     }
     CHECK(compared > (connections > 0.0 ? 2000 : 1750));
+}
+
+TEST_CASE("connections in a body that scatters light count as few samples", "[mis]")
+{
+    const World& world = built_room(true);
+    const Media& media = world.media();
+    const auto vertex = [](VertexKind kind, MediumId medium) {
+        PathVertex result;
+        result.kind = kind;
+        result.end.media = SideMedia::around(medium);
+        return result;
+    };
+    const MediumId wax = world.medium_at({0.5f, -0.6f, 0.2f});
+    const float n = media.mean_scatterings(wax);
+    REQUIRE(n > 2.0f);
+    const PathVertex inside = vertex(VertexKind::medium, wax);
+    const PathVertex surface = vertex(VertexKind::surface, wax);
+    const PathVertex in_fog = vertex(VertexKind::medium, media.fog());
+    CHECK(connection_count(world, inside, inside) == Approx(1.0f / (n * n)));
+    CHECK(connection_count(world, inside, surface) == Approx(1.0f / n));
+    CHECK(connection_count(world, surface, inside) == Approx(1.0f / n));
+    CHECK(connection_count(world, surface, surface) == 1.0f);
+    CHECK(connection_count(world, in_fog, in_fog) == 1.0f);
+    CHECK(connection_count(world, in_fog, surface) == 1.0f);
+}
+
+TEST_CASE("next-event estimation and splats count in full in a body", "[mis]")
+{
+    // All of the path but the light and the lens lies in wax.
+    const World& world = built_room(true);
+    const Camera camera(test::room_camera(), size, size);
+    RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
+    const StrategySet strategies(options);
+    const MediumId wax = world.medium_at({0.5f, -0.6f, 0.2f});
+    const float n = world.media().mean_scatterings(wax);
+    const Bsdf scatter({0, 0, 1}, Frame::from_normal({0, 0, 1}), {0, 0, 1},
+                       HenyeyGreenstein(Rgb(1.0f), 0.0f));
+    std::vector<PathVertex> light(3);
+    std::vector<PathVertex> seen(3);
+    light[0].kind = VertexKind::light;
+    light[0].light = LightId{0};
+    seen[0].kind = VertexKind::camera;
+    for (PathVertex* vertex : {&light[1], &light[2], &seen[1], &seen[2]}) {
+        vertex->kind = VertexKind::medium;
+        vertex->bsdf = &scatter;
+        vertex->end.media = SideMedia::around(wax);
+    }
+    for (std::vector<PathVertex>* path : {&light, &seen}) {
+        for (PathVertex& vertex : *path) {
+            vertex.pdf_fwd = {1.0f};
+            vertex.pdf_rev = {1.0f};
+        }
+    }
+    PathWeigher weigher(world, camera, strategies, Heuristic::balance, max_depth + 1);
+    const JoinDensities ones{{1.0f}, {1.0f}, {1.0f}, {1.0f}, {1.0f}};
+    const float weight = weigher.weight(light, seen, ones);
+    const std::vector<float> expected{1.0f,        1.0f, 1 / (n * n), 1 / (n * n),
+                                      1 / (n * n), 1.0f, 0.0f};
+    const auto counts = weigher.last_path().sample_counts;
+    REQUIRE(counts.size() == expected.size());
+    for (std::size_t s = 0; s < expected.size(); ++s) {
+        CAPTURE(s);
+        CHECK(counts[s] == Approx(expected[s]));
+    }
+    CHECK(weight == Approx(1 / (n * n) / (3.0f + 3 / (n * n))));
 }
 
 TEST_CASE("sets of strategies with gaps are not weighed by sums", "[mis]")

@@ -15,6 +15,7 @@ namespace {
 
 const Rgb chromatic(0.5f, 1.0f, 3.0f);
 const Vec3 down(0.0f, 0.0f, -1.0f);
+const ChannelChoice white(Rgb(1.0f));
 
 Medium scattering(Rgb extinction, float albedo = 0.5f)
 {
@@ -86,6 +87,8 @@ TEST_CASE("where two ends disagree, the denser medium that scatters counts alone
 
 TEST_CASE("walks are scattered with the density that is told", "[media]")
 {
+    const Rgb beta = GENERATE(Rgb(2.0f), Rgb(0.5f, 0.2f, 0.3f), Rgb(0.0f, 1.0f, 1.0f));
+    const ChannelChoice channels(beta);
     Media media;
     const MediumId id = media.add(scattering(chromatic));
     const SegmentEnd start = in(id);
@@ -94,9 +97,10 @@ TEST_CASE("walks are scattered with the density that is told", "[media]")
     constexpr int count = 300000;
     std::vector<double> counts(bins + 1);
     for (int i = 0; i < count; ++i) {
+        constexpr int channel_numbers = 30;
         const Vec2 u((static_cast<float>(i) + 0.5f) / count,
-                     (static_cast<float>(i % 3) + 0.5f) / 3);
-        const auto event = media.draw_event(start, end, down, 1.5f, u);
+                     (static_cast<float>(i % channel_numbers) + 0.5f) / channel_numbers);
+        const auto event = media.draw_event(start, end, down, 1.5f, channels, u);
         if (event) {
             REQUIRE(event->medium == id);
             REQUIRE(event->distance <= 1.5f);
@@ -107,20 +111,31 @@ TEST_CASE("walks are scattered with the density that is told", "[media]")
     constexpr int steps = 64;
     for (int i = 0; i < bins * steps; ++i) {
         const float distance = 1.5f * (static_cast<float>(i) + 0.5f) / (bins * steps);
-        const SegmentTransmission transmission =
-            media.transmission(start, in(id, distance * down), down, distance);
+        const SegmentEnd there = in(id, distance * down);
+        const SegmentTransmission transmission = media.transmission(start, there, down, distance);
+        const float density =
+            media.walk_density(start, there, down, transmission.transmittance, channels, true);
+        if (beta == Rgb(2.0f)) {
+            REQUIRE(transmission.pdf_scatter == Approx(density));
+        }
+        // Distances do not change the sum of the throughput.
+        const Rgb after = beta * transmission.transmittance * media[id].extinction / density;
+        REQUIRE(mean(after) == Approx(mean(beta)));
         probabilities[static_cast<std::size_t>(i / steps)] +=
-            static_cast<double>(transmission.pdf_scatter) * 1.5 / (bins * steps);
+            static_cast<double>(density) * 1.5 / (bins * steps);
     }
     const SegmentTransmission whole = media.transmission(start, end, down, 1.5f);
-    probabilities[bins] = static_cast<double>(whole.p_unscattered);
+    const float through =
+        media.walk_density(start, end, down, whole.transmittance, channels, false);
+    probabilities[bins] = static_cast<double>(through);
+    CHECK(mean(beta * whole.transmittance / through) == Approx(mean(beta)));
     CHECK(whole.p_unscattered == Approx(mean(whole.transmittance)));
     CHECK(whole.transmittance.b == Approx(std::exp(-4.5f)));
     double sum = 0.0;
     for (std::size_t i = 0; i <= bins; ++i) {
         sum += probabilities[i];
         // Even numbers: far less noise than that of counting.
-        CHECK(counts[i] / count == Approx(probabilities[i]).margin(2e-5));
+        CHECK(counts[i] / count == Approx(probabilities[i]).margin(5e-5));
     }
     CHECK(sum == Approx(1.0).epsilon(1e-4));
 }
@@ -133,7 +148,8 @@ TEST_CASE("the mean free path is one over the extinction", "[media]")
     constexpr int count = 100000;
     for (int i = 0; i < count; ++i) {
         const Vec2 u((static_cast<float>(i) + 0.5f) / count, 0.4f);
-        const auto event = media.draw_event(in(id), {}, down, std::numeric_limits<float>::max(), u);
+        const auto event =
+            media.draw_event(in(id), {}, down, std::numeric_limits<float>::max(), white, u);
         REQUIRE(event.has_value());
         sum += static_cast<double>(event->distance) / count;
     }
@@ -169,10 +185,52 @@ TEST_CASE("fog ends at its sphere, from wherever one looks", "[media]")
     CHECK(depth(body, {0, 0, 9}, {0, 0, -9}) == Approx(18.0f).epsilon(1e-4));
     const SegmentEnd far = in(fog, {0, 0, 100});
     const auto event =
-        media.draw_event(far, {}, down, std::numeric_limits<float>::max(), {0.25f, 0.0f});
+        media.draw_event(far, {}, down, std::numeric_limits<float>::max(), white, {0.25f, 0.0f});
     REQUIRE(event.has_value());
     CHECK(event->distance == Approx(97.0 + 2.0 * -std::log(0.75)));
-    CHECK_FALSE(media.draw_event(far, {}, -down, std::numeric_limits<float>::max(), {0.999f, 0}));
+    CHECK_FALSE(
+        media.draw_event(far, {}, -down, std::numeric_limits<float>::max(), white, {0.999f, 0}));
+}
+
+TEST_CASE("walks scatter until they are absorbed or leave the body", "[media]")
+{
+    const Medium milk{.extinction = Rgb(10.0f), .scattering = Rgb(9.0f)};
+    CHECK(milk.mean_scatterings(0.0f) == 1.0f);
+    CHECK(milk.mean_scatterings(0.1f) == Approx(1.9f));     // leaves
+    CHECK(milk.mean_scatterings(100.0f) == Approx(10.0f));  // is absorbed
+    Medium forward = milk;
+    forward.anisotropy = 0.5f;
+    CHECK(forward.mean_scatterings(0.1f) == Approx(1.45f));
+    CHECK(forward.mean_scatterings(100.0f) == Approx(5.5f));
+    const Medium bright{.extinction = Rgb(10.0f), .scattering = Rgb(10.0f)};
+    CHECK(bright.mean_scatterings(0.1f) == Approx(2.0f));
+    CHECK(bright.mean_scatterings(100.0f) == Approx(30.0f));
+    const Medium red{.extinction = {10.0f, 10.0f, 0.0f}, .scattering = {9.0f, 0.0f, 0.0f}};
+    CHECK(red.mean_scatterings(100.0f) == Approx((10.0f + 1.0f + 1.0f) / 3.0f));
+}
+
+TEST_CASE("media know the largest body that they fill", "[media]")
+{
+    test::SceneBuilder builder;
+    MaterialDesc milk = test::glass(0.0f);
+    milk.attenuation_color = Rgb(0.5f);
+    milk.attenuation_distance = 0.5f;
+    milk.volume_scatter.color = Rgb(0.8f);
+    builder.cube({-4, 0, 0}, 0.1f, milk);
+    builder.cube({4, 0, 0}, 1.0f, milk);
+    builder.cube({0, 0, 0}, 0.2f, milk);
+    builder.desc.instances.back().world_from_object *= 0.5f;
+    builder.desc.instances.back().world_from_object[3][3] = 1.0f;
+    builder.desc.fog = MediumDesc{.extinction = Rgb(0.1f), .albedo = Rgb(0.9f)};
+    const World world(std::move(builder.desc));
+    const Media& media = world.media();
+    const MediumId id = world.medium_at({4, 0, 0});
+    REQUIRE(world.medium_at({-4, 0, 0}) == id);
+    // A cube of edge 2 has a mean chord of 4/3.
+    CHECK(media.mean_scatterings(id) == Approx(media[id].mean_scatterings(4.0f / 3.0f)));
+    CHECK(media.mean_scatterings(id) > 1.5f);
+    CHECK(media.mean_scatterings(media.fog()) == 1.0f);
+    CHECK(media.mean_scatterings(MediumId::clear) == 1.0f);
 }
 
 TEST_CASE("fog is around bodies and lights, and what bodies hold within them", "[media]")

@@ -136,8 +136,9 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
     for (int depth = 1; depth <= options_.transport.max_depth; ++depth) {
         ++sample.rays.camera;
         const SegmentKey segment = sample.segment(0, depth);
-        const SegmentSample event = sample_segment(sample, ray.origin, ray.direction, segment,
-                                                   {.from_camera = true, .vertices = depth});
+        const SegmentSample event =
+            sample_segment(sample, ray.origin, ray.direction, segment,
+                           {.from_camera = true, .vertices = depth, .beta = beta});
         std::optional<FogArrival> arrival;
         if (event.fog && fog_sampling_) {
             const FogSegment fog{ray.origin.p, ray.direction, *event.fog};

@@ -7,12 +7,12 @@
 
 namespace bdpt {
 
-/// Random choice of the colour channel by whose extinction a walk samples its next distance. Each
-/// channel is as probable as its share of the throughput. If the weight of a distance is its
-/// transmittance over the mean density of all channels, distances leave the sum of the throughput's
-/// channels as it is. The choice equals the balance heuristic over whole walks, each by one channel
-/// [Wilkie et al. 2014, "Hero Wavelength Spectral Sampling", sec. 3]. With equal probabilities the
-/// throughput would vary more with each scattering.
+/// Random choice of the colour channel whose extinction a walk uses to sample its next distance.
+/// The probability of a channel is its share of the throughput. The walk divides by the mean of the
+/// channels' densities, weighted by these probabilities; then the sum of the throughput's channels
+/// does not depend on the distances. This is the balance heuristic over whole walks that use one
+/// channel each [Wilkie et al. 2014, "Hero Wavelength Spectral Sampling", sec. 3]. With equal
+/// probabilities, the throughput would vary more with each scattering event.
 class ChannelChoice {
 public:
     /// `beta` is the throughput of the walk, >= 0.

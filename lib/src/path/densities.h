@@ -31,8 +31,8 @@ struct LightDensities {
 /// Returns how many samples MIS weights count for a connection between two vertices, in (0, 1].
 ///
 /// A camera path and a light path that scatter n times in the same body have n^2 connections there,
-/// which vary together: they are bright where the light path happens to come near. Weights that
-/// count each as a sample of its own would prefer them to what one path finds alone, such as
+/// which vary together: all are bright if the light path comes near, and otherwise dark. Weights
+/// that count each of them as a sample would prefer them to what one path finds alone, such as
 /// splats. Weights that count 1 / n^2 treat them like one sample [cf. Grittmann et al. 2021,
 /// "Correlation-Aware Multiple Importance Sampling for Bidirectional Rendering Algorithms"].
 [[nodiscard]] inline float connection_count(const World& world, const PathVertex& a,

@@ -80,7 +80,7 @@ public:
     [[nodiscard]] std::optional<FogSpan> fog_between(const SegmentEnd& a, const SegmentEnd& b,
                                                      Vec3 w, float distance) const noexcept;
     [[nodiscard]] MediumId fog() const { return fog_; }
-    /// Takes note of a body that the medium fills.
+    /// Notes that the medium fills a body; `mean_chord` as in `Medium::mean_scatterings`.
     void fill_body(MediumId id, float mean_chord);
     /// Returns `Medium::mean_scatterings` in the largest of its bodies; 1 without any, as for fog.
     [[nodiscard]] float mean_scatterings(MediumId id) const
@@ -108,8 +108,8 @@ private:
     /// Returns the part of the segment that a medium fills.
     [[nodiscard]] FogSpan filled(MediumId medium, Vec3 from, Vec3 w, float distance) const noexcept;
 
-    std::vector<Medium> media_{Medium{}};  // one per id
-    std::vector<float> mean_scatterings_{1.0f};
+    std::vector<Medium> media_{Medium{}};        // one per id
+    std::vector<float> mean_scatterings_{1.0f};  // one per id
     bool any_scatters_ = false;
     MediumId fog_ = MediumId::clear;
     BoundingSphere extent_;  // extent of the fog

@@ -79,6 +79,7 @@ void WorldBuilder::build(Isa isa)
     build_trees(isa);
     w.warnings_ = precision_warnings(w.desc_, *w.geometry_);
     find_enclosing_volumes();
+    measure_bodies();
     add_lights();
 }
 

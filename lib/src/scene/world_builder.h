@@ -49,11 +49,12 @@ private:
     [[nodiscard]] std::shared_ptr<const World::Bodies> find_bodies(
         std::vector<std::uint32_t> instances) const;
     void warn_of_open_volumes();
-    /// Tells the media how large the bodies are that they fill.
-    void measure_bodies();
     /// Adds materials by their surroundings. `around` holds for each instance the one that contains
     /// it, if any.
     void give_surroundings(const std::vector<std::optional<std::uint32_t>>& around);
+    /// Tells the media how large the bodies are that they fill; after materials know their
+    /// surroundings.
+    void measure_bodies();
 
     World& world_;
     const World* like_;

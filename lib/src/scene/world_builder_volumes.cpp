@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-// The part of WorldBuilder that finds nested bodies.
+// The part of WorldBuilder that finds nested bodies and measures those that scatter light.
 
 namespace bdpt {
 
@@ -39,7 +39,6 @@ void WorldBuilder::find_enclosing_volumes()
         w.bodies_ = find_bodies(std::move(instances));
         give_surroundings(w.bodies_->around);
     }
-    measure_bodies();
 }
 
 /// Returns the bodies of `like_`, if they are the same and no ray passes surfaces at random.
@@ -91,6 +90,9 @@ void WorldBuilder::give_surroundings(const std::vector<std::optional<std::uint32
 void WorldBuilder::measure_bodies()
 {
     World& w = world_;
+    if (!w.media_.any_scatters()) {
+        return;
+    }
     for (std::size_t i = 0; i < w.desc_.instances.size(); ++i) {
         const auto material = static_cast<std::size_t>(w.material_ids_[i]);
         const MediumId within = w.material_sources_[material].within;
@@ -103,7 +105,7 @@ void WorldBuilder::measure_bodies()
             return 2.0f * length(Vec3(instance.world_from_object[axis])) * box->half[axis];
         };
         const float faces = edge(0) * edge(1) + edge(1) * edge(2) + edge(2) * edge(0);
-        // The mean chord of a convex body is 4 V / S, of its box too.
+        // The mean chord of a convex body is 4 V / S; that of its bounding box stands for it.
         w.media_.fill_body(within,
                            faces > 0.0f ? 2.0f * edge(0) * edge(1) * edge(2) / faces : 0.0f);
     }

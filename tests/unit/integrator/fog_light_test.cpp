@@ -59,6 +59,31 @@ double mean_of_globe(LightSampling lights, int light_samples)
 
 }  // namespace
 
+TEST_CASE("coloured fog that absorbs nothing cannot be seen before an even sky", "[media]")
+{
+    // Not by a single path: distances do not change the sum of its channels.
+    test::SceneBuilder builder;
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1.0f)}}});
+    builder.cube({0.0f, 0.0f, 0.0f}, 0.6f, test::lambertian(Rgb(1.0f)));
+    builder.desc.fog =
+        MediumDesc{.extinction = {0.3f, 1.0f, 4.0f}, .albedo = Rgb(1.0f), .anisotropy = 0.2f};
+    const Scene scene(std::move(builder.desc));
+    RenderOptions options;
+    options.integrator = IntegratorKind::pt;
+    options.film = {.width = 8, .height = 8};
+    options.sampling.samples.end = 1;
+    options.transport.max_depth = 200;
+    options.transport.rr_start = 200;
+    const RenderResult result = render(scene, test::camera_at({0, 0, 3}, {0, 0, 0}, 0.9f), options);
+    int coloured = 0;
+    for (const Rgb& pixel : result.film.develop().pixels) {
+        CHECK(pixel.r + pixel.g + pixel.b == Approx(3.0f).epsilon(1e-3));
+        coloured += pixel.r > 1.1f || pixel.b > 1.1f ? 1 : 0;
+    }
+    CHECK(coloured > 16);
+}
+
 TEST_CASE("a lamp in thin fog has no noise, for points of the fog are chosen for it", "[media]")
 {
     const Scene scene = thin_fog();

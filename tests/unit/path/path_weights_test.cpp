@@ -294,8 +294,7 @@ TEST_CASE("distances in coloured media leave the sum of the throughput as it is"
     int longest = 0;
     const auto check = [&](float expected) {
         for (int k = 1; k < path.size() && path[k].kind == VertexKind::medium; ++k) {
-            // The phase function of white scattering weighs by nothing, but `beta` of a medium
-            // vertex lacks sigma_s.
+            // `beta` excludes the scattering at its vertex, and so its factor sigma_s.
             const Rgb scattered = path[k].beta * Rgb(2.0f, 8.0f, 30.0f);
             REQUIRE(sum(scattered) == Approx(expected).epsilon(1e-4));
             longest = std::max(longest, k);

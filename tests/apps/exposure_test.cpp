@@ -1,7 +1,14 @@
 // --exposure: by the light that falls in, not by what it falls on.
 
+#include <bdpt/image.h>
+#include <bdpt/io/exr.h>
+
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -57,6 +64,46 @@ std::string cube_of(const ScratchFolder& folder, const std::string& albedo)
         .string();
 }
 
+/// That of a still image [EV].
+double exposure_of_still(const ScratchFolder& folder, const std::string& scene, const Words& more)
+{
+    Words words{"render",
+                scene,
+                "--size",
+                "32x16",
+                "--spp",
+                "4",
+                "--json",
+                "--integrator",
+                "mis",
+                "-o",
+                (folder / "still.png").string()};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run(words);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    std::istringstream lines(outcome.out);
+    std::optional<double> exposure;
+    for (std::string line; std::getline(lines, line);) {
+        const auto event = nlohmann::json::parse(line);
+        if (event.contains("exposure")) {
+            exposure = event.at("exposure").get<double>();
+        }
+    }
+    REQUIRE(exposure.has_value());
+    return *exposure;
+}
+
+/// An environment that is black but for a bright band around the horizon.
+std::filesystem::path write_dark_sky(const ScratchFolder& folder)
+{
+    Image sky{.width = 16, .height = 8, .pixels = std::vector<Rgb>(std::size_t{16} * 8)};
+    std::fill_n(sky.pixels.begin() + 3 * 16, 16, Rgb(20.0f));
+    const std::filesystem::path file = folder / "dark-sky.exr";
+    io::write_exr(file, sky, {});
+    return file;
+}
+
 }  // namespace
 
 TEST_CASE("an exposure is a number, or auto or light with perhaps a number behind it")
@@ -106,37 +153,35 @@ TEST_CASE("white, grey and black things have the same exposure by the light on t
           Approx(grey - 1.0).margin(1e-3));
 }
 
-TEST_CASE("things under light that bdpt has made have the same exposure, whatever their colour")
+TEST_CASE("things in an environment have the same exposure, whatever their colour")
 {
     const ScratchFolder folder;
-    const auto shown = [&](const char* albedo, const Words& more) {
-        Words words{"render",
-                    cube_of(folder, albedo),
-                    "--size",
-                    "32x16",
-                    "--spp",
-                    "4",
-                    "--json",
-                    "--integrator",
-                    "mis",
-                    "-o",
-                    (folder / "b.png").string()};
-        words.insert(words.end(), more.begin(), more.end());
-        std::istringstream lines(run(words).out);
-        double exposure = 1e9;
-        for (std::string line; std::getline(lines, line);) {
-            const auto event = nlohmann::json::parse(line);
-            exposure = event.value("exposure", exposure);
-        }
-        return exposure;
-    };
-    for (const Words& light : {Words{}, Words{"--env", "default"}, Words{"--env", "studio"}}) {
-        const double grey = shown("0.2", light);
-        CHECK(shown("0.01", light) == Approx(grey).margin(0.1));
-        CHECK(shown("1", light) == Approx(grey).margin(0.1));
-        Words words = light;
-        words.insert(words.end(), {"--exposure", "auto"});
-        CHECK(std::abs(shown("0.01", words) - shown("1", words)) > 0.3);
+    const std::string sky = write_dark_sky(folder).string();
+    for (const Words& light :
+         {Words{}, Words{"--env", "default"}, Words{"--env", "studio"}, Words{"--env", sky}}) {
+        const auto exposure = [&](const char* albedo, const Words& more) {
+            Words words = light;
+            words.insert(words.end(), more.begin(), more.end());
+            return exposure_of_still(folder, cube_of(folder, albedo), words);
+        };
+        const double grey = exposure("0.2", {});
+        CHECK(exposure("0.01", {}) == Approx(grey).margin(0.1));
+        CHECK(exposure("1", {}) == Approx(grey).margin(0.1));
+        const Words automatic{"--exposure", "auto"};
+        CHECK(std::abs(exposure("0.01", automatic) - exposure("1", automatic)) > 0.3);
+    }
+}
+
+TEST_CASE("inside of a scene, and without an environment, the image decides on its exposure")
+{
+    const ScratchFolder folder;
+    for (const char* name : {"room-environment", "cornell-box"}) {
+        CAPTURE(name);
+        const std::string scene = std::string(BDPT_SOURCE_DIR) + "/scenes/" + name + ".gltf";
+        const double by_default = exposure_of_still(folder, scene, {});
+        CHECK(by_default == exposure_of_still(folder, scene, {"--exposure", "auto"}));
+        CHECK(std::abs(by_default - exposure_of_still(folder, scene, {"--exposure", "light"})) >
+              0.3);
     }
 }
 

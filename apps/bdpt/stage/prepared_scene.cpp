@@ -322,9 +322,9 @@ Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments
             .is_framed = !from_file.has_value()};
 }
 
-bool has_own_environment(const PreparedScene& stage)
+bool has_environment(const PreparedScene& stage)
 {
-    return stage.environment_name == "default" || stage.environment_name == "studio";
+    return stage.environment_name != "none";
 }
 
 std::vector<std::string> camera_names(const PreparedScene& stage)

@@ -32,8 +32,8 @@ struct PreparedScene {
     io::MemoryBudget memory;                     ///< the scene's memory is already charged
 };
 
-/// Tests whether bdpt generates the light from infinity: the default sky or the studio.
-[[nodiscard]] bool has_own_environment(const PreparedScene& stage);
+/// Tests whether an environment lights the scene.
+[[nodiscard]] bool has_environment(const PreparedScene& stage);
 
 /// A camera and the size of its image.
 struct Viewpoint {

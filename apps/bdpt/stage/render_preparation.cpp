@@ -177,7 +177,7 @@ bool meters_light(const RenderArguments& arguments, const PreparedScene& stage)
         return true;
     }
     return exposure ? exposure->base == ExposureBase::light
-                    : has_own_environment(stage) && is_seen_from_outside(stage);
+                    : has_environment(stage) && is_seen_from_outside(stage);
 }
 
 std::optional<float> metered_exposure(const PreparedScene& stage, const Viewpoint& seen)

@@ -39,8 +39,8 @@ void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Si
                                             const PreparedScene& stage);
 
 /// Tests whether the light is metered for the exposure of images: if `--exposure light` says so,
-/// with a background and for frames; and, unless another exposure is requested, if bdpt generates
-/// the light from infinity and the camera is outside of the scene.
+/// with a background and for frames; and, unless another exposure is requested, if an environment
+/// lights the scene and the camera is outside of it.
 [[nodiscard]] bool meters_light(const RenderArguments& arguments, const PreparedScene& stage);
 
 /// Returns the exposure [EV] that makes a white card white that lies on the visible surfaces of

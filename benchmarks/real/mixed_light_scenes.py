@@ -11,6 +11,7 @@ from materials import glass, mirror
 from shapes import box_quads, inner_quads, quads, sphere
 
 SUN = (-0.5, -1, -0.6)
+ROOM = (4.0, 3.0)  # width and height [m]
 
 
 def add_box(gltf, name, material, low, high, position=(0, 0, 0), degrees=0):
@@ -23,6 +24,32 @@ def add_lamp(gltf, name, corner, size, radiance):
     lamp = gltf.lambertian(name, (0.7, 0.7, 0.7), emission=(radiance,) * 3)
     x, y, z = corner
     corners = ((x, y, z), (x + size[0], y, z), (x + size[0], y, z + size[1]), (x, y, z + size[1]))
+    gltf.node(name, mesh=gltf.mesh(name, (gltf.shape(*quads(corners)), lamp)))
+
+
+def add_wall(gltf, name, materials, room, corner, along_x, hinge_degrees):
+    """Adds one side of a room of that width and height, with a door in its middle that is open by `hinge_degrees`."""
+    (white, wood), (size, height), (x, z) = materials, room, corner
+    door, t = 0.9, 0.05
+    a, b = (size - door) / 2, (size + door) / 2
+    for part, u0, u1, y0 in (("left", 0, a, 0), ("right", b, size, 0), ("top", a, b, 2.1)):
+        low, high = ((x + u0, y0, z - t), (x + u1, height, z + t)) if along_x else \
+            ((x - t, y0, z + u0), (x + t, height, z + u1))
+        add_box(gltf, f"{name}, {part}", white, low, high)
+    place = (x + a, 0, z) if along_x else (x, 0, z + b)
+    add_box(gltf, f"{name}, door", wood, (0, 0.01, -0.02), (door - 0.02, 2.09, 0.02), place,
+            hinge_degrees + (0 if along_x else 90))
+
+
+def add_uplight(gltf, name, material, corner, side, radiance):
+    """Adds a square lamp that emits upwards from a box, open at the top, that begins at `corner`."""
+    (x, y, z), t = corner, 0.02
+    for i, (low, high) in enumerate((((-t, -t, -t), (side + t, -t / 2, side + t)), ((-t, 0, -t), (side + t, 0.15, 0)),
+                                     ((-t, 0, side), (side + t, 0.15, side + t)), ((-t, 0, 0), (0, 0.15, side)),
+                                     ((side, 0, 0), (side + t, 0.15, side)))):
+        add_box(gltf, f"{name}, side {i}", material, low, high, corner)
+    lamp = gltf.lambertian(name, (0.7, 0.7, 0.7), emission=(radiance,) * 3)
+    corners = ((x, y, z + side), (x + side, y, z + side), (x + side, y, z), (x, y, z))
     gltf.node(name, mesh=gltf.mesh(name, (gltf.shape(*quads(corners)), lamp)))
 
 
@@ -47,7 +74,7 @@ def six_rooms(title="six rooms"):
     behind a corner, a window that admits sun and sky; the camera looks through two doors."""
     gltf = Gltf(title)
     white, wood = gltf.lambertian("white", (0.8, 0.78, 0.75)), gltf.lambertian("wood", (0.4, 0.28, 0.16))
-    size, height, t = 4.0, 3.0, 0.05
+    size, height, t = *ROOM, 0.05
     floor_and_ceiling = inner_quads((0, 0, 0), (3 * size, height, 2 * size), "-y+y")
     gltf.node("floor and ceiling", mesh=gltf.mesh("floor and ceiling", (gltf.shape(*quads(*floor_and_ceiling)), white)))
     for name, low, high in (("front", (0, 0, 2 * size), (3 * size, height, 2 * size + t)),
@@ -58,19 +85,9 @@ def six_rooms(title="six rooms"):
                             ("below the window", (2 * size + 1, 0, -t), (2 * size + 3, 0.9, 0)),
                             ("roof 1", (0, height, 0), (3 * size, height + t, 2 * size))):
         add_box(gltf, name, white, low, high)
-    door = 0.9
 
     def wall(name, corner, along_x, hinge_degrees):
-        """Adds one side of a room, with a door in its middle that is open by `hinge_degrees`."""
-        x, z = corner
-        a, b = (size - door) / 2, (size + door) / 2
-        for part, u0, u1, y0 in (("left", 0, a, 0), ("right", b, size, 0), ("top", a, b, 2.1)):
-            low, high = ((x + u0, y0, z - t), (x + u1, height, z + t)) if along_x else \
-                ((x - t, y0, z + u0), (x + t, height, z + u1))
-            add_box(gltf, f"{name}, {part}", white, low, high)
-        place = (x + a, 0, z) if along_x else (x, 0, z + b)
-        add_box(gltf, f"{name}, door", wood, (0, 0.01, -0.02), (door - 0.02, 2.09, 0.02), place,
-                hinge_degrees + (0 if along_x else 90))
+        add_wall(gltf, name, (white, wood), (size, height), corner, along_x, hinge_degrees)
 
     for i in range(3):
         wall(f"between rows {i}", (size * i, size), True, 40 + 15 * i)
@@ -82,6 +99,29 @@ def six_rooms(title="six rooms"):
     gltf.node("ball", (7.2, 0.4, 5.2), mesh=gltf.mesh("ball", (gltf.shape(*sphere(48, 24, 0.4)), white)))
     gltf.light("sun", "directional", 5.0, direction=(-0.35, -0.7, 1))
     eye, target = (7.6, 1.6, 7.6), (5.2, 1.0, 4.0)
+    gltf.camera(eye, sub(target, eye), math.radians(65), 16 / 9)
+    return gltf
+
+
+def offices(columns=6, rows=2):
+    """Builds rooms of 4 x 3 x 4 m in rows, with doors ajar between neighbours and in each a lamp turned to the ceiling.
+    The camera is in one of them."""
+    gltf = Gltf("offices")
+    white, wood = gltf.lambertian("white", (0.8, 0.78, 0.75)), gltf.lambertian("wood", (0.4, 0.28, 0.16))
+    size, height = ROOM
+    shell = inner_quads((0, 0, 0), (columns * size, height, rows * size), "-x+x-y+y-z+z")
+    gltf.node("shell", mesh=gltf.mesh("shell", (gltf.shape(*quads(*shell)), white)))
+    for i in range(columns):
+        for k in range(rows):
+            corner = (size * i, size * k)
+            if k > 0:
+                add_wall(gltf, f"between rows {i} {k}", (white, wood), ROOM, corner, True, 15 + 10 * (i % 3))
+            if i > 0:
+                add_wall(gltf, f"in a row {i} {k}", (white, wood), ROOM, corner, False, -20 - 8 * (k % 3))
+            add_uplight(gltf, f"lamp {i} {k}", wood, (corner[0] + 0.6, 1.6, corner[1] + 0.6), 0.3, 60)
+    add_box(gltf, "table", wood, (-0.6, 0.7, -0.4), (0.6, 0.75, 0.4), (2 * size + 1.8, 0, 1.8), 30)
+    gltf.node("ball", (2 * size + 2.6, 0.4, 1.2), mesh=gltf.mesh("ball", (gltf.shape(*sphere(48, 24, 0.4)), white)))
+    eye, target = (2 * size + 3.6, 1.6, 3.6), (2 * size + 1.2, 1.0, 0.5)
     gltf.camera(eye, sub(target, eye), math.radians(65), 16 / 9)
     return gltf
 
@@ -130,7 +170,7 @@ def lamp_room(title="a room with a lamp and a window"):
 
 
 MIXED_LIGHT_SCENES = {"floor-6": lambda: floor(6), "floor-60": lambda: floor(60), "floor-200": lambda: floor(200),
-                      "six-rooms": six_rooms, "shop": shop, "lamp-room": lamp_room}
+                      "six-rooms": six_rooms, "shop": shop, "lamp-room": lamp_room, "offices": offices}
 
 
 def write(folder):

@@ -46,6 +46,7 @@ SCENES = (
     ("lamp room", "lamp-room.gltf", "--env {hdr}/courtyard.exr"),
     ("shop", "shop.gltf", "--env {hdr}/courtyard.exr"),
     ("six rooms", "six-rooms.gltf", "--env {hdr}/courtyard.exr"),
+    ("offices", "offices.gltf", ""),
     ("room-environment", "room-environment.gltf", ""),
     ("room-environment, sunset", "room-environment.gltf", "--env {hdr}/sunset.exr"),
 )

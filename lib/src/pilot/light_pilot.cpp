@@ -80,6 +80,45 @@ bool can_learn_groups(const World& world, const RenderOptions& options)
            options.sampling.lights != LightSampling::power;
 }
 
+/// Returns the mesh that a light is a triangle of; null for other lights.
+const PlacedMesh* mesh_of(const Light& light)
+{
+    const auto* triangle = std::get_if<TriangleLight>(&light.model());
+    return triangle != nullptr ? &triangle->surface() : nullptr;
+}
+
+/// Tests whether there may be several lamps: lights that are not triangles of the same mesh, or
+/// triangles of one that extends over much of the scene.
+bool may_have_several_lamps(const World& world)
+{
+    constexpr float max_extent_of_a_lamp = 0.25f;  // relative to that of the scene
+    const LightSet& lights = world.lights();
+    std::optional<const PlacedMesh*> mesh;
+    LightBounds all;
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        const Light& light = lights[LightId{i}];
+        const auto bounds = light.bounds();
+        if (!bounds || !lights.next_event_lights().has_power(LightId{i})) {
+            continue;
+        }
+        if (mesh && (*mesh == nullptr || mesh_of(light) != *mesh)) {
+            return true;
+        }
+        all = mesh ? merged(all, *bounds) : *bounds;
+        mesh = mesh_of(light);
+    }
+    return distance(all.min, all.max) >
+           max_extent_of_a_lamp * 2.0f * world.bounding_sphere().radius;
+}
+
+/// Tests whether there is a choice between lights that light paths can learn. Takes a while if one
+/// mesh has many lights.
+bool can_learn_starts(const World& world, const RenderOptions& options)
+{
+    return can_learn_groups(world, options) ||
+           (options.sampling.lights != LightSampling::power && may_have_several_lamps(world));
+}
+
 /// Returns the directional lights, up to a number beyond which they are not worth a ray each.
 std::vector<LightId> find_suns(const World& world)
 {
@@ -121,13 +160,16 @@ std::optional<GroupShares> make_shares(std::vector<GroupShares::Finding> finding
 /// Camera paths of one row of the pilot.
 class LightPilotRow {
 public:
-    LightPilotRow(const World& world, const MovingCamera& camera, const RenderOptions& options)
+    /// `learns_starts` is the result of `can_learn_starts`.
+    LightPilotRow(const World& world, const MovingCamera& camera, const RenderOptions& options,
+                  bool learns_starts)
         : world_(world),
           camera_(camera),
           options_(options),
           environment_(find_environment(world)),
           suns_(find_suns(world)),
           learns_groups_(can_learn_groups(world, options)),
+          learns_starts_(learns_starts),
           path_(std::min(options.transport.max_depth, light_pilot_edges) + 1)
     {}
 
@@ -185,7 +227,7 @@ private:
                 sample_light(sample, t, {.id = *world_.lights().environment(), .probability = 1.0f},
                              1.0f);
             }
-            if (learns_groups_) {
+            if (learns_starts_) {
                 sample_group(sample, vertex, t);
             }
         }
@@ -281,7 +323,7 @@ private:
             note(vertex, incident->wi, transmission.has_value());
         }
         float value = 0.0f;
-        if (transmission && learns_groups_) {
+        if (transmission && learns_starts_) {
             // A BSDF sample may find the same light, and takes its share of the weight.
             const Rgb found =
                 f.f_cos * light.incident_weight(*incident) * transmission->transmittance;
@@ -303,7 +345,7 @@ private:
     /// Records the lights that the path hit after vertices which light paths can be connected to.
     void note_hits(SampleContext& sample)
     {
-        for (int k = 2; learns_groups_ && k < path_.size(); ++k) {
+        for (int k = 2; learns_starts_ && k < path_.size(); ++k) {
             const PathVertex& x0 = path_[k];
             const PathVertex& x1 = path_[k - 1];
             if (x0.light && !is_black(x0.emission) && has_connectible(k - 1)) {
@@ -351,6 +393,7 @@ private:
     const EnvironmentLight* environment_;  // if there is one
     std::vector<LightId> suns_;
     bool learns_groups_;
+    bool learns_starts_;  // as well as groups, or without
     Subpath path_;
     RayCounts rays_;
     Finds contributions_;
@@ -365,7 +408,8 @@ bool can_learn_light(const World& world, const RenderOptions& options)
            options.integrator != IntegratorKind::pt && options.integrator != IntegratorKind::nee &&
            options.integrator != IntegratorKind::lt && options.transport.max_depth >= 2 &&
            (find_environment(world) != nullptr || can_learn_groups(world, options) ||
-            (options.integrator != IntegratorKind::mis && !find_suns(world).empty())) &&
+            (options.integrator != IntegratorKind::mis &&
+             (can_learn_starts(world, options) || !find_suns(world).empty()))) &&
            world.media().fog() == MediumId::clear;
 }
 
@@ -377,13 +421,15 @@ std::unique_ptr<const LearnedLight> learn_light(const World& world, const Moving
         return nullptr;
     }
     const int side = light_pilot_side(options);
+    const bool learns_starts = can_learn_starts(world, options);
     std::vector<Finds> rows(static_cast<std::size_t>(side));
     tbb::parallel_for(0, side, [&](int row) {
         if (abandon.stop_requested()) {
             return;
         }
         const FlushDenormals flush;
-        rows[static_cast<std::size_t>(row)] = LightPilotRow(world, camera, options).trace(row);
+        rows[static_cast<std::size_t>(row)] =
+            LightPilotRow(world, camera, options, learns_starts).trace(row);
     });
     if (abandon.stop_requested()) {
         return nullptr;

@@ -13,8 +13,8 @@ class MovingCamera;
 class World;
 
 /// Tests whether learning can help this render: it needs an environment, several groups of lights,
-/// or a sun and light paths; no fog, an integrator with other techniques that find rare light, and
-/// options that request it (`EnvironmentSampling::learned`).
+/// or light paths and a sun or several lamps; no fog, an integrator with other techniques that find
+/// rare light, and options that request it (`EnvironmentSampling::learned`).
 [[nodiscard]] bool can_learn_light(const World& world, const RenderOptions& options);
 
 /// Traces camera paths all over the image and records the contributions of light samples at their

@@ -228,6 +228,49 @@ TEST_CASE("light pilot: light paths start where the image's indirect light comes
     CHECK(probability_of_sky(thin_glass(0.0f)) > 0.7f);
 }
 
+TEST_CASE("light pilot: light paths start at the lamp of the room that is seen", "[pilot]")
+{
+    // A closed room, and outside of it a floodlight or sign that has nearly all power.
+    const auto room = [] {
+        SceneBuilder builder;
+        builder.walls(lambertian(Rgb(0.7f)), lambertian(Rgb(0.6f)));
+        builder.ceiling(lambertian(Rgb(0.7f))).front(lambertian(Rgb(0.7f)));
+        builder.quad({-9, -9, -9}, {9, -9, -9}, {9, -9, 9}, {-9, -9, 9}, lambertian(Rgb(0.5f)));
+        return builder;
+    };
+    const CameraDesc inside = camera_at({0.0f, 0.0f, 0.9f}, {0.0f, 0.0f, 0.0f}, 1.2f);
+    const auto probability_of_last = [&](const Scene& scene) {
+        const LightSet& lights = scene.world().lights();
+        const LightId last{static_cast<std::uint32_t>(lights.size() - 1)};
+        REQUIRE(lights.emission_probability(last) > 0.9f);
+        const auto found = learned_light(scene.world(), inside, options_of(IntegratorKind::bdpt));
+        REQUIRE(found);
+        CHECK_FALSE(found->groups);
+        REQUIRE(found->starts);
+        return lights.emission_probability(last, found.get());
+    };
+    SECTION("two lights")
+    {
+        SceneBuilder builder = room();
+        builder.lamp(0.9f, 0.1f, Rgb(1.0f));
+        builder.light(PointLightDesc{.position = {0.0f, 5.0f, 0.0f}, .intensity = Rgb(100.0f)});
+        CHECK(probability_of_last(Scene(std::move(builder.desc))) < 0.35f);
+    }
+    SECTION("a mesh of two lamps")
+    {
+        SceneBuilder builder = room();
+        builder.lamp(0.9f, 0.1f, Rgb(1.0f));
+        MeshDesc& lamps = builder.desc.meshes.back();
+        const auto corners = static_cast<std::uint32_t>(lamps.positions.size());
+        for (const Vec3 corner : {Vec3(7, 5, 7), Vec3(9, 5, 7), Vec3(9, 5, 9)}) {
+            lamps.positions.push_back(corner);
+            lamps.uvs[0].emplace_back(0.0f);
+        }
+        lamps.triangles.push_back({corners, corners + 1, corners + 2});
+        CHECK(probability_of_last(Scene(std::move(builder.desc))) < 0.35f);
+    }
+}
+
 TEST_CASE("light pilot: direct light brings no light paths", "[pilot]")
 {
     // The sun shines on a dark terrace alone, which reflects little of it into the room; the lamp
@@ -290,6 +333,24 @@ TEST_CASE("light pilot: it learns nothing where nothing can be learned", "[pilot
         const Scene sunny(std::move(builder.desc));
         CHECK_FALSE(learned(sunny, options_of(IntegratorKind::mis)));
         CHECK(learned(sunny, options));
+    }
+    SECTION("two lamps, which mis has no light paths from")
+    {
+        SceneBuilder builder = open_room();
+        builder.desc.lights = {PointLightDesc{}, PointLightDesc{}};
+        const Scene two(std::move(builder.desc));
+        CHECK_FALSE(learned(two, options_of(IntegratorKind::mis)));
+        RenderOptions by_power = options;
+        by_power.sampling.lights = LightSampling::power;
+        CHECK_FALSE(learned(two, by_power));
+        CHECK(learned(two, options));
+    }
+    SECTION("one lamp of several triangles")
+    {
+        SceneBuilder builder = open_room();
+        builder.lamp(0.9f, 0.3f, Rgb(40.0f));
+        builder.desc.lights.clear();
+        CHECK_FALSE(learned(Scene(std::move(builder.desc)), options));
     }
     SECTION("fog")
     {

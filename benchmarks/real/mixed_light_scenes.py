@@ -150,8 +150,9 @@ def shop(title="a shop"):
     return gltf
 
 
-def lamp_room(title="a room with a lamp and a window"):
-    """Builds a room of 4 x 3 x 5 m with a lamp, and a window beside the camera that admits sun and sky."""
+def lamp_room(title="a room with a lamp and a window", glazed=False):
+    """Builds a room of 4 x 3 x 5 m with a lamp, and a window beside the camera that admits sun and sky, through a pane
+    of clear glass if it is `glazed`."""
     gltf = Gltf(title)
     white, blue = gltf.lambertian("white", (0.8, 0.8, 0.8)), gltf.lambertian("blue", (0.2, 0.3, 0.6))
     walls = inner_quads((-2, 0, 0), (2, 3, 5), "-y+y-z+z") + inner_quads((-2, 0, 0), (2, 3, 5), "-x")
@@ -163,6 +164,10 @@ def lamp_room(title="a room with a lamp and a window"):
         add_box(gltf, name, white, low, high)
     add_box(gltf, "block", blue, (-0.5, 0, -0.4), (0.5, 1.1, 0.4), (-0.7, 0, 1.6), 25)
     gltf.node("ball", (0.8, 0.52, 2.1), mesh=gltf.mesh("ball", (gltf.shape(*sphere(48, 24, 0.5)), white)))
+    if glazed:
+        pane = gltf.material("pane", (1, 1, 1), roughness=0, extensions={"transmission": {"transmissionFactor": 1}})
+        corners = ((2.05, 1, 2.6), (2.05, 2.4, 2.6), (2.05, 2.4, 4.2), (2.05, 1, 4.2))
+        gltf.node("pane", mesh=gltf.mesh("pane", (gltf.shape(*quads(corners)), pane)))
     add_lamp(gltf, "lamp", (-0.2, 2.7, 1.5), (0.4, 0.4), 20)
     gltf.light("sun", "directional", 4.0, direction=(-1, -0.8, -0.1))
     gltf.camera((0, 1.5, 4.9), (0, -0.12, -1), math.radians(60), 16 / 9)
@@ -170,7 +175,8 @@ def lamp_room(title="a room with a lamp and a window"):
 
 
 MIXED_LIGHT_SCENES = {"floor-6": lambda: floor(6), "floor-60": lambda: floor(60), "floor-200": lambda: floor(200),
-                      "six-rooms": six_rooms, "shop": shop, "lamp-room": lamp_room, "offices": offices}
+                      "six-rooms": six_rooms, "shop": shop, "lamp-room": lamp_room, "offices": offices,
+                      "glazed-room": lambda: lamp_room("a room with a lamp and a glazed window", glazed=True)}
 
 
 def write(folder):

@@ -44,6 +44,7 @@ SCENES = (
     ("floor of 60 m", "floor-60.gltf", "--env {hdr}/courtyard.exr"),
     ("floor of 200 m", "floor-200.gltf", "--env {hdr}/courtyard.exr"),
     ("lamp room", "lamp-room.gltf", "--env {hdr}/courtyard.exr"),
+    ("glazed room", "glazed-room.gltf", "--env {hdr}/courtyard.exr"),
     ("shop", "shop.gltf", "--env {hdr}/courtyard.exr"),
     ("six rooms", "six-rooms.gltf", "--env {hdr}/courtyard.exr"),
     ("offices", "offices.gltf", ""),

@@ -259,6 +259,16 @@ EqualityCase textured_emitter()
     return in_room("textured emitter", std::move(builder));
 }
 
+/// A room that is lit and seen through its front, a clear sheet.
+EqualityCase room_with_window()
+{
+    SceneBuilder builder = room(plastic(white, 0.4f));
+    builder.ceiling(lambertian(white)).front(thin_glass(0.0f));
+    builder.sphere({0.3f, -0.6f, 0.2f}, 0.4f, lambertian(green));
+    builder.light(EnvironmentLightDesc{.radiance = gradient_sky()});
+    return in_room("room with a window", std::move(builder), std::nullopt);
+}
+
 void add_materials(std::vector<EqualityCase>& cases)
 {
     const auto with_sphere = [&](std::string name, const MaterialDesc& material,
@@ -271,7 +281,13 @@ void add_materials(std::vector<EqualityCase>& cases)
     with_sphere("smooth plastic", plastic(red, 0.0f), std::nullopt);
     with_sphere("rough metal", metal({0.9f, 0.7f, 0.4f}, 0.4f));
     with_sphere("mirror", metal(Rgb(0.95f), 0.0f), std::nullopt);
-    with_sphere("thin glass", thin_glass(0.0f), std::nullopt);
+    MaterialDesc thin = thin_glass(0.0f);
+    with_sphere("clear sheet", thin, std::nullopt);
+    thin.base_color = {0.5f, 0.5f, 0.5f, 1.0f};
+    with_sphere("clear sheet, grey", thin, std::nullopt);
+    thin.base_color = {0.9f, 0.7f, 0.5f, 1.0f};
+    with_sphere("thin glass with a tint", thin, std::nullopt);
+    cases.push_back(room_with_window());
     with_sphere("rough thin glass", thin_glass(0.5f));
     with_sphere("rough glass", glass(0.4f));
     cases.back().detectable_bias_of_light_sampling = 0.05;

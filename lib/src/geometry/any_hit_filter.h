@@ -13,6 +13,8 @@ struct AnyHit {
     std::uint32_t instance = 0;
     std::uint32_t triangle = 0;
     Vec2 barycentrics{0.0f};  ///< weights of the second and third vertex
+    Vec3 ng{0.0f};            ///< as in `TriangleHit`
+    Vec3 direction{0.0f};     ///< of the ray, not unit
     SegmentKey segment;       ///< key of the ray's segment
 };
 

@@ -76,6 +76,8 @@ void filter_hit(const RTCFilterFunctionNArguments* args)
     if (filter->passes(filter->owner, {.instance = instance,
                                        .triangle = hit.primID,
                                        .barycentrics = at.barycentrics,
+                                       .ng = at.ng,
+                                       .direction = query.ray->direction,
                                        .segment = query.ray->segment})) {
         args->valid[0] = 0;
     }
@@ -86,7 +88,8 @@ void let_pass(RTCDevice device, RTCGeometry geometry)
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED) == 0) {
         throw Error(
             ErrorCode::unsupported,
-            "this Embree was built without filter functions, which surfaces with alpha need");
+            "this Embree was built without filter functions, which surfaces need that let rays "
+            "pass, by alpha or as clear glass");
     }
     rtcSetGeometryIntersectFilterFunction(geometry, &filter_hit);
     rtcSetGeometryOccludedFilterFunction(geometry, &filter_hit);

@@ -104,14 +104,31 @@ Material::Material(const MaterialDesc& desc, const TextureImages& images,
     if (has_layers(desc) && !any_turned) {
         layers_ = std::make_shared<const MaterialLayers>(desc, images, albedos, *tables);
     } else if (!varies && !unlit_ && !disperses()) {
-        plain_ = plain_model(surface_, albedos_.at(Wavelength::green));
+        const SpecularAlbedo& albedo = albedos_.at(Wavelength::green);
+        plain_ = plain_model(surface_, albedo);
+        if (is_clear_sheet() && !normal_map_ && !emission_map_) {
+            const float f0 = albedo.normal_reflectance() * surface_.specular_color.x;
+            const float f90 = std::clamp(surface_.specular, 0.0f, 1.0f);
+            clear_sheet_.emplace(std::clamp(f0, 0.0f, 1.0f) * f90, f90,
+                                 std::clamp(surface_.base_color.x, 0.0f, 1.0f), albedo);
+        }
     }
+    even_ = plain_ && !normal_map_ && !clear_sheet_;
     needs_footprint_ = images.mip_maps != nullptr && !unlit_ && (varies || layers_ != nullptr);
     tangent_uv_set_ = normal_map_ ? std::optional(normal_map_->uv_set())
                       : layers_   ? layers_->tangent_uv_set()
                                   : std::nullopt;
     measure_alpha();
     measure_emission();
+}
+
+bool Material::is_clear_sheet() const noexcept
+{
+    const auto is_grey = [](Rgb color) { return color.x == color.y && color.y == color.z; };
+    return surface_.body == Body::thin_walled && surface_.transmission >= 1.0f &&
+           surface_.metallic <= 0.0f && !IsotropicRoughness(surface_.roughness).is_rough() &&
+           is_grey(surface_.base_color) && is_grey(surface_.specular_color) && !unlit_ &&
+           alpha_mode_ == AlphaMode::opaque && is_black(emission_) && !has_inside_;
 }
 
 void Material::measure_alpha()

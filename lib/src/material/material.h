@@ -30,8 +30,8 @@ public:
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
     /// Tests whether the BSDF depends on `ShadingPoint::footprint`.
     [[nodiscard]] bool needs_footprint() const noexcept { return needs_footprint_; }
-    /// Tests whether the BSDF is constant apart from vertex colours.
-    [[nodiscard]] bool is_even() const noexcept { return plain_ && !normal_map_; }
+    /// Tests whether the BSDF is constant apart from vertex colours, and no clear sheet.
+    [[nodiscard]] bool is_even() const noexcept { return even_; }
     /// Returns `bsdf` if it `is_even` and there are no vertex colours; arguments as in
     /// `ShadingPoint`.
     [[nodiscard]] Bsdf even_bsdf(Vec3 ng, Vec3 ns, Vec3 wo) const noexcept
@@ -46,6 +46,12 @@ public:
             *plain_);
     }
 
+    /// Returns the model of a clear sheet, which replaces `bsdf` and `opacity` where there are no
+    /// vertex colours; null for other materials.
+    [[nodiscard]] const ClearSheet* clear_sheet() const noexcept
+    {
+        return clear_sheet_ ? &*clear_sheet_ : nullptr;
+    }
     /// Returns the fraction of rays that hit the surface, in [0, 1]; the others pass through.
     [[nodiscard]] float opacity(const TexturePoint& point) const noexcept;
     /// Returns a lower bound of `opacity` for vertex colours without alpha.
@@ -104,11 +110,15 @@ private:
     [[nodiscard]] Rgb base_color(const TexturePoint& point,
                                  const UvFootprint* footprint) const noexcept;
     [[nodiscard]] float to_opacity(float alpha) const noexcept;
+    /// Tests whether it is a smooth thin sheet that neither tints nor blurs what is behind it,
+    /// provided that no texture is applied.
+    [[nodiscard]] bool is_clear_sheet() const noexcept;
     void measure_alpha();
     void measure_emission();
 
     GltfParameters surface_;           ///< factors, which textures multiply
     std::optional<PlainModel> plain_;  ///< model of a surface without variation
+    std::optional<ClearSheet> clear_sheet_;
     Rgb emission_{0.0f};
     Rgb mean_emission_{0.0f};
     SideMedia media_;
@@ -117,6 +127,7 @@ private:
     bool double_sided_;
     bool unlit_;
     bool needs_footprint_ = false;
+    bool even_ = false;
     AlphaMode alpha_mode_;
     float alpha_;  ///< factor of alpha
     float alpha_cutoff_;

@@ -88,9 +88,10 @@ const PlacedMesh* mesh_of(const Light& light)
 }
 
 /// Tests whether there may be several lamps: lights that are not triangles of the same mesh, or
-/// triangles of one that extends over much of the scene.
+/// triangles of one that has more than a box and extends over much of the scene.
 bool may_have_several_lamps(const World& world)
 {
+    constexpr std::size_t max_triangles_of_a_lamp = 12;
     constexpr float max_extent_of_a_lamp = 0.25f;  // relative to that of the scene
     const LightSet& lights = world.lights();
     std::optional<const PlacedMesh*> mesh;
@@ -107,8 +108,9 @@ bool may_have_several_lamps(const World& world)
         all = mesh ? merged(all, *bounds) : *bounds;
         mesh = mesh_of(light);
     }
-    return distance(all.min, all.max) >
-           max_extent_of_a_lamp * 2.0f * world.bounding_sphere().radius;
+    return lights.next_event_lights().placed_count() > max_triangles_of_a_lamp &&
+           distance(all.min, all.max) >
+               max_extent_of_a_lamp * 2.0f * world.bounding_sphere().radius;
 }
 
 /// Tests whether there is a choice between lights that light paths can learn. Takes a while if one

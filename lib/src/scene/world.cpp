@@ -75,9 +75,18 @@ const Material& World::find_material(std::uint32_t instance) const noexcept
     return materials_[static_cast<std::size_t>(material_ids_[instance])];
 }
 
+const ClearSheet* World::clear_sheet(std::uint32_t instance) const noexcept
+{
+    const ClearSheet* sheet = find_material(instance).clear_sheet();
+    return sheet != nullptr && placed_[instance].mesh().colors.empty() ? sheet : nullptr;
+}
+
 bool World::may_be_passed(std::uint32_t instance) const noexcept
 {
     const Material& material = find_material(instance);
+    if (clear_sheet(instance) != nullptr) {
+        return true;
+    }
     return material.alpha_mode() != AlphaMode::opaque &&
            (material.min_opacity() < 1.0f || !placed_[instance].mesh().colors.empty());
 }
@@ -85,6 +94,14 @@ bool World::may_be_passed(std::uint32_t instance) const noexcept
 bool World::is_passed(const AnyHit& crossing) const noexcept
 {
     const Material& material = find_material(crossing.instance);
+    if (const ClearSheet* sheet = clear_sheet(crossing.instance)) {
+        const Vec3 direction = crossing.direction;
+        const Vec3 ns = shading_normal(placed_[crossing.instance], crossing.triangle,
+                                       crossing.barycentrics, crossing.ng, crossing.segment.time);
+        const float cosine = std::abs(dot(ns, direction)) / std::sqrt(dot(direction, direction));
+        return crossing.segment.at_surface(crossing.instance, crossing.triangle) >=
+               sheet->opacity(cosine);
+    }
     if (material.alpha_mode() == AlphaMode::opaque) {
         return false;  // instance of a shared mesh
     }
@@ -141,6 +158,9 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) 
 Bsdf World::varying_bsdf(const RayHit& hit, const ShadingNormals& normals, Vec3 wo,
                          SegmentKey segment, const PixelCone& pixel) const noexcept
 {
+    if (const ClearSheet* sheet = clear_sheet(hit.instance)) {
+        return {normals.ng, Frame::from_normal(normals.ns), wo, *sheet};
+    }
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = find_material(hit.instance);
     const TexturePoint at = texture_point(mesh, hit.triangle, hit.at.barycentrics);
@@ -162,6 +182,17 @@ Bsdf World::varying_bsdf(const RayHit& hit, const ShadingNormals& normals, Vec3 
                           .footprint = footprint ? &*footprint : nullptr});
 }
 
+Vec3 World::shading_normal(const PlacedMesh& mesh, std::uint32_t triangle, Vec2 barycentrics,
+                           Vec3 ng, float time) const noexcept
+{
+    if (mesh.mesh().normals.empty()) {
+        return ng;
+    }
+    const Vec3 ns = mesh.shading_normal(triangle, barycentrics, time);
+    const float side = dot(ns, ng);
+    return side > 0.0f ? ns : side < 0.0f ? -ns : ng;
+}
+
 SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey segment,
                                const PixelCone& pixel) const noexcept
 {
@@ -173,12 +204,7 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     const bool has_area = hit.at.ng != Vec3(0.0f);
     const Vec3 ng(has_area ? hit.at.ng.x : wo.x, has_area ? hit.at.ng.y : wo.y,
                   has_area ? hit.at.ng.z : wo.z);
-    Vec3 ns = ng;
-    if (!mesh.mesh().normals.empty()) {
-        ns = mesh.shading_normal(hit.triangle, hit.at.barycentrics, segment.time);
-        const float side = dot(ns, ng);
-        ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
-    }
+    const Vec3 ns = shading_normal(mesh, hit.triangle, hit.at.barycentrics, ng, segment.time);
     const bool even = material.is_even() && mesh.mesh().colors.empty();
     SurfacePoint result([&] {
         return even ? material.even_bsdf(ng, ns, wo)
@@ -196,6 +222,10 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     }
     if (material.alpha_mode() == AlphaMode::blend) [[unlikely]] {
         result.opacity = material.opacity(texture_point(mesh, hit.triangle, hit.at.barycentrics));
+    } else if (!even) {
+        if (const ClearSheet* sheet = clear_sheet(hit.instance)) {
+            result.opacity = sheet->opacity(std::abs(dot(ns, wo)));
+        }
     }
     return result;
 }

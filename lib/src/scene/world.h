@@ -130,6 +130,11 @@ private:
     friend class WorldBuilder;
 
     [[nodiscard]] const Material& find_material(std::uint32_t instance) const noexcept;
+    /// Returns the model of an instance of a clear sheet; null for others.
+    [[nodiscard]] const ClearSheet* clear_sheet(std::uint32_t instance) const noexcept;
+    /// Returns the unit normal for shading, on the side of `ng`; arguments as in `PlacedMesh`.
+    [[nodiscard]] Vec3 shading_normal(const PlacedMesh& mesh, std::uint32_t triangle,
+                                      Vec2 barycentrics, Vec3 ng, float time) const noexcept;
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool is_passed(const AnyHit& crossing) const noexcept;
     [[nodiscard]] AnyHitFilter any_hit_filter() const noexcept;

@@ -271,4 +271,72 @@ TEST_CASE("absorption leaves the attenuation colour after the attenuation distan
     CHECK(medium_within(desc).extinction == Rgb{0.0f});
 }
 
+TEST_CASE("a smooth thin sheet without colour is clear: what it reflects decides who hits it")
+{
+    const SpecularAlbedo albedo(1.5f);
+    const std::vector<TexelImage> images{texel(255, 255, 255, 255)};
+    MaterialDesc glass;
+    glass.metallic = 0.0f;
+    glass.roughness = 0.0f;
+    glass.transmission = 1.0f;
+    glass.base_color = {0.8f, 0.8f, 0.8f, 1.0f};
+    SECTION("its opacity and reflection are those of the whole model")
+    {
+        const Material material(glass, images, albedo);
+        const ClearSheet* sheet = material.clear_sheet();
+        REQUIRE(sheet != nullptr);
+        CHECK_FALSE(material.is_even());
+        for (const float cosine : {0.05f, 0.4f, 0.8f, 1.0f}) {
+            CAPTURE(cosine);
+            const Vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+            const Bsdf whole = material.bsdf({.wo = wo});
+            const auto mirrored = whole.sample(0.0f, Vec2(0.5f), TransportMode::radiance);
+            const auto straight = whole.sample(0.999f, Vec2(0.5f), TransportMode::radiance);
+            REQUIRE(mirrored);
+            REQUIRE(straight);
+            CHECK(straight->wi.z < 0.0f);
+            // Densities of delta lobes are probabilities of the lobe times a cosine.
+            const float reflected = mirrored->weight.x * mirrored->pdf_fwd.value / cosine;
+            const float passed = straight->weight.x * straight->pdf_fwd.value / cosine;
+            CHECK(sheet->opacity(cosine) == Approx(1.0f - passed).epsilon(1e-4));
+            const auto hit = sheet->sample(wo, 0.5f, Vec2(0.5f), TransportMode::radiance);
+            REQUIRE(hit);
+            CHECK(hit->delta);
+            CHECK(hit->wi == Vec3(-wo.x, -wo.y, wo.z));
+            CHECK(hit->weight.x * sheet->opacity(cosine) == Approx(reflected).epsilon(1e-4));
+        }
+    }
+    SECTION("a specular colour that is grey counts")
+    {
+        glass.specular_color = Rgb(0.5f);
+        glass.specular = 0.9f;
+        const Material material(glass, images, albedo);
+        REQUIRE(material.clear_sheet() != nullptr);
+        CHECK(material.clear_sheet()->opacity(1.0f) ==
+              Approx(1.0f - 0.8f * (1.0f - 0.04f * 0.5f * 0.9f)));
+    }
+    SECTION("others are not")
+    {
+        const auto is_clear = [&](const auto& change) {
+            MaterialDesc other = glass;
+            change(other);
+            return Material(other, images, albedo).clear_sheet() != nullptr;
+        };
+        CHECK(is_clear([](MaterialDesc&) {}));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.base_color.x = 0.7f; }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.specular_color.z = 0.7f; }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.transmission = 0.9f; }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.metallic = 0.1f; }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.roughness = 0.1f; }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.emission = Rgb(1.0f); }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.unlit = true; }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.alpha_mode = AlphaMode::blend; }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.base_color_texture = first_image; }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.transmission_texture = first_image; }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.metallic_roughness_texture = first_image; }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.specular_texture = first_image; }));
+        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.normal_texture = first_image; }));
+    }
+}
+
 }  // namespace bdpt::test::material_test

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "material/models/black.h"
+#include "material/models/clear_sheet.h"
 #include "material/models/henyey_greenstein.h"
 #include "material/models/lambertian.h"
 #include "material/models/layered.h"
@@ -16,7 +17,7 @@ namespace bdpt {
 /// the compiler reports each place that does not handle a model.
 using AnyModel =
     std::variant<Black, Lambertian, SeenFrom<MetallicRoughness>, Layered, Mapped<Lambertian>,
-                 Mapped<MetallicRoughness>, Mapped<Layered>, HenyeyGreenstein>;
+                 Mapped<MetallicRoughness>, Mapped<Layered>, HenyeyGreenstein, ClearSheet>;
 
 /// Model of a material without layers.
 using PlainModel = std::variant<Black, Lambertian, MetallicRoughness>;

@@ -108,12 +108,17 @@ TEST_CASE("AOVs of a wall are what geometry says", "[aov]")
     }
 }
 
-TEST_CASE("opacity is alpha without chance where surfaces blend", "[aov]")
+TEST_CASE("opacity is alpha without chance where surfaces blend or are clear", "[aov]")
 {
-    // Two veils one behind the other, and nothing else.
+    // Two veils or panes one behind the other, and nothing else.
     MaterialDesc veil = test::lambertian(Rgb(0.5f));
     veil.alpha_mode = AlphaMode::blend;
     veil.base_color.w = 0.4f;
+    if (GENERATE(false, true)) {
+        veil = test::thin_glass(0.0f);
+        veil.ior = 1.0f;  // does not reflect
+        veil.base_color = {0.6f, 0.6f, 0.6f, 1.0f};
+    }
     test::SceneBuilder builder;
     builder.quad({5, -20, 3}, {5, -20, -40}, {5, 20, -40}, {5, 20, 3}, veil);
     builder.quad({6, -20, 3}, {6, -20, -40}, {6, 20, -40}, {6, 20, 3}, veil);

@@ -354,4 +354,62 @@ TEST_CASE("unlit surfaces shine with their base colour and scatter nothing", "[a
     CHECK(power == Approx(3.14159265f * 2.0f * (double_sided ? 2.0f : 1.0f)).epsilon(0.02));
 }
 
+TEST_CASE("rays pass clear sheets by what these transmit at that angle", "[alpha]")
+{
+    constexpr int samples = 20000;
+    constexpr float grey = 0.7f;
+    const bool shared = GENERATE(false, true);
+    const float slope = GENERATE(0.0f, 0.9f);
+    MaterialDesc sheet = test::thin_glass(0.0f);
+    sheet.base_color = {grey, grey, grey, 1.0f};
+    const World world(stack({sheet, sheet}, shared));
+    const Vec3 direction = normalize(Vec3(slope, 0.0f, -1.0f));
+    const Vec3 middle(0.1f, 0.2f, -0.5f);
+    const SegmentEnd high{.p = middle - 0.9f * direction};
+    const SegmentEnd low{.p = middle + 0.9f * direction};
+    int free = 0;
+    int mirrored = 0;
+    for (int i = 0; i < samples; ++i) {
+        const SegmentKey segment = key(i);
+        const auto hit = world.intersect(high, direction, segment);
+        const bool passed = world.transmittance(high, low, segment) == Rgb(1.0f);
+        REQUIRE(passed == !hit.has_value());
+        REQUIRE(passed == (world.transmittance(low, high, segment) == Rgb(1.0f)));
+        free += passed ? 1 : 0;
+        if (hit && hit->end.p.z > -0.5f) {
+            ++mirrored;
+            const auto sample = hit->bsdf.sample(0.5f, Vec2(0.5f), TransportMode::radiance);
+            REQUIRE(sample);
+            REQUIRE(dot(sample->wi, Vec3(direction.x, 0.0f, -direction.z)) == Approx(1.0f));
+        }
+    }
+    const double cosine = static_cast<double>(-direction.z);
+    const auto ior = static_cast<double>(sheet.ior);
+    const double inner = std::sqrt(ior * ior - 1.0 + cosine * cosine);
+    const double s = (cosine - inner) / (cosine + inner);
+    const double p = (ior * ior * cosine - inner) / (ior * ior * cosine + inner);
+    const double passes = static_cast<double>(grey) * (1.0 - 0.5 * (s * s + p * p));
+    check_share(free, samples, passes * passes);
+    check_share(mirrored, samples, 1.0 - passes);
+}
+
+TEST_CASE("vertex colours tint a sheet, which rays do not pass then", "[alpha]")
+{
+    SceneBuilder builder;
+    MeshDesc mesh = square();
+    mesh.colors.assign(4, Vec4(1.0f, 1.0f, 1.0f, 1.0f));
+    mesh.colors[2].y = 0.3f;
+    builder.place(builder.add_mesh(std::move(mesh)), test::thin_glass(0.0f), Mat4(1.0f));
+    const World world(std::move(builder.desc));
+    for (int i = 0; i < 100; ++i) {
+        REQUIRE(world.transmittance(above, below, key(i)) == Rgb(0.0f));
+        const auto hit = world.intersect(above, down, key(i));
+        REQUIRE(hit);
+        const auto sample = hit->bsdf.sample(0.99f, Vec2(0.5f), TransportMode::radiance);
+        REQUIRE(sample);
+        REQUIRE(sample->wi.z < 0.0f);
+        REQUIRE(sample->weight.y < 0.999f * sample->weight.x);
+    }
+}
+
 }  // namespace bdpt::alpha_test

@@ -11,7 +11,7 @@ from materials import glass, mirror
 from shapes import box_quads, inner_quads, quads, sphere
 
 SUN = (-0.5, -1, -0.6)
-ROOM = (4.0, 3.0)  # width and height [m]
+ROOM = (4.0, 3.0)  # width and height of a room [m]
 
 
 def add_box(gltf, name, material, low, high, position=(0, 0, 0), degrees=0):
@@ -27,9 +27,9 @@ def add_lamp(gltf, name, corner, size, radiance):
     gltf.node(name, mesh=gltf.mesh(name, (gltf.shape(*quads(corners)), lamp)))
 
 
-def add_wall(gltf, name, materials, room, corner, along_x, hinge_degrees):
-    """Adds one side of a room of that width and height, with a door in its middle that is open by `hinge_degrees`."""
-    (white, wood), (size, height), (x, z) = materials, room, corner
+def add_wall(gltf, name, materials, corner, along_x, hinge_degrees):
+    """Adds one side of a room, with a door in its middle that is open by `hinge_degrees`."""
+    (white, wood), (size, height), (x, z) = materials, ROOM, corner
     door, t = 0.9, 0.05
     a, b = (size - door) / 2, (size + door) / 2
     for part, u0, u1, y0 in (("left", 0, a, 0), ("right", b, size, 0), ("top", a, b, 2.1)):
@@ -87,7 +87,7 @@ def six_rooms(title="six rooms"):
         add_box(gltf, name, white, low, high)
 
     def wall(name, corner, along_x, hinge_degrees):
-        add_wall(gltf, name, (white, wood), (size, height), corner, along_x, hinge_degrees)
+        add_wall(gltf, name, (white, wood), corner, along_x, hinge_degrees)
 
     for i in range(3):
         wall(f"between rows {i}", (size * i, size), True, 40 + 15 * i)
@@ -115,9 +115,9 @@ def offices(columns=6, rows=2):
         for k in range(rows):
             corner = (size * i, size * k)
             if k > 0:
-                add_wall(gltf, f"between rows {i} {k}", (white, wood), ROOM, corner, True, 15 + 10 * (i % 3))
+                add_wall(gltf, f"between rows {i} {k}", (white, wood), corner, True, 15 + 10 * (i % 3))
             if i > 0:
-                add_wall(gltf, f"in a row {i} {k}", (white, wood), ROOM, corner, False, -20 - 8 * (k % 3))
+                add_wall(gltf, f"in a row {i} {k}", (white, wood), corner, False, -20 - 8 * (k % 3))
             add_uplight(gltf, f"lamp {i} {k}", wood, (corner[0] + 0.6, 1.6, corner[1] + 0.6), 0.3, 60)
     add_box(gltf, "table", wood, (-0.6, 0.7, -0.4), (0.6, 0.75, 0.4), (2 * size + 1.8, 0, 1.8), 30)
     gltf.node("ball", (2 * size + 2.6, 0.4, 1.2), mesh=gltf.mesh("ball", (gltf.shape(*sphere(48, 24, 0.4)), white)))

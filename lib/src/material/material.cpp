@@ -106,7 +106,7 @@ Material::Material(const MaterialDesc& desc, const TextureImages& images,
     } else if (!varies && !unlit_ && !disperses()) {
         const SpecularAlbedo& albedo = albedos_.at(Wavelength::green);
         plain_ = plain_model(surface_, albedo);
-        if (is_clear_sheet() && !normal_map_ && !emission_map_) {
+        if (is_clear_sheet()) {
             const float f0 = albedo.normal_reflectance() * surface_.specular_color.x;
             const float f90 = std::clamp(surface_.specular, 0.0f, 1.0f);
             clear_sheet_.emplace(std::clamp(f0, 0.0f, 1.0f) * f90, f90,
@@ -128,7 +128,7 @@ bool Material::is_clear_sheet() const noexcept
     return surface_.body == Body::thin_walled && surface_.transmission >= 1.0f &&
            surface_.metallic <= 0.0f && !IsotropicRoughness(surface_.roughness).is_rough() &&
            is_grey(surface_.base_color) && is_grey(surface_.specular_color) && !unlit_ &&
-           alpha_mode_ == AlphaMode::opaque && is_black(emission_) && !has_inside_;
+           alpha_mode_ == AlphaMode::opaque && is_black(emission_) && !normal_map_ && !has_inside_;
 }
 
 void Material::measure_alpha()

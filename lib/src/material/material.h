@@ -110,8 +110,8 @@ private:
     [[nodiscard]] Rgb base_color(const TexturePoint& point,
                                  const UvFootprint* footprint) const noexcept;
     [[nodiscard]] float to_opacity(float alpha) const noexcept;
-    /// Tests whether it is a smooth thin sheet that neither tints nor blurs what is behind it,
-    /// provided that no texture is applied.
+    /// Tests whether a surface without variation, which has a `plain_` model, is a smooth thin sheet
+    /// that neither tints nor blurs what is behind it.
     [[nodiscard]] bool is_clear_sheet() const noexcept;
     void measure_alpha();
     void measure_emission();

@@ -396,6 +396,7 @@ TEST_CASE("the tree of a mesh stays when its instances move, and when others let
     CHECK(tree(scene.with("floor", pane)) == tree(scene));
     pane.name = "ball left";
     CHECK(tree(scene.with("ball left", pane)) != tree(scene));
+    CHECK(tree(scene.with("ball left", called("ball left", thin_glass(0.0f)))) != tree(scene));
 }
 
 TEST_CASE("one material, instance or environment is replaced by a call", "[edit]")

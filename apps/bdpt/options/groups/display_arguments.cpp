@@ -103,7 +103,7 @@ void add_display_options(OptionList& options, DisplayArguments& display)
         "Exposure of .png, .jpg and .webp: pixels times 2^EV, metered from the image (auto), or "
         "from the incident light, so that a white card appears white (light); auto+1 or light-0.5 "
         "adds an offset, +1 alone is 1 EV. Default: light with --background, --orbit and --frames, "
-        "and under the default sky and the studio; else auto",
+        "and of objects seen from outside under an environment; else auto",
         display.exposure,
         parsed_by(parse_exposure,
                   "EV from -100 to 100, auto or light, or one of these plus or minus EV, like "

@@ -25,7 +25,7 @@ struct LearnedLight {
     std::optional<EnvironmentVisibility> visibility{};
     /// Shares of groups of lights; nullopt if there is only one group, or no light was found.
     std::optional<GroupShares> groups{};
-    /// Chooses the light of each light path; nullopt if there is only one group, or no indirect
+    /// Chooses the light of each light path; nullopt if there is one lamp only, or no indirect
     /// light was found.
     std::optional<AliasTable> starts{};
     /// Where light of the environment enters the scene; nullopt without `visibility`.

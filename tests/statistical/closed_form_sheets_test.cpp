@@ -70,6 +70,31 @@ TEST_CASE("light samples reach a floor under a clear sheet, which is seen throug
     }
 }
 
+TEST_CASE("light paths that reach the lens itself have the tint of the sheets that they pass",
+          "[closed-form][sheet]")
+{
+    // A mirror that shows a lamp behind the camera: light paths find it by hitting the lens.
+    constexpr float tint = 0.6f;
+    SceneBuilder builder;
+    MaterialDesc pane = sheet(tint);
+    pane.specular = 0.0f;
+    builder.quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}, metal(Rgb(1.0f), 0.0f));
+    builder.quad({-9, -9, 1}, {9, -9, 1}, {9, 9, 1}, {-9, 9, 1}, pane);
+    constexpr float r = 0.8f;
+    builder.quad({-r, -r, 4}, {-r, r, 4}, {r, r, 4}, {r, -r, 4}, emitter(Rgb(3.0f)));
+    const Scene scene(std::move(builder.desc));
+    const CameraDesc camera =
+        with_lens(camera_at({0.0f, 0.0f, 3.0f}, {0.0f, 0.0f, 0.0f}, 0.2f), 1.0f, 7.0f);
+    for (const auto kind : {IntegratorKind::pt, IntegratorKind::lt}) {
+        TileMeans means(scene, camera, options(kind));
+        const MeanComparison result = compare_means(means, static_cast<double>(3.0f * tint * tint),
+                                                    {.detectable_bias = 0.05});
+        INFO("integrator " << static_cast<int>(kind) << ": " << result.text());
+        CHECK(result.sharp_enough);
+        CHECK(result.equal);
+    }
+}
+
 TEST_CASE("a clear sheet in a white furnace is invisible, alone or as a box",
           "[closed-form][sheet]")
 {

@@ -269,6 +269,25 @@ EqualityCase room_with_window()
     return in_room("room with a window", std::move(builder), std::nullopt);
 }
 
+/// The same with stained glass: the colours of a texture and of vertices.
+EqualityCase stained_window()
+{
+    SceneBuilder builder = room(plastic(white, 0.4f));
+    TexelImage stains{
+        .width = 2,
+        .height = 2,
+        .bytes = {255, 40, 20, 255, 240, 240, 240, 255, 30, 90, 255, 255, 0, 0, 0, 255}};
+    builder.desc.images.push_back(stains);
+    MaterialDesc stained = thin_glass(0.0f);
+    stained.base_color_texture = TextureRef{.image = ImageId{0}, .scale = {2, 2}};
+    builder.ceiling(lambertian(white)).front(stained);
+    builder.desc.meshes.back().colors = {
+        {1, 1, 1, 1}, {1, 0.5f, 1, 1}, {0.5f, 1, 1, 1}, {1, 1, 0.5f, 1}};
+    builder.sphere({0.3f, -0.6f, 0.2f}, 0.4f, lambertian(green));
+    builder.light(EnvironmentLightDesc{.radiance = gradient_sky()});
+    return in_room("room with a stained window", std::move(builder), std::nullopt);
+}
+
 void add_materials(std::vector<EqualityCase>& cases)
 {
     const auto with_sphere = [&](std::string name, const MaterialDesc& material,
@@ -286,8 +305,9 @@ void add_materials(std::vector<EqualityCase>& cases)
     thin.base_color = {0.5f, 0.5f, 0.5f, 1.0f};
     with_sphere("clear sheet, grey", thin, std::nullopt);
     thin.base_color = {0.9f, 0.7f, 0.5f, 1.0f};
-    with_sphere("thin glass with a tint", thin, std::nullopt);
+    with_sphere("clear sheet, tinted", thin, std::nullopt);
     cases.push_back(room_with_window());
+    cases.push_back(stained_window());
     with_sphere("rough thin glass", thin_glass(0.5f));
     with_sphere("rough glass", glass(0.4f));
     cases.back().detectable_bias_of_light_sampling = 0.05;

@@ -83,6 +83,21 @@ EqualityCase bodies()
     return result;
 }
 
+/// Camera rays, light paths to the lens and light samples in fog pass the pane.
+EqualityCase fog_behind_tinted_pane()
+{
+    SceneBuilder builder = lit_room();
+    builder.sphere({0.3f, -0.6f, 0.1f}, 0.4f, plastic(Rgb(0.6f), 0.4f), 24);
+    MaterialDesc pane = thin_glass(0.0f);
+    pane.base_color = {0.9f, 0.5f, 0.2f, 1.0f};
+    builder.quad({-1.0f, -1.0f, 0.5f}, {1.0f, -1.0f, 0.5f}, {1.0f, 1.0f, 0.7f}, {-1.0f, 1.0f, 0.7f},
+                 pane);
+    builder.desc.fog = mist;
+    EqualityCase result = of("a wide lens and fog behind a tinted pane", std::move(builder));
+    result.camera = with_lens(room_camera(), 0.8f, 3.4f);
+    return result;
+}
+
 EqualityCase lens_in_fog()
 {
     EqualityCase result = fog();
@@ -140,7 +155,8 @@ EqualityCase cloud()
 
 std::vector<EqualityCase> media_cases()
 {
-    return {fog(), lamps_in_fog(), fog_under_sky(), bodies(), lens_in_fog(), cloud()};
+    return {fog(),         lamps_in_fog(),           fog_under_sky(), bodies(),
+            lens_in_fog(), fog_behind_tinted_pane(), cloud()};
 }
 
 }  // namespace bdpt::test

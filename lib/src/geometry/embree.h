@@ -8,6 +8,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include "geometry/any_hit_filter.h"
 #include "geometry/ray.h"
 
 namespace bdpt::embree {
@@ -23,12 +24,14 @@ struct RayContext {
     Context embree;
     const Ray* ray;
     const void* owner;
+    PassedTint* tint;  ///< of the ray; null if not wanted
 };
 
-/// Traces `ray_hit`; callbacks receive `of`, the world-space ray, and `owner`, the caller.
-inline void intersect(RTCScene scene, RTCRayHit& ray_hit, const Ray& of, const void* owner)
+/// Traces `ray_hit`; callbacks receive `of`, the world-space ray, `owner`, the caller, and `tint`.
+inline void intersect(RTCScene scene, RTCRayHit& ray_hit, const Ray& of, const void* owner,
+                      PassedTint* tint)
 {
-    RayContext context{.embree = {}, .ray = &of, .owner = owner};
+    RayContext context{.embree = {}, .ray = &of, .owner = owner, .tint = tint};
 #if BDPT_EMBREE_MAJOR >= 4
     rtcInitRayQueryContext(&context.embree);
     RTCIntersectArguments arguments;
@@ -42,9 +45,10 @@ inline void intersect(RTCScene scene, RTCRayHit& ray_hit, const Ray& of, const v
 }
 
 /// Sets `ray.tfar` to minus infinity if anything blocks the ray.
-inline void occluded(RTCScene scene, RTCRay& ray, const Ray& of, const void* owner)
+inline void occluded(RTCScene scene, RTCRay& ray, const Ray& of, const void* owner,
+                     PassedTint* tint)
 {
-    RayContext context{.embree = {}, .ray = &of, .owner = owner};
+    RayContext context{.embree = {}, .ray = &of, .owner = owner, .tint = tint};
 #if BDPT_EMBREE_MAJOR >= 4
     rtcInitRayQueryContext(&context.embree);
     RTCOccludedArguments arguments;

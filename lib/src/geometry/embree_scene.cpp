@@ -73,13 +73,17 @@ void filter_hit(const RTCFilterFunctionNArguments* args)
     const std::uint32_t instance = shared ? hit.instID[0] : hit.geomID;
     TriangleHit at;
     placed[instance].hit(hit.primID, *query.ray, at);
-    if (filter->passes(filter->owner, {.instance = instance,
-                                       .triangle = hit.primID,
-                                       .barycentrics = at.barycentrics,
-                                       .ng = at.ng,
-                                       .direction = query.ray->direction,
-                                       .segment = query.ray->segment})) {
+    const AnyHit crossing{.instance = instance,
+                          .triangle = hit.primID,
+                          .barycentrics = at.barycentrics,
+                          .ng = at.ng,
+                          .direction = query.ray->direction,
+                          .segment = query.ray->segment};
+    if (filter->passes(filter->owner, crossing)) {
         args->valid[0] = 0;
+        if (query.tint != nullptr) {
+            query.tint->pass(crossing, filter->tint(filter->owner, crossing));
+        }
     }
 }
 
@@ -330,7 +334,7 @@ const void* EmbreeScene::tree(std::size_t mesh) const noexcept
     return state_->trees[mesh].get();
 }
 
-std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
+std::optional<RayHit> EmbreeScene::intersect(const Ray& ray, PassedTint* tint) const noexcept
 {
     std::optional<RayHit> found;  // constructed in place of the result
     if (!state_->can_trace(ray)) [[unlikely]] {
@@ -341,7 +345,7 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     const QueryOwner owner{.filter = &filter_, .placed = state_->placed};
-    embree::intersect(state_->top.get(), query, ray, &owner);
+    embree::intersect(state_->top.get(), query, ray, &owner, tint);
     const RTCHit& hit = query.hit;
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return found;
@@ -360,14 +364,14 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
     return found;
 }
 
-bool EmbreeScene::occluded(const Ray& ray) const noexcept
+bool EmbreeScene::occluded(const Ray& ray, PassedTint* tint) const noexcept
 {
     if (!state_->can_trace(ray)) [[unlikely]] {
         return true;  // An invalid ray transports no light.
     }
     RTCRay query = to_embree(ray);
     const QueryOwner owner{.filter = &filter_, .placed = state_->placed};
-    embree::occluded(state_->top.get(), query, ray, &owner);
+    embree::occluded(state_->top.get(), query, ray, &owner, tint);
     return query.tfar < 0.0f;
 }
 

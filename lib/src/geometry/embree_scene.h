@@ -50,10 +50,13 @@ public:
     [[nodiscard]] const std::vector<bool>& filtered() const noexcept;
     /// Identifies the BVH of a mesh that instances share: equal for the same BVH, null without one.
     [[nodiscard]] const void* tree(std::size_t mesh) const noexcept;
-    /// Returns the first hit that the filter does not pass.
-    [[nodiscard]] std::optional<RayHit> intersect(const Ray& ray) const noexcept;
-    /// Tests whether any surface in (0, ray.t_max) blocks the ray.
-    [[nodiscard]] bool occluded(const Ray& ray) const noexcept;
+    /// Returns the first hit that the filter does not pass, in (0, ray.t_max). `tint`, unless null,
+    /// receives all surfaces that the ray passes before it, and perhaps some beyond.
+    [[nodiscard]] std::optional<RayHit> intersect(const Ray& ray,
+                                                  PassedTint* tint = nullptr) const noexcept;
+    /// Tests whether any surface in (0, ray.t_max) blocks the ray; if none does, `tint`, unless
+    /// null, receives all surfaces that it passes.
+    [[nodiscard]] bool occluded(const Ray& ray, PassedTint* tint = nullptr) const noexcept;
 
 private:
     struct State;

@@ -99,18 +99,20 @@ Material::Material(const MaterialDesc& desc, const TextureImages& images,
 {
     const bool any_turned = turned_ != std::array<bool, wavelengths>{};
     disperses_ = albedos.disperse() || turned_[0] != turned_[1] || turned_[1] != turned_[2];
-    const bool varies = any_turned || base_color_map_ || metallic_roughness_map_ || specular_map_ ||
-                        specular_color_map_ || transmission_map_ || glossiness_map_;
+    const bool only_color_varies = !any_turned && !metallic_roughness_map_ && !specular_map_ &&
+                                   !specular_color_map_ && !transmission_map_ && !glossiness_map_;
+    const bool varies = !only_color_varies || base_color_map_;
     if (has_layers(desc) && !any_turned) {
         layers_ = std::make_shared<const MaterialLayers>(desc, images, albedos, *tables);
-    } else if (!varies && !unlit_ && !disperses()) {
+    } else if (only_color_varies && !unlit_ && !disperses()) {
         const SpecularAlbedo& albedo = albedos_.at(Wavelength::green);
-        plain_ = plain_model(surface_, albedo);
+        if (!varies) {
+            plain_ = plain_model(surface_, albedo);
+        }
         if (is_clear_sheet()) {
             const float f0 = albedo.normal_reflectance() * surface_.specular_color.x;
             const float f90 = std::clamp(surface_.specular, 0.0f, 1.0f);
-            clear_sheet_.emplace(std::clamp(f0, 0.0f, 1.0f) * f90, f90,
-                                 std::clamp(surface_.base_color.x, 0.0f, 1.0f), albedo);
+            clear_sheet_.emplace(std::clamp(f0, 0.0f, 1.0f) * f90, f90, albedo);
         }
     }
     even_ = plain_ && !normal_map_ && !clear_sheet_;
@@ -124,10 +126,10 @@ Material::Material(const MaterialDesc& desc, const TextureImages& images,
 
 bool Material::is_clear_sheet() const noexcept
 {
-    const auto is_grey = [](Rgb color) { return color.x == color.y && color.y == color.z; };
+    const Rgb specular = surface_.specular_color;
     return surface_.body == Body::thin_walled && surface_.transmission >= 1.0f &&
            surface_.metallic <= 0.0f && !IsotropicRoughness(surface_.roughness).is_rough() &&
-           is_grey(surface_.base_color) && is_grey(surface_.specular_color) && !unlit_ &&
+           specular.x == specular.y && specular.y == specular.z && !unlit_ &&
            alpha_mode_ == AlphaMode::opaque && is_black(emission_) && !normal_map_ && !has_inside_;
 }
 

@@ -10,6 +10,8 @@
 
 #include <bdpt/scene_desc.h>
 
+#include <glm/common.hpp>
+
 #include <array>
 #include <memory>
 #include <optional>
@@ -46,11 +48,21 @@ public:
             *plain_);
     }
 
-    /// Returns the model of a clear sheet, which replaces `bsdf` and `opacity` where there are no
-    /// vertex colours; null for other materials.
+    /// Returns the model of a clear sheet, which replaces `bsdf` and `opacity`; null for other
+    /// materials.
     [[nodiscard]] const ClearSheet* clear_sheet() const noexcept
     {
         return clear_sheet_ ? &*clear_sheet_ : nullptr;
+    }
+    /// Returns the factor in [0, 1] of light that passes a clear sheet.
+    [[nodiscard]] Rgb tint(const TexturePoint& point) const noexcept
+    {
+        return glm::clamp(base_color(point, nullptr), 0.0f, 1.0f);
+    }
+    /// Tests whether `tint` is 1 without vertex colours.
+    [[nodiscard]] bool is_untinted() const noexcept
+    {
+        return !base_color_map_ && surface_.base_color == Rgb(1.0f);
     }
     /// Returns the fraction of rays that hit the surface, in [0, 1]; the others pass through.
     [[nodiscard]] float opacity(const TexturePoint& point) const noexcept;
@@ -110,8 +122,8 @@ private:
     [[nodiscard]] Rgb base_color(const TexturePoint& point,
                                  const UvFootprint* footprint) const noexcept;
     [[nodiscard]] float to_opacity(float alpha) const noexcept;
-    /// Tests whether a surface without variation, which has a `plain_` model, is a smooth thin sheet
-    /// that neither tints nor blurs what is behind it.
+    /// Tests whether a surface without layers is a smooth thin sheet that reflects and blurs
+    /// nothing but by its Fresnel reflectance, which is constant.
     [[nodiscard]] bool is_clear_sheet() const noexcept;
     void measure_alpha();
     void measure_emission();

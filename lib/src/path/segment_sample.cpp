@@ -36,7 +36,7 @@ void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
         const VolumePassage passage =
             volumes.walk(origin.p, direction, distance, channels, segment);
         event.in_volume = passage.event;
-        event.volume_weight = passage.weight;
+        event.passing_weight = passage.weight;
     }
     if (event.in_volume) {
         event.in_medium.reset();
@@ -50,14 +50,36 @@ void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
                            event.in_medium.has_value());
 }
 
+/// Returns the distance to the end of a segment that ends after `event.surface` or before.
+float distance_to_end(const SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
+                      SegmentKey segment, const SegmentSample& event)
+{
+    if (event.in_volume) {
+        return event.in_volume->distance;
+    }
+    if (event.in_medium) {
+        return event.in_medium->distance;
+    }
+    if (!event.surface) {
+        return std::numeric_limits<float>::infinity();
+    }
+    return glm::distance(sample.world.end_at(*event.surface, direction, segment.time).p, origin.p);
+}
+
 }  // namespace
 
 SegmentSample sample_segment(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
                              SegmentKey segment, const WalkPlace& place)
 {
-    SegmentSample event([&] { return sample.world.first_hit(origin, direction, segment); });
+    bool is_tinted = false;
+    SegmentSample event(
+        [&] { return sample.world.first_hit(origin, direction, segment, &is_tinted); });
     if (sample.world.media().any() || sample.world.volumes().any()) {
         pass_media(sample, origin, direction, segment, place, event);
+    }
+    if (is_tinted) [[unlikely]] {
+        const float distance = distance_to_end(sample, origin, direction, segment, event);
+        event.passing_weight *= sample.world.tint(origin, direction, distance, segment);
     }
     return event;
 }

@@ -17,7 +17,7 @@ struct SegmentSample {
 
     std::optional<MediumEvent> in_medium;
     std::optional<VolumeEvent> in_volume;
-    Rgb volume_weight{1.0f};  ///< weight of `VolumePassage`
+    Rgb passing_weight{1.0f};  ///< weight of `VolumePassage`, times the tint of surfaces passed
     /// Surface hit of the ray, even if the walk scatters before it.
     std::optional<RayHit> surface;
     std::optional<FogSpan> fog;        ///< fog on the segment, whether or not it scatters
@@ -35,7 +35,7 @@ struct SegmentSample {
     /// Returns the factor of the throughput: transmittance over the density of this walk.
     [[nodiscard]] Rgb weight() const
     {
-        return transmission.transmittance / walk_density * volume_weight;
+        return transmission.transmittance / walk_density * passing_weight;
     }
     [[nodiscard]] bool is_nothing() const { return !in_medium && !in_volume && !surface; }
     [[nodiscard]] VertexKind kind() const

@@ -2,12 +2,16 @@
 
 #include "camera/moving_camera.h"
 #include "integrator/sample_start.h"
+#include "math/rgb.h"
 #include "math/sampler.h"
 #include "scene/world.h"
 
 #include <glm/geometric.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace bdpt {
@@ -104,7 +108,7 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
     segment.time = start.moment.time;
     ++rays.aov;
     bool is_opaque = false;
-    if (const auto hit = world_.first_hit(ray.lens, ray.direction, segment)) {
+    if (const auto hit = hit_of(ray, segment)) {
         if (needs_surfaces_ || film.needs_opacity()) {
             const SurfacePoint point =
                 world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
@@ -130,6 +134,22 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
     if (film.needs_opacity()) {
         film.add_opacity(x, y, is_opaque ? 1.0f : opacity_along(ray, segment, rays));
     }
+}
+
+std::optional<RayHit> AovPass::hit_of(const CameraRay& ray, SegmentKey segment) const
+{
+    bool is_tinted = false;
+    const auto hit = world_.first_hit(ray.lens, ray.direction, segment, &is_tinted);
+    if (hit || !is_tinted) {
+        return hit;
+    }
+    // No surface has these indices, so its number is independent of those of all surfaces.
+    constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    const float passes = luminance(world_.tint(ray.lens, ray.direction, infinite, segment));
+    return segment.at_surface(none, none) < passes
+               ? hit
+               : world_.first_hit(ray.lens, ray.direction, segment.without_chance());
 }
 
 float AovPass::opacity_along(const CameraRay& ray, SegmentKey segment, RayCounts& rays) const

@@ -1,6 +1,7 @@
 #include "scene/world.h"
 
 #include "geometry/rounding.h"
+#include "math/rgb.h"
 #include "scene/world_builder.h"
 
 #include <bdpt/thread_limit.h>
@@ -75,32 +76,33 @@ const Material& World::find_material(std::uint32_t instance) const noexcept
     return materials_[static_cast<std::size_t>(material_ids_[instance])];
 }
 
-const ClearSheet* World::clear_sheet(std::uint32_t instance) const noexcept
-{
-    const ClearSheet* sheet = find_material(instance).clear_sheet();
-    return sheet != nullptr && placed_[instance].mesh().colors.empty() ? sheet : nullptr;
-}
-
 bool World::may_be_passed(std::uint32_t instance) const noexcept
 {
     const Material& material = find_material(instance);
-    if (clear_sheet(instance) != nullptr) {
+    if (material.clear_sheet() != nullptr) {
         return true;
     }
     return material.alpha_mode() != AlphaMode::opaque &&
            (material.min_opacity() < 1.0f || !placed_[instance].mesh().colors.empty());
 }
 
+bool World::may_tint(std::uint32_t instance) const noexcept
+{
+    const Material& material = find_material(instance);
+    return material.clear_sheet() != nullptr &&
+           !(material.is_untinted() && placed_[instance].mesh().colors.empty());
+}
+
 bool World::is_passed(const AnyHit& crossing) const noexcept
 {
     const Material& material = find_material(crossing.instance);
-    if (const ClearSheet* sheet = clear_sheet(crossing.instance)) {
+    if (const ClearSheet* sheet = material.clear_sheet()) {
         const Vec3 direction = crossing.direction;
         const Vec3 ns = shading_normal(placed_[crossing.instance], crossing.triangle,
                                        crossing.barycentrics, crossing.ng, crossing.segment.time);
         const float cosine = std::abs(dot(ns, direction)) / std::sqrt(dot(direction, direction));
         return crossing.segment.at_surface(crossing.instance, crossing.triangle) >=
-               sheet->opacity(cosine);
+               sheet->reflectance(cosine);
     }
     if (material.alpha_mode() == AlphaMode::opaque) {
         return false;  // instance of a shared mesh
@@ -108,6 +110,15 @@ bool World::is_passed(const AnyHit& crossing) const noexcept
     const float opacity = material.opacity(
         texture_point(placed_[crossing.instance], crossing.triangle, crossing.barycentrics));
     return crossing.segment.at_surface(crossing.instance, crossing.triangle) >= opacity;
+}
+
+Rgb World::tint_at(const AnyHit& crossing) const noexcept
+{
+    const Material& material = find_material(crossing.instance);
+    return material.clear_sheet() == nullptr
+               ? Rgb(1.0f)
+               : material.tint(texture_point(placed_[crossing.instance], crossing.triangle,
+                                             crossing.barycentrics));
 }
 
 AnyHitFilter World::any_hit_filter() const noexcept
@@ -120,16 +131,41 @@ AnyHitFilter World::any_hit_filter() const noexcept
             .passes =
                 [](const void* world, const AnyHit& crossing) noexcept {
                     return static_cast<const World*>(world)->is_passed(crossing);
+                },
+            .tint =
+                [](const void* world, const AnyHit& crossing) noexcept {
+                    return static_cast<const World*>(world)->tint_at(crossing);
                 }};
 }
 
-std::optional<RayHit> World::first_hit(const SegmentEnd& from, Vec3 direction,
-                                       SegmentKey segment) const noexcept
+std::optional<RayHit> World::first_hit(const SegmentEnd& from, Vec3 direction, SegmentKey segment,
+                                       bool* is_tinted) const noexcept
 {
-    return embree_->intersect({.origin = offset_origin(from.p, from.error, from.ng, direction),
-                               .direction = direction,
-                               .ignored_sphere = from.sphere,
-                               .segment = segment});
+    const Ray ray{.origin = offset_origin(from.p, from.error, from.ng, direction),
+                  .direction = direction,
+                  .ignored_sphere = from.sphere,
+                  .segment = segment};
+    if (!tints_ || is_tinted == nullptr) [[likely]] {
+        return embree_->intersect(ray);
+    }
+    PassedTint tint;
+    const auto hit = embree_->intersect(ray, &tint);
+    *is_tinted = tint.factor() != Rgb(1.0f);
+    return hit;
+}
+
+Rgb World::tint(const SegmentEnd& from, Vec3 direction, float distance,
+                SegmentKey segment) const noexcept
+{
+    PassedTint tint;
+    static_cast<void>(
+        embree_->intersect({.origin = offset_origin(from.p, from.error, from.ng, direction),
+                            .direction = direction,
+                            .t_max = distance,
+                            .ignored_sphere = from.sphere,
+                            .segment = segment},
+                           &tint));
+    return tint.factor();
 }
 
 SurfacePoint World::surface_at(const RayHit& hit, Vec3 direction, SegmentKey segment,
@@ -158,11 +194,11 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) 
 Bsdf World::varying_bsdf(const RayHit& hit, const ShadingNormals& normals, Vec3 wo,
                          SegmentKey segment, const PixelCone& pixel) const noexcept
 {
-    if (const ClearSheet* sheet = clear_sheet(hit.instance)) {
+    const Material& material = find_material(hit.instance);
+    if (const ClearSheet* sheet = material.clear_sheet()) {
         return {normals.ng, Frame::from_normal(normals.ns), wo, *sheet};
     }
     const PlacedMesh& mesh = placed_[hit.instance];
-    const Material& material = find_material(hit.instance);
     const TexturePoint at = texture_point(mesh, hit.triangle, hit.at.barycentrics);
     const auto tangent_uv_set = material.tangent_uv_set();
     std::optional<UvFootprint> footprint;
@@ -223,8 +259,10 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     if (material.alpha_mode() == AlphaMode::blend) [[unlikely]] {
         result.opacity = material.opacity(texture_point(mesh, hit.triangle, hit.at.barycentrics));
     } else if (!even) {
-        if (const ClearSheet* sheet = clear_sheet(hit.instance)) {
-            result.opacity = sheet->opacity(std::abs(dot(ns, wo)));
+        if (const ClearSheet* sheet = material.clear_sheet()) {
+            const Rgb tint = material.tint(texture_point(mesh, hit.triangle, hit.at.barycentrics));
+            result.opacity =
+                1.0f - luminance(tint) * (1.0f - sheet->reflectance(std::abs(dot(ns, wo))));
         }
     }
     return result;
@@ -270,16 +308,18 @@ std::optional<SegmentTransmission> World::transmission(const SegmentEnd& a, cons
     const Vec3 to_b = b.p - a.p;
     const Vec3 origin = offset_origin(a.p, a.error, a.ng, to_b);
     const Vec3 target = offset_origin(b.p, b.error, b.ng, -to_b);
+    PassedTint tint;
     // Spheres only emit, so at most one end is on a sphere, where light leaves it.
     if (embree_->occluded({.origin = origin,
                            .direction = target - origin,
                            .t_max = short_of_end,
                            .ignored_sphere = a.sphere != no_sphere ? a.sphere : b.sphere,
-                           .segment = segment})) {
+                           .segment = segment},
+                          tints_ ? &tint : nullptr)) {
         return std::nullopt;
     }
     if (!media_.any() && !volumes_.any()) {
-        return SegmentTransmission{};
+        return SegmentTransmission{.transmittance = tint.factor()};
     }
     const float distance = std::sqrt(dot(to_b, to_b));
     SegmentTransmission transmission = media_.transmission(a, b, to_b, distance);
@@ -287,15 +327,18 @@ std::optional<SegmentTransmission> World::transmission(const SegmentEnd& a, cons
         transmission.transmittance *=
             volumes_.transmittance(a.p, to_b / distance, distance, segment);
     }
+    transmission.transmittance *= tint.factor();
     return transmission;
 }
 
 std::optional<SegmentTransmission> World::transmission_to_infinity(
     const SegmentEnd& a, Vec3 direction, SegmentKey segment) const noexcept
 {
+    PassedTint tint;
     if (embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),
                            .direction = direction,
-                           .segment = segment})) {
+                           .segment = segment},
+                          tints_ ? &tint : nullptr)) {
         return std::nullopt;
     }
     constexpr float infinite = std::numeric_limits<float>::max();
@@ -303,6 +346,7 @@ std::optional<SegmentTransmission> World::transmission_to_infinity(
     if (volumes_.any()) {
         transmission.transmittance *= volumes_.transmittance(a.p, direction, infinite, segment);
     }
+    transmission.transmittance *= tint.factor();
     return transmission;
 }
 

@@ -63,9 +63,17 @@ public:
     // Each segment of a path needs a key of its own (docs/mis.md).
 
     /// Returns the first hit of a ray from `from` in the unit direction `direction`, at the
-    /// segment's time.
+    /// segment's time. `is_tinted`, unless null, is set if the ray may pass tinted surfaces on the
+    /// way, whose factor is that of `tint`.
     [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
-                                                  SegmentKey segment) const noexcept;
+                                                  SegmentKey segment,
+                                                  bool* is_tinted = nullptr) const noexcept;
+    /// Returns the factor of light on a ray that passes tinted surfaces within `distance`, which is
+    /// at most that of the first hit.
+    [[nodiscard]] Rgb tint(const SegmentEnd& from, Vec3 direction, float distance,
+                           SegmentKey segment) const noexcept;
+    /// Tests whether `tint` is ever other than 1.
+    [[nodiscard]] bool tints() const noexcept { return tints_; }
     /// Returns the surface at a hit for light of the segment's wavelength; mip-mapped textures have
     /// the detail that pixels show.
     [[nodiscard]] SurfacePoint surface_at(const RayHit& hit, Vec3 direction, SegmentKey segment,
@@ -95,7 +103,7 @@ public:
     [[nodiscard]] std::optional<SegmentTransmission> transmission_to_infinity(
         const SegmentEnd& a, Vec3 direction, SegmentKey segment) const noexcept;
     /// Returns the transmittance between two points: zero if a surface blocks the segment, else the
-    /// transmittance of media and volumes.
+    /// transmittance of media, volumes and tinted surfaces.
     [[nodiscard]] Rgb transmittance(const SegmentEnd& a, const SegmentEnd& b,
                                     SegmentKey segment) const noexcept;
     /// Returns the transmittance from a point to infinity in the unit direction `direction`.
@@ -130,12 +138,12 @@ private:
     friend class WorldBuilder;
 
     [[nodiscard]] const Material& find_material(std::uint32_t instance) const noexcept;
-    /// Returns the model of an instance of a clear sheet; null for others.
-    [[nodiscard]] const ClearSheet* clear_sheet(std::uint32_t instance) const noexcept;
     /// Returns the unit normal for shading, on the side of `ng`; arguments as in `PlacedMesh`.
     [[nodiscard]] Vec3 shading_normal(const PlacedMesh& mesh, std::uint32_t triangle,
                                       Vec2 barycentrics, Vec3 ng, float time) const noexcept;
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
+    [[nodiscard]] bool may_tint(std::uint32_t instance) const noexcept;
+    [[nodiscard]] Rgb tint_at(const AnyHit& crossing) const noexcept;
     [[nodiscard]] bool is_passed(const AnyHit& crossing) const noexcept;
     [[nodiscard]] AnyHitFilter any_hit_filter() const noexcept;
     /// Unit normals on the front side: of the triangle, and interpolated.
@@ -187,6 +195,7 @@ private:
     std::vector<MaterialId> material_ids_;  // one per instance: surroundings matter, too
     bool disperses_ = false;
     bool moves_ = false;
+    bool tints_ = false;
     std::shared_ptr<const SceneGeometry> geometry_;
     std::span<const PlacedMesh> placed_;  // view of `geometry_`
     SceneCounts counts_;

@@ -77,6 +77,9 @@ void WorldBuilder::build(Isa isa)
                                                       : Volumes(w.desc_.volumes.values());
     add_materials();
     build_trees(isa);
+    for (std::uint32_t i = 0; i < w.placed_.size(); ++i) {
+        w.tints_ = w.tints_ || w.may_tint(i);
+    }
     w.warnings_ = precision_warnings(w.desc_, *w.geometry_);
     find_enclosing_volumes();
     measure_bodies();

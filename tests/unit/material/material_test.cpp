@@ -271,7 +271,7 @@ TEST_CASE("absorption leaves the attenuation colour after the attenuation distan
     CHECK(medium_within(desc).extinction == Rgb{0.0f});
 }
 
-TEST_CASE("a smooth thin sheet without colour is clear: what it reflects decides who hits it")
+TEST_CASE("a smooth thin sheet is clear: what it reflects decides who hits it")
 {
     const SpecularAlbedo albedo(1.5f);
     const std::vector<TexelImage> images{texel(255, 255, 255, 255)};
@@ -279,13 +279,16 @@ TEST_CASE("a smooth thin sheet without colour is clear: what it reflects decides
     glass.metallic = 0.0f;
     glass.roughness = 0.0f;
     glass.transmission = 1.0f;
-    glass.base_color = {0.8f, 0.8f, 0.8f, 1.0f};
-    SECTION("its opacity and reflection are those of the whole model")
+    glass.base_color = {0.8f, 0.7f, 0.6f, 1.0f};
+    SECTION("its reflection and tint are those of the whole model")
     {
         const Material material(glass, images, albedo);
         const ClearSheet* sheet = material.clear_sheet();
         REQUIRE(sheet != nullptr);
         CHECK_FALSE(material.is_even());
+        CHECK_FALSE(material.is_untinted());
+        const Rgb tint = material.tint({});
+        CHECK(tint == Rgb(0.8f, 0.7f, 0.6f));
         for (const float cosine : {0.05f, 0.4f, 0.8f, 1.0f}) {
             CAPTURE(cosine);
             const Vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
@@ -297,14 +300,31 @@ TEST_CASE("a smooth thin sheet without colour is clear: what it reflects decides
             CHECK(straight->wi.z < 0.0f);
             // Densities of delta lobes are probabilities of the lobe times a cosine.
             const float reflected = mirrored->weight.x * mirrored->pdf_fwd.value / cosine;
-            const float passed = straight->weight.x * straight->pdf_fwd.value / cosine;
-            CHECK(sheet->opacity(cosine) == Approx(1.0f - passed).epsilon(1e-4));
+            const Rgb passed = straight->weight * straight->pdf_fwd.value / cosine;
+            for (int c = 0; c < 3; ++c) {
+                CHECK(tint[c] * (1.0f - sheet->reflectance(cosine)) ==
+                      Approx(passed[c]).epsilon(1e-4));
+            }
             const auto hit = sheet->sample(wo, 0.5f, Vec2(0.5f), TransportMode::radiance);
             REQUIRE(hit);
             CHECK(hit->delta);
             CHECK(hit->wi == Vec3(-wo.x, -wo.y, wo.z));
-            CHECK(hit->weight.x * sheet->opacity(cosine) == Approx(reflected).epsilon(1e-4));
+            CHECK(hit->weight == Rgb(1.0f));
+            CHECK(sheet->reflectance(cosine) == Approx(reflected).epsilon(1e-4));
         }
+    }
+    SECTION("textures and vertex colours tint it")
+    {
+        const std::vector<TexelImage> half{texel(255, 0, 255, 255)};
+        glass.base_color_texture = first_image;
+        const Material material(glass, half, albedo);
+        REQUIRE(material.clear_sheet() != nullptr);
+        CHECK_FALSE(material.is_untinted());
+        CHECK(material.tint({}) == Rgb(0.8f, 0.0f, 0.6f));
+        CHECK(material.tint({.color = {0.5f, 0.5f, 9.0f, 0.1f}}) == Rgb(0.4f, 0.0f, 1.0f));
+        glass.base_color = Vec4(1.0f);
+        glass.base_color_texture.reset();
+        CHECK(Material(glass, images, albedo).is_untinted());
     }
     SECTION("a specular colour that is grey counts")
     {
@@ -312,8 +332,7 @@ TEST_CASE("a smooth thin sheet without colour is clear: what it reflects decides
         glass.specular = 0.9f;
         const Material material(glass, images, albedo);
         REQUIRE(material.clear_sheet() != nullptr);
-        CHECK(material.clear_sheet()->opacity(1.0f) ==
-              Approx(1.0f - 0.8f * (1.0f - 0.04f * 0.5f * 0.9f)));
+        CHECK(material.clear_sheet()->reflectance(1.0f) == Approx(0.04f * 0.5f * 0.9f));
     }
     SECTION("others are not")
     {
@@ -323,7 +342,7 @@ TEST_CASE("a smooth thin sheet without colour is clear: what it reflects decides
             return Material(other, images, albedo).clear_sheet() != nullptr;
         };
         CHECK(is_clear([](MaterialDesc&) {}));
-        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.base_color.x = 0.7f; }));
+        CHECK(is_clear([](MaterialDesc& m) { m.base_color_texture = first_image; }));
         CHECK_FALSE(is_clear([](MaterialDesc& m) { m.specular_color.z = 0.7f; }));
         CHECK_FALSE(is_clear([](MaterialDesc& m) { m.transmission = 0.9f; }));
         CHECK_FALSE(is_clear([](MaterialDesc& m) { m.metallic = 0.1f; }));
@@ -331,7 +350,6 @@ TEST_CASE("a smooth thin sheet without colour is clear: what it reflects decides
         CHECK_FALSE(is_clear([](MaterialDesc& m) { m.emission = Rgb(1.0f); }));
         CHECK_FALSE(is_clear([](MaterialDesc& m) { m.unlit = true; }));
         CHECK_FALSE(is_clear([](MaterialDesc& m) { m.alpha_mode = AlphaMode::blend; }));
-        CHECK_FALSE(is_clear([](MaterialDesc& m) { m.base_color_texture = first_image; }));
         CHECK_FALSE(is_clear([](MaterialDesc& m) { m.transmission_texture = first_image; }));
         CHECK_FALSE(is_clear([](MaterialDesc& m) { m.metallic_roughness_texture = first_image; }));
         CHECK_FALSE(is_clear([](MaterialDesc& m) { m.specular_texture = first_image; }));

@@ -16,15 +16,15 @@ namespace {
 constexpr float albedo = 0.5f;
 constexpr float radiance = 100.0f;
 
-/// Thin glass that rays do not pass, as it has a tint, though little.
-MaterialDesc tinted_pane()
+/// Thin glass that is no clear sheet, as its reflection has a colour: rays do not pass it.
+MaterialDesc scattering_pane()
 {
     MaterialDesc pane = thin_glass(0.0f);
-    pane.base_color.z = 0.99f;
+    pane.specular_color.z = 0.9f;
     return pane;
 }
 
-/// A floor that is seen and lit through a pane of tinted glass: only camera paths that hit the lamp
+/// A floor that is seen and lit through such a pane: only camera paths that hit the lamp
 /// by chance find light.
 Scene under_glass(float half_width_of_lamp)
 {
@@ -33,7 +33,7 @@ Scene under_glass(float half_width_of_lamp)
     const float h = half_width_of_lamp;
     constexpr float x = 0.8f;  // its reflection is not in view
     builder.quad({-w, -1, w}, {w, -1, w}, {w, -1, -w}, {-w, -1, -w}, lambertian(Rgb(albedo)));
-    builder.quad({-w, 0, w}, {w, 0, w}, {w, 0, -w}, {-w, 0, -w}, tinted_pane());
+    builder.quad({-w, 0, w}, {w, 0, w}, {w, 0, -w}, {-w, 0, -w}, scattering_pane());
     builder.quad({x - h, 1, -h}, {x + h, 1, -h}, {x + h, 1, h}, {x - h, 1, h},
                  emitter(Rgb(radiance)));
     return Scene(std::move(builder.desc));

@@ -1,4 +1,5 @@
 #include "catch.hpp"
+#include "geometry/any_hit_filter.h"
 #include "math/sampler.h"
 #include "scene/world.h"
 #include "scene_builder.h"
@@ -9,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -354,15 +356,16 @@ TEST_CASE("unlit surfaces shine with their base colour and scatter nothing", "[a
     CHECK(power == Approx(3.14159265f * 2.0f * (double_sided ? 2.0f : 1.0f)).epsilon(0.02));
 }
 
-TEST_CASE("rays pass clear sheets by what these transmit at that angle", "[alpha]")
+TEST_CASE("rays pass clear sheets by what these do not reflect, and are tinted", "[alpha]")
 {
     constexpr int samples = 20000;
-    constexpr float grey = 0.7f;
+    const Rgb tint(0.9f, 0.5f, 0.1f);
     const bool shared = GENERATE(false, true);
     const float slope = GENERATE(0.0f, 1.7f);
     MaterialDesc sheet = test::thin_glass(0.0f);
-    sheet.base_color = {grey, grey, grey, 1.0f};
+    sheet.base_color = Vec4(tint, 1.0f);
     const World world(stack({sheet, sheet}, shared));
+    CHECK(world.tints());
     const Vec3 direction = normalize(Vec3(slope, 0.0f, -1.0f));
     const Vec3 middle(0.1f, 0.2f, -0.5f);
     const Vec3 half_way = (-0.7f / direction.z) * direction;
@@ -372,11 +375,22 @@ TEST_CASE("rays pass clear sheets by what these transmit at that angle", "[alpha
     int mirrored = 0;
     for (int i = 0; i < samples; ++i) {
         const SegmentKey segment = key(i);
+        bool is_tinted = false;
+        const bool is_hit = world.first_hit(high, direction, segment, &is_tinted).has_value();
         const auto hit = world.intersect(high, direction, segment);
-        const bool passed = world.transmittance(high, low, segment) == Rgb(1.0f);
-        REQUIRE(passed == !hit.has_value());
-        REQUIRE(passed == (world.transmittance(low, high, segment) == Rgb(1.0f)));
-        free += passed ? 1 : 0;
+        REQUIRE(is_hit == hit.has_value());
+        const Rgb between = world.transmittance(high, low, segment);
+        REQUIRE(between == (hit ? Rgb(0.0f) : tint * tint));
+        REQUIRE(between == world.transmittance(low, high, segment));
+        REQUIRE(between == world.transmittance_to_infinity(high, direction, segment));
+        // A ray may meet the lower sheet before the upper one stops it.
+        const bool upper = hit && hit->end.p.z > -0.5f;
+        REQUIRE((is_tinted || upper));
+        const float reach = hit ? glm::distance(hit->end.p, high.p) : 100.0f;
+        REQUIRE(world.tint(high, direction, reach, segment) == (!hit    ? tint * tint
+                                                                : upper ? Rgb(1.0f)
+                                                                        : tint));
+        free += hit ? 0 : 1;
         if (hit && hit->end.p.z > -0.5f) {
             ++mirrored;
             const auto sample = hit->bsdf.sample(0.5f, Vec2(0.5f), TransportMode::radiance);
@@ -389,28 +403,67 @@ TEST_CASE("rays pass clear sheets by what these transmit at that angle", "[alpha
     const double inner = std::sqrt(ior * ior - 1.0 + cosine * cosine);
     const double s = (cosine - inner) / (cosine + inner);
     const double p = (ior * ior * cosine - inner) / (ior * ior * cosine + inner);
-    const double passes = static_cast<double>(grey) * (1.0 - 0.5 * (s * s + p * p));
+    const double passes = 1.0 - 0.5 * (s * s + p * p);
     check_share(free, samples, passes * passes);
     check_share(mirrored, samples, 1.0 - passes);
 }
 
-TEST_CASE("vertex colours tint a sheet, which rays do not pass then", "[alpha]")
+TEST_CASE("vertex colours tint what passes a clear sheet", "[alpha]")
 {
     SceneBuilder builder;
     MeshDesc mesh = square();
-    mesh.colors.assign(4, Vec4(1.0f, 1.0f, 1.0f, 1.0f));
-    mesh.colors[2].y = 0.3f;
+    mesh.colors.assign(4, Vec4(1.0f, 0.25f, 2.0f, 0.5f));
     builder.place(builder.add_mesh(std::move(mesh)), test::thin_glass(0.0f), Mat4(1.0f));
     const World world(std::move(builder.desc));
-    for (int i = 0; i < 100; ++i) {
-        REQUIRE(world.transmittance(above, below, key(i)) == Rgb(0.0f));
-        const auto hit = world.intersect(above, down, key(i));
-        REQUIRE(hit);
-        const auto sample = hit->bsdf.sample(0.99f, Vec2(0.5f), TransportMode::radiance);
-        REQUIRE(sample);
-        REQUIRE(sample->wi.z < 0.0f);
-        REQUIRE(sample->weight.y < 0.999f * sample->weight.x);
+    CHECK(world.tints());
+    int free = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Rgb between = world.transmittance(above, below, key(i));
+        if (between != Rgb(0.0f)) {
+            ++free;
+            REQUIRE(between.x == Approx(1.0f));
+            REQUIRE(between.y == Approx(0.25f));
+            REQUIRE(between.z == Approx(1.0f));
+        }
     }
+    check_share(free, 1000, 0.96);
+    CHECK_FALSE(World(stack({test::thin_glass(0.0f)}, false)).tints());
+}
+
+TEST_CASE("a tinted triangle counts once, however often it is reported", "[alpha]")
+{
+    PassedTint tint;
+    AnyHit crossing;
+    crossing.instance = 3;
+    for (const std::uint32_t triangle : {7U, 8U, 7U, 8U, 8U}) {
+        crossing.triangle = triangle;
+        tint.pass(crossing, Rgb(0.5f, 1.0f, 0.25f));
+    }
+    crossing.instance = 4;
+    tint.pass(crossing, Rgb(0.5f, 1.0f, 1.0f));
+    CHECK(tint.factor() == Rgb(0.125f, 1.0f, 0.0625f));
+}
+
+TEST_CASE("each of many tinted sheets counts once", "[alpha]")
+{
+    const int count = GENERATE(20, 60);
+    MaterialDesc sheet = test::thin_glass(0.0f);
+    sheet.base_color = {0.9f, 1.0f, 1.0f, 1.0f};
+    sheet.specular = 0.0f;  // reflects nothing
+    SceneBuilder builder;
+    for (int i = 0; i < count; ++i) {
+        const float z = 0.01f * static_cast<float>(i);
+        builder.quad({-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}, sheet);
+    }
+    const World world(std::move(builder.desc));
+    const auto expected = static_cast<float>(std::pow(0.9, count));
+    CHECK(world.transmittance(above, below, key(0)).x == Approx(expected).epsilon(1e-4));
+    CHECK(world.transmittance_to_infinity(below, -down, key(1)).x ==
+          Approx(expected).epsilon(1e-4));
+    CHECK(world.tint(above, down, 100.0f, key(2)).x == Approx(expected).epsilon(1e-4));
+    CHECK(world.tint(above, down, 100.0f, key(2)).y == 1.0f);
+    // Camera rays without chance hit even these.
+    CHECK(world.first_hit(above, down, key(0).without_chance()).has_value());
 }
 
 }  // namespace bdpt::alpha_test

@@ -326,8 +326,12 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
     }
     const SegmentTransmission transmission =
         world_.media().transmission(ray.origin, point.end, ray.direction, chosen->distance);
-    const Rgb through = world_.volumes().transmittance(ray.origin.p, ray.direction,
-                                                       chosen->distance, sample.segment(0, depth));
+    const SegmentKey segment = sample.segment(0, depth);
+    Rgb through =
+        world_.volumes().transmittance(ray.origin.p, ray.direction, chosen->distance, segment);
+    if (world_.tints()) {
+        through *= world_.tint(ray.origin, ray.direction, chosen->distance, segment);
+    }
     const float probability =
         world_.lights().context_probability(chosen->light, receiver, next_event_sampling_.lights);
     const TechniqueDensities densities{

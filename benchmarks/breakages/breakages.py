@@ -98,8 +98,9 @@ BREAKAGES = (
     Breakage("splats of shared light paths count as those of own ones", JOINER,
              "strategy, *found, strategies_.count(strategy.s, strategy.t),", "strategy, *found, 1.0f,", options=SHARED),
     Breakage("shadow rays to infinity meet nothing", "lib/src/scene/world.cpp",
-             "if (embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),\n"
-             "                           .direction = direction,",
-             "if (false && embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),\n"
-             "                           .direction = direction,", "room-environment.gltf", ("--env", "default")),
+             "    const Ray ray = ray_from(a, direction, segment);\n    Rgb passing(1.0f);\n    if (is_blocked(",
+             "    const Ray ray = ray_from(a, direction, segment);\n    Rgb passing(1.0f);\n    if (false && is_blocked(",
+             "room-environment.gltf", ("--env", "default")),
+    Breakage("shadow rays pass blended surfaces by what these block", "lib/src/geometry/ray_passage.cpp",
+             "crossing.factor = (1.0f - crossing.opacity) * tint();", "crossing.factor = crossing.opacity * tint();", "alpha.gltf"),
 )

@@ -8,8 +8,8 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include "geometry/any_hit_filter.h"
 #include "geometry/ray.h"
+#include "geometry/ray_passage.h"
 
 namespace bdpt::embree {
 
@@ -24,14 +24,15 @@ struct RayContext {
     Context embree;
     const Ray* ray;
     const void* owner;
-    PassedTint* tint;  ///< of the ray; null if not wanted
+    RayPassage* passage;  ///< null: `PassageRule::chance`
 };
 
-/// Traces `ray_hit`; callbacks receive `of`, the world-space ray, `owner`, the caller, and `tint`.
+/// Traces `ray_hit`; callbacks receive `of`, the world-space ray, `owner`, the caller, and
+/// `passage`.
 inline void intersect(RTCScene scene, RTCRayHit& ray_hit, const Ray& of, const void* owner,
-                      PassedTint* tint)
+                      RayPassage* passage)
 {
-    RayContext context{.embree = {}, .ray = &of, .owner = owner, .tint = tint};
+    RayContext context{.embree = {}, .ray = &of, .owner = owner, .passage = passage};
 #if BDPT_EMBREE_MAJOR >= 4
     rtcInitRayQueryContext(&context.embree);
     RTCIntersectArguments arguments;
@@ -46,9 +47,9 @@ inline void intersect(RTCScene scene, RTCRayHit& ray_hit, const Ray& of, const v
 
 /// Sets `ray.tfar` to minus infinity if anything blocks the ray.
 inline void occluded(RTCScene scene, RTCRay& ray, const Ray& of, const void* owner,
-                     PassedTint* tint)
+                     RayPassage* passage)
 {
-    RayContext context{.embree = {}, .ray = &of, .owner = owner, .tint = tint};
+    RayContext context{.embree = {}, .ray = &of, .owner = owner, .passage = passage};
 #if BDPT_EMBREE_MAJOR >= 4
     rtcInitRayQueryContext(&context.embree);
     RTCOccludedArguments arguments;

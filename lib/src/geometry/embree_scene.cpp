@@ -73,17 +73,18 @@ void filter_hit(const RTCFilterFunctionNArguments* args)
     const std::uint32_t instance = shared ? hit.instID[0] : hit.geomID;
     TriangleHit at;
     placed[instance].hit(hit.primID, *query.ray, at);
-    const AnyHit crossing{.instance = instance,
-                          .triangle = hit.primID,
-                          .barycentrics = at.barycentrics,
-                          .ng = at.ng,
-                          .direction = query.ray->direction,
-                          .segment = query.ray->segment};
-    if (filter->passes(filter->owner, crossing)) {
+    const AnyHit surface{.instance = instance,
+                         .triangle = hit.primID,
+                         .barycentrics = at.barycentrics,
+                         .ng = at.ng,
+                         .direction = query.ray->direction,
+                         .segment = query.ray->segment};
+    const bool passes = query.passage != nullptr
+                            ? query.passage->passes(*filter, surface, RTCRayN_tfar(args->ray, 1, 0))
+                            : surface.segment.at_surface(instance, hit.primID) >=
+                                  filter->opacity(filter->owner, surface);
+    if (passes) {
         args->valid[0] = 0;
-        if (query.tint != nullptr) {
-            query.tint->pass(crossing, filter->tint(filter->owner, crossing));
-        }
     }
 }
 
@@ -334,7 +335,7 @@ const void* EmbreeScene::tree(std::size_t mesh) const noexcept
     return state_->trees[mesh].get();
 }
 
-std::optional<RayHit> EmbreeScene::intersect(const Ray& ray, PassedTint* tint) const noexcept
+std::optional<RayHit> EmbreeScene::intersect(const Ray& ray, RayPassage* passage) const noexcept
 {
     std::optional<RayHit> found;  // constructed in place of the result
     if (!state_->can_trace(ray)) [[unlikely]] {
@@ -345,10 +346,13 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray, PassedTint* tint) c
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     const QueryOwner owner{.filter = &filter_, .placed = state_->placed};
-    embree::intersect(state_->top.get(), query, ray, &owner, tint);
+    embree::intersect(state_->top.get(), query, ray, &owner, passage);
     const RTCHit& hit = query.hit;
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return found;
+    }
+    if (passage != nullptr) [[unlikely]] {
+        passage->set_end(query.ray.tfar);
     }
     found.emplace();
     const bool shared = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
@@ -364,14 +368,23 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray, PassedTint* tint) c
     return found;
 }
 
-bool EmbreeScene::occluded(const Ray& ray, PassedTint* tint) const noexcept
+RayHit EmbreeScene::hit_at(const Ray& ray, const Crossing& crossing) const noexcept
+{
+    RayHit hit;
+    hit.instance = crossing.instance;
+    hit.triangle = crossing.triangle;
+    state_->placed[crossing.instance].hit(crossing.triangle, ray, hit.at);
+    return hit;
+}
+
+bool EmbreeScene::occluded(const Ray& ray, RayPassage* passage) const noexcept
 {
     if (!state_->can_trace(ray)) [[unlikely]] {
         return true;  // An invalid ray transports no light.
     }
     RTCRay query = to_embree(ray);
     const QueryOwner owner{.filter = &filter_, .placed = state_->placed};
-    embree::occluded(state_->top.get(), query, ray, &owner, tint);
+    embree::occluded(state_->top.get(), query, ray, &owner, passage);
     return query.tfar < 0.0f;
 }
 

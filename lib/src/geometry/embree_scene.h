@@ -3,6 +3,7 @@
 #include "geometry/any_hit_filter.h"
 #include "geometry/placed_mesh.h"
 #include "geometry/ray.h"
+#include "geometry/ray_passage.h"
 #include "geometry/sphere.h"
 
 #include <bdpt/isa.h>
@@ -50,13 +51,15 @@ public:
     [[nodiscard]] const std::vector<bool>& filtered() const noexcept;
     /// Identifies the BVH of a mesh that instances share: equal for the same BVH, null without one.
     [[nodiscard]] const void* tree(std::size_t mesh) const noexcept;
-    /// Returns the first hit that the filter does not pass, in (0, ray.t_max). `tint`, unless null,
-    /// receives all surfaces that the ray passes before it, and perhaps some beyond.
+    /// Returns the first hit in (0, ray.t_max) that the ray does not pass. `passage`, unless null,
+    /// has the rule, else chance; it may receive surfaces beyond the hit, too.
     [[nodiscard]] std::optional<RayHit> intersect(const Ray& ray,
-                                                  PassedTint* tint = nullptr) const noexcept;
-    /// Tests whether any surface in (0, ray.t_max) blocks the ray; if none does, `tint`, unless
+                                                  RayPassage* passage = nullptr) const noexcept;
+    /// Returns the hit of the ray at a surface that it crosses.
+    [[nodiscard]] RayHit hit_at(const Ray& ray, const Crossing& crossing) const noexcept;
+    /// Tests whether any surface in (0, ray.t_max) blocks the ray; if none does, `passage`, unless
     /// null, receives all surfaces that it passes.
-    [[nodiscard]] bool occluded(const Ray& ray, PassedTint* tint = nullptr) const noexcept;
+    [[nodiscard]] bool occluded(const Ray& ray, RayPassage* passage = nullptr) const noexcept;
 
 private:
     struct State;

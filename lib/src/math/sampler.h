@@ -18,8 +18,10 @@ enum class SampleUse : std::uint32_t {
     film,         ///< position in the pixel; at a light vertex: pixel that receives its splat
     camera_walk,  ///< scattering at a vertex of the camera subpath
     next_event,   ///< point on a light for a vertex of the camera subpath
-    light_start,  ///< start of the light subpath: point and choice of the light (0), direction (1)
-    light_walk,   ///< scattering at a vertex of the light subpath
+    /// Start of the light subpath: point and choice of the light (0), direction (1). And surfaces
+    /// that a ray from the lens may pass (`Sampler::first_crossing`).
+    light_start,
+    light_walk,  ///< scattering at a vertex of the light subpath
     /// Point on the lens: of the camera subpath (0), for a vertex of the light subpath.
     lens,
     ground,  ///< light (even numbers) or direction (odd) for the ground under the scene
@@ -51,6 +53,10 @@ enum class SampleUse : std::uint32_t {
 /// another, independent of it, as the two halves of the film must be.
 class Sampler {
 public:
+    /// The vertex of `SampleUse::light_start` whose numbers are those of surfaces that a ray from
+    /// the lens may pass, in their order.
+    static constexpr std::uint32_t first_crossing = 2;
+
     Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_t sample_index);
 
     /// Continues with the dimensions of a use at a vertex.

@@ -21,11 +21,14 @@ struct SegmentKey {
         return {.value = no_chance, .wavelength = wavelength, .time = time};
     }
 
+    /// Tests whether this is no key `without_chance`.
+    [[nodiscard]] constexpr bool has_chance() const noexcept { return value != no_chance; }
+
     /// Returns the number of a surface for this segment: uniform in [0, 1), a multiple of 2^-24.
     [[nodiscard]] constexpr float at_surface(std::uint32_t instance,
                                              std::uint32_t triangle) const noexcept
     {
-        if (value == no_chance) [[unlikely]] {
+        if (!has_chance()) [[unlikely]] {
             return 0.0f;
         }
         const std::uint64_t surface = std::uint64_t{instance} << 32U | triangle;

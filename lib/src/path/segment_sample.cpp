@@ -68,18 +68,42 @@ float distance_to_end(const SampleContext& sample, const SegmentEnd& origin, Vec
 
 }  // namespace
 
+std::optional<RayHit> first_camera_hit(const World& world, Sampler& sampler, const SegmentEnd& lens,
+                                       Vec3 direction, SegmentKey segment, bool& is_tinted)
+{
+    RayPassage record(PassageRule::record);
+    const auto end = world.first_hit(lens, direction, segment, record);
+    if (!record.has_all()) [[unlikely]] {
+        return world.first_hit(lens, direction, segment, &is_tinted);
+    }
+    sampler.start(SampleUse::light_start, Sampler::first_crossing);
+    for (const Crossing& crossing : record.crossings()) {
+        if (sampler.next_1d() < crossing.opacity) {
+            return world.hit_at(lens, direction, segment, crossing);
+        }
+        is_tinted = world.tints();
+    }
+    return end;
+}
+
 SegmentSample sample_segment(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
                              SegmentKey segment, const WalkPlace& place)
 {
     bool is_tinted = false;
-    SegmentSample event(
-        [&] { return sample.world.first_hit(origin, direction, segment, &is_tinted); });
+    const bool is_stratified =
+        sample.world.has_passable() && place.from_camera && place.vertices == 1;
+    SegmentSample event([&] {
+        return is_stratified ? first_camera_hit(sample.world, sample.sampler, origin, direction,
+                                                segment, is_tinted)
+                             : sample.world.first_hit(origin, direction, segment, &is_tinted);
+    });
     if (sample.world.media().any() || sample.world.volumes().any()) {
         pass_media(sample, origin, direction, segment, place, event);
     }
     if (is_tinted) [[unlikely]] {
         const float distance = distance_to_end(sample, origin, direction, segment, event);
-        event.passing_weight *= sample.world.tint(origin, direction, distance, segment);
+        event.passing_weight *=
+            sample.world.tint(origin, direction, distance, segment, event.surface);
     }
     return event;
 }

@@ -46,6 +46,13 @@ struct SegmentSample {
     }
 };
 
+/// Returns the first hit of a ray from the lens: at the n-th surface that it may pass, the n-th
+/// number of the sample decides, not the segment's key, so the decisions of the samples of a pixel
+/// are stratified. `is_tinted` as in `World::first_hit`. Starts another use of `sampler`.
+[[nodiscard]] std::optional<RayHit> first_camera_hit(const World& world, Sampler& sampler,
+                                                     const SegmentEnd& lens, Vec3 direction,
+                                                     SegmentKey segment, bool& is_tinted);
+
 /// The walk that samples a segment.
 struct WalkPlace {
     bool from_camera = true;

@@ -4,12 +4,12 @@
 #include "integrator/sample_start.h"
 #include "math/rgb.h"
 #include "math/sampler.h"
+#include "path/segment_sample.h"
 #include "scene/world.h"
 
 #include <glm/geometric.hpp>
 
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -108,7 +108,7 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
     segment.time = start.moment.time;
     ++rays.aov;
     bool is_opaque = false;
-    if (const auto hit = hit_of(ray, segment)) {
+    if (const auto hit = hit_of(ray, segment, start.sampler)) {
         if (needs_surfaces_ || film.needs_opacity()) {
             const SurfacePoint point =
                 world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
@@ -136,18 +136,20 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
     }
 }
 
-std::optional<RayHit> AovPass::hit_of(const CameraRay& ray, SegmentKey segment) const
+std::optional<RayHit> AovPass::hit_of(const CameraRay& ray, SegmentKey segment,
+                                      Sampler& sampler) const
 {
+    if (!world_.has_passable()) {
+        return world_.first_hit(ray.lens, ray.direction, segment);
+    }
     bool is_tinted = false;
-    const auto hit = world_.first_hit(ray.lens, ray.direction, segment, &is_tinted);
+    const auto hit = first_camera_hit(world_, sampler, ray.lens, ray.direction, segment, is_tinted);
     if (hit || !is_tinted) {
         return hit;
     }
-    // No surface has these indices, so its number is independent of those of all surfaces.
-    constexpr auto none = std::numeric_limits<std::uint32_t>::max();
     constexpr float infinite = std::numeric_limits<float>::infinity();
     const float passes = luminance(world_.tint(ray.lens, ray.direction, infinite, segment));
-    return segment.at_surface(none, none) < passes
+    return sampler.next_1d() < passes
                ? hit
                : world_.first_hit(ray.lens, ray.direction, segment.without_chance());
 }

@@ -18,6 +18,14 @@
 namespace bdpt {
 namespace {
 
+Ray ray_from(const SegmentEnd& from, Vec3 direction, SegmentKey segment)
+{
+    return {.origin = offset_origin(from.p, from.error, from.ng, direction),
+            .direction = direction,
+            .ignored_sphere = from.sphere,
+            .segment = segment};
+}
+
 /// Constructs a scattering point of a medium or volume; `around` is the medium at that point.
 SurfacePoint scattering_point(Vec3 p, Vec3 direction, MediumId around,
                               const HenyeyGreenstein& phase)
@@ -93,32 +101,30 @@ bool World::may_tint(std::uint32_t instance) const noexcept
            !(material.is_untinted() && placed_[instance].mesh().colors.empty());
 }
 
-bool World::is_passed(const AnyHit& crossing) const noexcept
+float World::opacity_at(const AnyHit& surface) const noexcept
 {
-    const Material& material = find_material(crossing.instance);
+    const Material& material = find_material(surface.instance);
     if (const ClearSheet* sheet = material.clear_sheet()) {
-        const Vec3 direction = crossing.direction;
-        const Vec3 ns = shading_normal(placed_[crossing.instance], crossing.triangle,
-                                       crossing.barycentrics, crossing.ng, crossing.segment.time);
-        const float cosine = std::abs(dot(ns, direction)) / std::sqrt(dot(direction, direction));
-        return crossing.segment.at_surface(crossing.instance, crossing.triangle) >=
-               sheet->reflectance(cosine);
+        const Vec3 direction = surface.direction;
+        const Vec3 ns = shading_normal(placed_[surface.instance], surface.triangle,
+                                       surface.barycentrics, surface.ng, surface.segment.time);
+        return sheet->reflectance(std::abs(dot(ns, direction)) /
+                                  std::sqrt(dot(direction, direction)));
     }
     if (material.alpha_mode() == AlphaMode::opaque) {
-        return false;  // instance of a shared mesh
+        return 1.0f;  // instance of a shared mesh
     }
-    const float opacity = material.opacity(
-        texture_point(placed_[crossing.instance], crossing.triangle, crossing.barycentrics));
-    return crossing.segment.at_surface(crossing.instance, crossing.triangle) >= opacity;
+    return material.opacity(
+        texture_point(placed_[surface.instance], surface.triangle, surface.barycentrics));
 }
 
-Rgb World::tint_at(const AnyHit& crossing) const noexcept
+Rgb World::tint_at(const AnyHit& surface) const noexcept
 {
-    const Material& material = find_material(crossing.instance);
+    const Material& material = find_material(surface.instance);
     return material.clear_sheet() == nullptr
                ? Rgb(1.0f)
-               : material.tint(texture_point(placed_[crossing.instance], crossing.triangle,
-                                             crossing.barycentrics));
+               : material.tint(texture_point(placed_[surface.instance], surface.triangle,
+                                             surface.barycentrics));
 }
 
 AnyHitFilter World::any_hit_filter() const noexcept
@@ -128,44 +134,52 @@ AnyHitFilter World::any_hit_filter() const noexcept
                 [](const void* world, std::uint32_t instance) noexcept {
                     return static_cast<const World*>(world)->may_be_passed(instance);
                 },
-            .passes =
-                [](const void* world, const AnyHit& crossing) noexcept {
-                    return static_cast<const World*>(world)->is_passed(crossing);
+            .opacity =
+                [](const void* world, const AnyHit& surface) noexcept {
+                    return static_cast<const World*>(world)->opacity_at(surface);
                 },
             .tint =
-                [](const void* world, const AnyHit& crossing) noexcept {
-                    return static_cast<const World*>(world)->tint_at(crossing);
+                [](const void* world, const AnyHit& surface) noexcept {
+                    return static_cast<const World*>(world)->tint_at(surface);
                 }};
 }
 
 std::optional<RayHit> World::first_hit(const SegmentEnd& from, Vec3 direction, SegmentKey segment,
                                        bool* is_tinted) const noexcept
 {
-    const Ray ray{.origin = offset_origin(from.p, from.error, from.ng, direction),
-                  .direction = direction,
-                  .ignored_sphere = from.sphere,
-                  .segment = segment};
     if (!tints_ || is_tinted == nullptr) [[likely]] {
-        return embree_->intersect(ray);
+        return embree_->intersect(ray_from(from, direction, segment));
     }
-    PassedTint tint;
-    const auto hit = embree_->intersect(ray, &tint);
-    *is_tinted = tint.factor() != Rgb(1.0f);
+    RayPassage passage(PassageRule::chance);
+    passage.look_for_tints();
+    const auto hit = embree_->intersect(ray_from(from, direction, segment), &passage);
+    *is_tinted = passage.is_tinted();
     return hit;
 }
 
-Rgb World::tint(const SegmentEnd& from, Vec3 direction, float distance,
-                SegmentKey segment) const noexcept
+std::optional<RayHit> World::first_hit(const SegmentEnd& from, Vec3 direction, SegmentKey segment,
+                                       RayPassage& passage) const noexcept
 {
-    PassedTint tint;
-    static_cast<void>(
-        embree_->intersect({.origin = offset_origin(from.p, from.error, from.ng, direction),
-                            .direction = direction,
-                            .t_max = distance,
-                            .ignored_sphere = from.sphere,
-                            .segment = segment},
-                           &tint));
-    return tint.factor();
+    return embree_->intersect(ray_from(from, direction, segment), &passage);
+}
+
+RayHit World::hit_at(const SegmentEnd& from, Vec3 direction, SegmentKey segment,
+                     const Crossing& crossing) const noexcept
+{
+    return embree_->hit_at(ray_from(from, direction, segment), crossing);
+}
+
+Rgb World::tint(const SegmentEnd& from, Vec3 direction, float distance, SegmentKey segment,
+                const std::optional<RayHit>& end) const noexcept
+{
+    RayPassage passage(PassageRule::tint);
+    if (end && end->sphere == no_sphere) {
+        passage.leave_out(end->instance, end->triangle);
+    }
+    Ray ray = ray_from(from, direction, segment);
+    ray.t_max = distance;
+    static_cast<void>(embree_->intersect(ray, &passage));
+    return passage.factor();
 }
 
 SurfacePoint World::surface_at(const RayHit& hit, Vec3 direction, SegmentKey segment,
@@ -299,6 +313,17 @@ SurfacePoint World::volume_point(const SegmentEnd& from, Vec3 direction, const V
         HenyeyGreenstein(volume.extinction(event.density) * volume.albedo(), volume.anisotropy()));
 }
 
+bool World::is_blocked(const Ray& ray, Rgb& passing) const noexcept
+{
+    if (!has_passable_) [[likely]] {
+        return embree_->occluded(ray);
+    }
+    RayPassage passage(ray.segment.has_chance() ? PassageRule::expectation : PassageRule::chance);
+    const bool blocked = embree_->occluded(ray, &passage);
+    passing *= passage.factor();
+    return blocked;
+}
+
 std::optional<SegmentTransmission> World::transmission(const SegmentEnd& a, const SegmentEnd& b,
                                                        SegmentKey segment) const noexcept
 {
@@ -308,18 +333,18 @@ std::optional<SegmentTransmission> World::transmission(const SegmentEnd& a, cons
     const Vec3 to_b = b.p - a.p;
     const Vec3 origin = offset_origin(a.p, a.error, a.ng, to_b);
     const Vec3 target = offset_origin(b.p, b.error, b.ng, -to_b);
-    PassedTint tint;
     // Spheres only emit, so at most one end is on a sphere, where light leaves it.
-    if (embree_->occluded({.origin = origin,
-                           .direction = target - origin,
-                           .t_max = short_of_end,
-                           .ignored_sphere = a.sphere != no_sphere ? a.sphere : b.sphere,
-                           .segment = segment},
-                          tints_ ? &tint : nullptr)) {
+    const Ray ray{.origin = origin,
+                  .direction = target - origin,
+                  .t_max = short_of_end,
+                  .ignored_sphere = a.sphere != no_sphere ? a.sphere : b.sphere,
+                  .segment = segment};
+    Rgb passing(1.0f);
+    if (is_blocked(ray, passing)) {
         return std::nullopt;
     }
     if (!media_.any() && !volumes_.any()) {
-        return SegmentTransmission{.transmittance = tint.factor()};
+        return SegmentTransmission{.transmittance = passing};
     }
     const float distance = std::sqrt(dot(to_b, to_b));
     SegmentTransmission transmission = media_.transmission(a, b, to_b, distance);
@@ -327,18 +352,16 @@ std::optional<SegmentTransmission> World::transmission(const SegmentEnd& a, cons
         transmission.transmittance *=
             volumes_.transmittance(a.p, to_b / distance, distance, segment);
     }
-    transmission.transmittance *= tint.factor();
+    transmission.transmittance *= passing;
     return transmission;
 }
 
 std::optional<SegmentTransmission> World::transmission_to_infinity(
     const SegmentEnd& a, Vec3 direction, SegmentKey segment) const noexcept
 {
-    PassedTint tint;
-    if (embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),
-                           .direction = direction,
-                           .segment = segment},
-                          tints_ ? &tint : nullptr)) {
+    const Ray ray = ray_from(a, direction, segment);
+    Rgb passing(1.0f);
+    if (is_blocked(ray, passing)) {
         return std::nullopt;
     }
     constexpr float infinite = std::numeric_limits<float>::max();
@@ -346,7 +369,7 @@ std::optional<SegmentTransmission> World::transmission_to_infinity(
     if (volumes_.any()) {
         transmission.transmittance *= volumes_.transmittance(a.p, direction, infinite, segment);
     }
-    transmission.transmittance *= tint.factor();
+    transmission.transmittance *= passing;
     return transmission;
 }
 

@@ -59,8 +59,9 @@ public:
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
-    // Surfaces that are not opaque are hit or passed at random: the key of the segment decides.
-    // Each segment of a path needs a key of its own (docs/mis.md).
+    // Rays hit or pass surfaces that are not opaque at random: the key of the segment decides. Each
+    // segment of a path needs a key of its own (docs/mis.md). Shadow rays pass them with the factor
+    // that these let pass on average.
 
     /// Returns the first hit of a ray from `from` in the unit direction `direction`, at the
     /// segment's time. `is_tinted`, unless null, is set if the ray may pass tinted surfaces on the
@@ -68,10 +69,20 @@ public:
     [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
                                                   SegmentKey segment,
                                                   bool* is_tinted = nullptr) const noexcept;
+    /// The same with a rule for surfaces that the ray may pass.
+    [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
+                                                  SegmentKey segment,
+                                                  RayPassage& passage) const noexcept;
+    /// Returns the hit at a surface that the ray crosses.
+    [[nodiscard]] RayHit hit_at(const SegmentEnd& from, Vec3 direction, SegmentKey segment,
+                                const Crossing& crossing) const noexcept;
+    /// Tests whether rays may pass any surface.
+    [[nodiscard]] bool has_passable() const noexcept { return has_passable_; }
     /// Returns the factor of light on a ray that passes tinted surfaces within `distance`, which is
-    /// at most that of the first hit.
+    /// at most that of the hit `end`, if there is one.
     [[nodiscard]] Rgb tint(const SegmentEnd& from, Vec3 direction, float distance,
-                           SegmentKey segment) const noexcept;
+                           SegmentKey segment,
+                           const std::optional<RayHit>& end = std::nullopt) const noexcept;
     /// Tests whether `tint` is ever other than 1.
     [[nodiscard]] bool tints() const noexcept { return tints_; }
     /// Returns the surface at a hit for light of the segment's wavelength; mip-mapped textures have
@@ -143,8 +154,11 @@ private:
                                       Vec2 barycentrics, Vec3 ng, float time) const noexcept;
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool may_tint(std::uint32_t instance) const noexcept;
-    [[nodiscard]] Rgb tint_at(const AnyHit& crossing) const noexcept;
-    [[nodiscard]] bool is_passed(const AnyHit& crossing) const noexcept;
+    [[nodiscard]] Rgb tint_at(const AnyHit& surface) const noexcept;
+    /// Tests whether a shadow ray is blocked; else multiplies `passing` by the factor with which it
+    /// passes surfaces.
+    [[nodiscard]] bool is_blocked(const Ray& ray, Rgb& passing) const noexcept;
+    [[nodiscard]] float opacity_at(const AnyHit& surface) const noexcept;
     [[nodiscard]] AnyHitFilter any_hit_filter() const noexcept;
     /// Unit normals on the front side: of the triangle, and interpolated.
     struct ShadingNormals {
@@ -195,6 +209,7 @@ private:
     std::vector<MaterialId> material_ids_;  // one per instance: surroundings matter, too
     bool disperses_ = false;
     bool moves_ = false;
+    bool has_passable_ = false;
     bool tints_ = false;
     std::shared_ptr<const SceneGeometry> geometry_;
     std::span<const PlacedMesh> placed_;  // view of `geometry_`

@@ -78,6 +78,7 @@ void WorldBuilder::build(Isa isa)
     add_materials();
     build_trees(isa);
     for (std::uint32_t i = 0; i < w.placed_.size(); ++i) {
+        w.has_passable_ = w.has_passable_ || w.may_be_passed(i);
         w.tints_ = w.tints_ || w.may_tint(i);
     }
     w.warnings_ = precision_warnings(w.desc_, *w.geometry_);

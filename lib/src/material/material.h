@@ -122,8 +122,8 @@ private:
     [[nodiscard]] Rgb base_color(const TexturePoint& point,
                                  const UvFootprint* footprint) const noexcept;
     [[nodiscard]] float to_opacity(float alpha) const noexcept;
-    /// Tests whether a surface without layers is a smooth thin sheet that reflects and blurs
-    /// nothing but by its Fresnel reflectance, which is constant.
+    /// Tests whether a surface without layers, of which only the base colour may vary, is smooth
+    /// thin glass whose reflection has no colour.
     [[nodiscard]] bool is_clear_sheet() const noexcept;
     void measure_alpha();
     void measure_emission();

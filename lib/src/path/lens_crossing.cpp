@@ -40,7 +40,7 @@ void look_for_lens(const SampleContext& sample, const WalkStep& step, float free
     lens.beta = step.beta * (transmission.transmittance / walk_density) *
                 sample.world.volumes().weight_of_passing(step.origin->p, step.direction,
                                                          hit->distance, channels, segment);
-    if (sample.world.tints()) {
+    if (sample.world.has_tinted_surfaces()) {
         lens.beta *= sample.world.tint(*step.origin, step.direction, hit->distance, segment);
     }
     // Both densities of the lens point: that of the light walk, and that of a camera path's start.

@@ -81,7 +81,7 @@ std::optional<RayHit> first_camera_hit(const World& world, Sampler& sampler, con
         if (sampler.next_1d() < crossing.opacity) {
             return world.hit_at(lens, direction, segment, crossing);
         }
-        is_tinted = world.tints();
+        is_tinted = world.has_tinted_surfaces();
     }
     return end;
 }
@@ -91,7 +91,7 @@ SegmentSample sample_segment(SampleContext& sample, const SegmentEnd& origin, Ve
 {
     bool is_tinted = false;
     const bool is_stratified =
-        sample.world.has_passable() && place.from_camera && place.vertices == 1;
+        sample.world.has_passable_surfaces() && place.from_camera && place.vertices == 1;
     SegmentSample event([&] {
         return is_stratified ? first_camera_hit(sample.world, sample.sampler, origin, direction,
                                                 segment, is_tinted)

@@ -106,9 +106,8 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
     SegmentKey segment = start.sampler.segment_key(0, 1);
     segment.wavelength = start.moment.wavelength;
     segment.time = start.moment.time;
-    ++rays.aov;
     bool is_opaque = false;
-    if (const auto hit = hit_of(ray, segment, start.sampler)) {
+    if (const auto hit = hit_of(ray, segment, start.sampler, rays)) {
         if (needs_surfaces_ || film.needs_opacity()) {
             const SurfacePoint point =
                 world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
@@ -136,10 +135,11 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
     }
 }
 
-std::optional<RayHit> AovPass::hit_of(const CameraRay& ray, SegmentKey segment,
-                                      Sampler& sampler) const
+std::optional<RayHit> AovPass::hit_of(const CameraRay& ray, SegmentKey segment, Sampler& sampler,
+                                      RayCounts& rays) const
 {
-    if (!world_.has_passable()) {
+    ++rays.aov;
+    if (!world_.has_passable_surfaces()) {
         return world_.first_hit(ray.lens, ray.direction, segment);
     }
     bool is_tinted = false;
@@ -148,10 +148,13 @@ std::optional<RayHit> AovPass::hit_of(const CameraRay& ray, SegmentKey segment,
         return hit;
     }
     constexpr float infinite = std::numeric_limits<float>::infinity();
+    ++rays.aov;
     const float passes = luminance(world_.tint(ray.lens, ray.direction, infinite, segment));
-    return sampler.next_1d() < passes
-               ? hit
-               : world_.first_hit(ray.lens, ray.direction, segment.without_chance());
+    if (sampler.next_1d() < passes) {
+        return hit;
+    }
+    ++rays.aov;
+    return world_.first_hit(ray.lens, ray.direction, segment.without_chance());
 }
 
 float AovPass::opacity_along(const CameraRay& ray, SegmentKey segment, RayCounts& rays) const

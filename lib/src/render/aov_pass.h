@@ -41,7 +41,7 @@ private:
     /// Returns the first surface that the camera ray hits. Of the rays that pass tinted surfaces
     /// alone, a share hits the first of these, so that alpha is the light that they absorb.
     [[nodiscard]] std::optional<RayHit> hit_of(const CameraRay& ray, SegmentKey segment,
-                                               Sampler& sampler) const;
+                                               Sampler& sampler, RayCounts& rays) const;
     /// Returns the fraction of light that surfaces block along a camera ray, in [0, 1].
     [[nodiscard]] float opacity_along(const CameraRay& ray, SegmentKey segment,
                                       RayCounts& rays) const;

@@ -147,7 +147,7 @@ AnyHitFilter World::any_hit_filter() const noexcept
 std::optional<RayHit> World::first_hit(const SegmentEnd& from, Vec3 direction, SegmentKey segment,
                                        bool* is_tinted) const noexcept
 {
-    if (!tints_ || is_tinted == nullptr) [[likely]] {
+    if (!has_tinted_surfaces_ || is_tinted == nullptr) [[likely]] {
         return embree_->intersect(ray_from(from, direction, segment));
     }
     RayPassage passage(PassageRule::chance);
@@ -315,13 +315,15 @@ SurfacePoint World::volume_point(const SegmentEnd& from, Vec3 direction, const V
 
 bool World::is_blocked(const Ray& ray, Rgb& passing) const noexcept
 {
-    if (!has_passable_) [[likely]] {
+    if (!has_passable_surfaces_) [[likely]] {
         return embree_->occluded(ray);
     }
     RayPassage passage(ray.segment.has_chance() ? PassageRule::expectation : PassageRule::chance);
-    const bool blocked = embree_->occluded(ray, &passage);
+    if (embree_->occluded(ray, &passage)) {
+        return true;
+    }
     passing *= passage.factor();
-    return blocked;
+    return false;
 }
 
 std::optional<SegmentTransmission> World::transmission(const SegmentEnd& a, const SegmentEnd& b,

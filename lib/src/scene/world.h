@@ -59,32 +59,32 @@ public:
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
-    // Rays hit or pass surfaces that are not opaque at random: the key of the segment decides. Each
-    // segment of a path needs a key of its own (docs/mis.md). Shadow rays pass them with the factor
-    // that these let pass on average.
+    // Walks hit or pass surfaces that are not opaque at random: the key of the segment decides.
+    // Each segment of a path needs a key of its own (docs/mis.md). Shadow rays (`transmission`)
+    // multiply by what these surfaces let pass on average; with a key `without_chance`, they block.
 
     /// Returns the first hit of a ray from `from` in the unit direction `direction`, at the
-    /// segment's time. `is_tinted`, unless null, is set if the ray may pass tinted surfaces on the
-    /// way, whose factor is that of `tint`.
+    /// segment's time. Sets `*is_tinted`, unless null, if `tint` may differ from 1 on the way to
+    /// the hit.
     [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
                                                   SegmentKey segment,
                                                   bool* is_tinted = nullptr) const noexcept;
-    /// The same with a rule for surfaces that the ray may pass.
+    /// Does the same by the rule of `passage`, which receives the surfaces that the ray passes.
     [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
                                                   SegmentKey segment,
                                                   RayPassage& passage) const noexcept;
-    /// Returns the hit at a surface that the ray crosses.
+    /// Returns the hit of the ray at a surface that it crosses.
     [[nodiscard]] RayHit hit_at(const SegmentEnd& from, Vec3 direction, SegmentKey segment,
                                 const Crossing& crossing) const noexcept;
     /// Tests whether rays may pass any surface.
-    [[nodiscard]] bool has_passable() const noexcept { return has_passable_; }
+    [[nodiscard]] bool has_passable_surfaces() const noexcept { return has_passable_surfaces_; }
     /// Returns the factor of light on a ray that passes tinted surfaces within `distance`, which is
     /// at most that of the hit `end`, if there is one.
     [[nodiscard]] Rgb tint(const SegmentEnd& from, Vec3 direction, float distance,
                            SegmentKey segment,
                            const std::optional<RayHit>& end = std::nullopt) const noexcept;
     /// Tests whether `tint` is ever other than 1.
-    [[nodiscard]] bool tints() const noexcept { return tints_; }
+    [[nodiscard]] bool has_tinted_surfaces() const noexcept { return has_tinted_surfaces_; }
     /// Returns the surface at a hit for light of the segment's wavelength; mip-mapped textures have
     /// the detail that pixels show.
     [[nodiscard]] SurfacePoint surface_at(const RayHit& hit, Vec3 direction, SegmentKey segment,
@@ -114,7 +114,7 @@ public:
     [[nodiscard]] std::optional<SegmentTransmission> transmission_to_infinity(
         const SegmentEnd& a, Vec3 direction, SegmentKey segment) const noexcept;
     /// Returns the transmittance between two points: zero if a surface blocks the segment, else the
-    /// transmittance of media, volumes and tinted surfaces.
+    /// transmittance of media, volumes and surfaces that light passes.
     [[nodiscard]] Rgb transmittance(const SegmentEnd& a, const SegmentEnd& b,
                                     SegmentKey segment) const noexcept;
     /// Returns the transmittance from a point to infinity in the unit direction `direction`.
@@ -209,8 +209,8 @@ private:
     std::vector<MaterialId> material_ids_;  // one per instance: surroundings matter, too
     bool disperses_ = false;
     bool moves_ = false;
-    bool has_passable_ = false;
-    bool tints_ = false;
+    bool has_passable_surfaces_ = false;
+    bool has_tinted_surfaces_ = false;
     std::shared_ptr<const SceneGeometry> geometry_;
     std::span<const PlacedMesh> placed_;  // view of `geometry_`
     SceneCounts counts_;

@@ -78,8 +78,8 @@ void WorldBuilder::build(Isa isa)
     add_materials();
     build_trees(isa);
     for (std::uint32_t i = 0; i < w.placed_.size(); ++i) {
-        w.has_passable_ = w.has_passable_ || w.may_be_passed(i);
-        w.tints_ = w.tints_ || w.may_tint(i);
+        w.has_passable_surfaces_ = w.has_passable_surfaces_ || w.may_be_passed(i);
+        w.has_tinted_surfaces_ = w.has_tinted_surfaces_ || w.may_tint(i);
     }
     w.warnings_ = precision_warnings(w.desc_, *w.geometry_);
     find_enclosing_volumes();

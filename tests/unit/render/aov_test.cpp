@@ -149,6 +149,23 @@ TEST_CASE("opacity is alpha without chance where surfaces blend or are clear", "
     CHECK((chance > 1.0) == !backed);  // alpha itself is met by chance
 }
 
+TEST_CASE("the samples of a pixel pass a blended surface in their stratified share", "[aov]")
+{
+    MaterialDesc veil = test::lambertian(Rgb(0.5f));
+    veil.alpha_mode = AlphaMode::blend;
+    veil.base_color.w = 0.4f;
+    test::SceneBuilder builder;
+    builder.quad({5, -20, 3}, {5, -20, -40}, {5, 20, -40}, {5, 20, 3}, veil);
+    const RenderResult result = render(Scene(builder.desc), camera, options({Aov::alpha}));
+    const std::vector<Layer> layers = result.aovs.develop(result.film);
+    // By chance, one pixel in five would deviate by more: 16 samples have a deviation of 2.
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size / 2 - 1; ++x) {
+            CHECK(std::abs(value(layer(layers, ""), x, y, 0) - 0.4f) <= 2.0f / 16.0f);
+        }
+    }
+}
+
 TEST_CASE("AOVs are of the very rays that make the image", "[aov]")
 {
     // Paths of one edge on a surface of one nit: the pixel is the share of rays that hit.

@@ -88,8 +88,8 @@ TEST_CASE("rays pass a stack of panes by the product of what each lets pass", "[
         materials.push_back(pane(alpha));
     }
     const World world(stack(materials, shared));
-    CHECK(world.has_passable());
-    CHECK_FALSE(world.tints());
+    CHECK(world.has_passable_surfaces());
+    CHECK_FALSE(world.has_tinted_surfaces());
     int free = 0;
     std::array<int, 5> stopped{};
     for (int i = 0; i < samples; ++i) {
@@ -369,7 +369,7 @@ TEST_CASE("rays pass clear sheets by what these do not reflect, and are tinted",
     MaterialDesc sheet = test::thin_glass(0.0f);
     sheet.base_color = Vec4(tint, 1.0f);
     const World world(stack({sheet, sheet}, shared));
-    CHECK(world.tints());
+    CHECK(world.has_tinted_surfaces());
     const Vec3 direction = normalize(Vec3(slope, 0.0f, -1.0f));
     const Vec3 middle(0.1f, 0.2f, -0.5f);
     const Vec3 half_way = (-0.7f / direction.z) * direction;
@@ -424,12 +424,39 @@ TEST_CASE("vertex colours tint what passes a clear sheet", "[alpha]")
     mesh.colors.assign(4, Vec4(1.0f, 0.25f, 2.0f, 0.5f));
     builder.place(builder.add_mesh(std::move(mesh)), test::thin_glass(0.0f), Mat4(1.0f));
     const World world(std::move(builder.desc));
-    CHECK(world.tints());
+    CHECK(world.has_tinted_surfaces());
     const Rgb between = world.transmittance(above, below, key(0));
     CHECK(between.x == Approx(0.96f).epsilon(1e-3));
     CHECK(between.y == Approx(0.24f).epsilon(1e-3));
     CHECK(between.z == Approx(0.96f).epsilon(1e-3));
-    CHECK_FALSE(World(stack({test::thin_glass(0.0f)}, false)).tints());
+    CHECK_FALSE(World(stack({test::thin_glass(0.0f)}, false)).has_tinted_surfaces());
+}
+
+TEST_CASE("a texture tints what passes a clear sheet, where it passes", "[alpha]")
+{
+    // Texels from the top left; the square spans [-1, 1] and v points down.
+    MaterialDesc stained = test::thin_glass(0.0f);
+    stained.specular = 0.0f;  // reflects nothing
+    stained.base_color_texture = TextureRef{
+        .image = ImageId{0}, .wrap_u = Wrap::clamp_to_edge, .wrap_v = Wrap::clamp_to_edge};
+    SceneDesc desc = stack({stained}, GENERATE(false, true));
+    desc.images.push_back(
+        {.width = 2,
+         .height = 2,
+         .bytes = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 0, 0, 0, 255}});
+    const World world(std::move(desc));
+    const std::array<Rgb, 4> colors{Rgb(1, 0, 0), Rgb(0, 1, 0), Rgb(0, 0, 1), Rgb(0)};
+    for (std::size_t i = 0; i < 4; ++i) {
+        CAPTURE(i);
+        const Vec3 p(i % 2 == 0 ? -0.9f : 0.9f, i < 2 ? 0.9f : -0.9f, 3.0f);
+        const SegmentEnd from{.p = p};
+        const Rgb shadow = world.transmittance_to_infinity(from, down, key(0));
+        const Rgb walk = world.tint(from, down, 100.0f, key(0));
+        for (int c = 0; c < 3; ++c) {
+            CHECK(shadow[c] == Approx(colors.at(i)[c]).margin(1e-5));
+            CHECK(walk[c] == Approx(colors.at(i)[c]).margin(1e-5));
+        }
+    }
 }
 
 TEST_CASE("each of many tinted sheets counts once", "[alpha]")

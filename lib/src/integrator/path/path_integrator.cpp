@@ -329,7 +329,7 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
     const SegmentKey segment = sample.segment(0, depth);
     Rgb through =
         world_.volumes().transmittance(ray.origin.p, ray.direction, chosen->distance, segment);
-    if (world_.tints()) {
+    if (world_.has_tinted_surfaces()) {
         through *= world_.tint(ray.origin, ray.direction, chosen->distance, segment);
     }
     const float probability =

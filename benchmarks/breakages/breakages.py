@@ -26,6 +26,7 @@ TRACER = "lib/src/integrator/path/path_integrator.cpp"
 # The lens is so wide, and so far inside the box, that light paths hit it.
 WIDE_LENS = ("--lens-radius", "0.1", "--from", "0.278,0.273,-0.1", "--look-at", "0.278,0.273,0.28", "--fov", "100")
 SHARED = ("--light-paths", "0.25", "--connections", "1.5")
+CHOSEN = ("--light-paths", "0.25", "--connections", "4", "--connection-rays", "3")
 FOG = ("--fog", "0.3,0.6,1.2", "--fog-anisotropy", "0.5", "--max-depth", "4")
 # The point lies in the roughest sphere of glass-rough.gltf, below the lamp.
 INSIDE_GLASS = ("--from", "1.05,0.29,0.3", "--look-at", "1.05,1.5,0.31", "--fov", "90")
@@ -95,6 +96,12 @@ BREAKAGES = (
     Breakage("the fraction of a connection is dropped", CACHE,
              "std::floor(before + counts_.connections) - std::floor(before)", "std::floor(counts_.connections)",
              options=SHARED),
+    Breakage("chosen connections are not divided by their chance", JOINER, "found->unweighted *= each.scale;", "",
+             options=CHOSEN),
+    Breakage("connections of small estimates are never chosen", "lib/src/integrator/bidirectional/connection_chooser.cpp",
+             "const float expected = estimates.of_vertices[i] * rate + of_pair;",
+             "const float expected = estimates.of_vertices[i] * rate > 0.1f ? estimates.of_vertices[i] * rate + of_pair : 0.0f;",
+             options=CHOSEN),
     Breakage("splats of shared light paths count as those of own ones", JOINER,
              "strategy, *found, strategies_.count(strategy.s, strategy.t),", "strategy, *found, 1.0f,", options=SHARED),
     Breakage("shadow rays to infinity meet nothing", "lib/src/scene/world.cpp",

@@ -77,7 +77,8 @@ def format_settings(settings):
     if settings["integrator"] == "mis":
         return "mis"
     n = settings["light_paths"]
-    return f"n {n:g} c {settings.get('connections', n):g}"
+    rays = settings.get("connection_rays", 0)
+    return f"n {n:g} c {settings.get('connections', n):g}" + (f" K {rays:g}" if rays else "")
 
 
 def format_ratios(ratios):
@@ -94,8 +95,8 @@ def main():
     arguments = parser.parse_intermixed_args()
     measures = ("relMSE", "scales", "no dots")
     heads = "".join(f"{name:>9}" for name in measures)
-    print(f"{'':49} {'over the best single:':>27}{'over bdpt:':>27}")
-    print(f"{'scene':26} {'auto chose':14} {'pilot':>6} {heads}{heads} {'best':>5} {'noise':>6}")
+    print(f"{'':53} {'over the best single:':>27}{'over bdpt:':>27}")
+    print(f"{'scene':26} {'auto chose':18} {'pilot':>6} {heads}{heads} {'best':>5} {'noise':>6}")
     ratios = []
     for scene in arguments.scenes or sorted((ROOT / "scenes").glob("*.gltf")):
         seconds, images, told = measure(arguments.bdpt, scene, arguments)
@@ -107,10 +108,10 @@ def main():
         ratios.append(row)
         times = told["seconds"]
         share = times["choose"] / (times["choose"] + times["render"])
-        print(f"{scene.stem:26} {format_settings(told['settings']):14} {100 * share:5.1f}% {format_ratios(row)} {best:>5} "
+        print(f"{scene.stem:26} {format_settings(told['settings']):18} {100 * share:5.1f}% {format_ratios(row)} {best:>5} "
               f"{estimate_noise(seconds, images, best):6.2f}", flush=True)
     means = [math.exp(statistics.fmean(math.log(value) for value in column)) for column in zip(*ratios)]
-    print(f"{'geometric mean':26} {'':14} {'':6} {format_ratios(means)}")
+    print(f"{'geometric mean':26} {'':18} {'':6} {format_ratios(means)}")
     return 0
 
 

@@ -4,7 +4,7 @@
 Renders each scene with mis and with all numbers of light paths and connections that auto chooses from. Prints the
 choice of auto, the product of its least time and relMSE over the least product of all, and the same with relMSE without
 the ten pixels of largest error. The noise column is one standard error of the first ratio, as a factor, by the
-jackknife over seeds; the least of sixteen noisy products is biased low. Times are those of rendering, without the
+jackknife over seeds; the least of eighteen noisy products is biased low. Times are those of rendering, without the
 pilot. Errors are those of auto_table.py. Needs numpy."""
 
 import argparse
@@ -22,7 +22,9 @@ import numpy as np
 import seed_errors
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-CONNECTIONS = {0.0625: (0.25, 1, 2, 3, 5), 0.25: (0.25, 1, 2, 3), 0.5: (0.25, 1, 2), 1: (0.25, 1, 2)}
+# For each number of light paths: connections, and connection rays.
+CONNECTIONS = {0.0625: ((0.25, 0), (1, 0), (2, 0), (8, 4), (8, 8), (8, 16)), 0.25: ((0.25, 0), (1, 0), (2, 0), (8, 4), (8, 8)),
+               0.5: ((0.25, 0), (1, 0), (8, 8)), 1: ((0.25, 0), (1, 0), (8, 8))}
 
 
 def render(bdpt, scene, arguments, image, *options):
@@ -32,26 +34,29 @@ def render(bdpt, scene, arguments, image, *options):
     return json.loads(told.stdout)
 
 
+def bdpt_options(n, c, rays):
+    return ("--integrator", "bdpt", "--light-paths", f"{n:g}", "--connections", f"{c:g}", "--connection-rays", f"{rays:g}")
+
+
 def convert_settings(settings):
     """Returns the options of a render with these settings."""
     if settings["integrator"] == "mis":
         return ("--integrator", "mis")
     n = settings["light_paths"]
     disabled = settings.get("disabled", [])
-    return ("--integrator", "bdpt", "--light-paths", f"{n:g}", "--connections", f"{settings.get('connections', n):g}",
+    return (*bdpt_options(n, settings.get("connections", n), settings.get("connection_rays", 0)),
             *(("--disable", ",".join(disabled)) if disabled else ()))
 
 
 def list_candidates(chosen):
     """Returns the options of all choices, with the disabled strategies of the chosen one."""
-    disabled = chosen[6:] if len(chosen) > 2 else ("--disable", "s1t1")
-    each = [("--integrator", "bdpt", "--light-paths", f"{n:g}", "--connections", f"{c:g}", *disabled)
-            for n, numbers in CONNECTIONS.items() for c in numbers]
+    disabled = chosen[8:] if len(chosen) > 2 else ("--disable", "s1t1")
+    each = [(*bdpt_options(n, c, rays), *disabled) for n, numbers in CONNECTIONS.items() for c, rays in numbers]
     return [("--integrator", "mis"), *each]
 
 
 def format_options(options):
-    return "mis" if len(options) == 2 else f"n {options[3]} c {options[5]}"
+    return "mis" if len(options) == 2 else f"n {options[3]} c {options[5]}" + ("" if options[7] == "0" else f" K {options[7]}")
 
 
 def compute_products(seconds, images, seeds, without):

@@ -12,8 +12,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-CHOICES = [(1 / 16, 5)] + [(n, c) for n in (1 / 16, 1 / 4) for c in (0.25, 1, 2, 3)] + [
-    (n, c) for n in (0.5, 1) for c in (0.25, 1, 2)] + [(n, c) for n in (2, 4) for c in (0.25, 1)]
+CHOICES = [(n, c, rays) for n in (1 / 16, 1 / 4, 0.5, 1) for c, rays in ((0.25, 0), (1, 0), (8, 8))] + [
+    (1 / 16, 2, 0), (1 / 4, 2, 0), (1 / 16, 8, 4), (1 / 16, 8, 16), (1 / 4, 8, 4)]
 VERDICTS = {0: "passed", 10: "failed", 11: "inconclusive"}
 
 
@@ -27,16 +27,16 @@ def main():
     failed = False
     for scene in arguments.scenes or sorted((ROOT / "scenes").glob("*.gltf")):
         counts = collections.Counter()
-        for n, c in CHOICES:
+        for n, c, rays in CHOICES:
             done = subprocess.run(
-                [arguments.bdpt, "verify", scene, "--light-paths", str(n), "--connections", str(c), "--time", arguments.time,
-                 "--bias", arguments.bias], capture_output=True, text=True, check=False)
+                [arguments.bdpt, "verify", scene, "--light-paths", str(n), "--connections", str(c), "--connection-rays",
+                 str(rays), "--time", arguments.time, "--bias", arguments.bias], capture_output=True, text=True, check=False)
             if done.returncode not in VERDICTS:
                 sys.exit(f"{scene}: {done.stderr}")
             counts[VERDICTS[done.returncode]] += 1
             if done.returncode == 10:
                 failed = True
-                print(f"{scene.stem}, {n:g} light paths, {c:g} connections:\n{done.stdout}", flush=True)
+                print(f"{scene.stem}, {n:g} light paths, {c:g} connections, {rays:g} rays:\n{done.stdout}", flush=True)
         print(f"{scene.stem:26} " + ", ".join(f"{counts[word]} {word}" for word in VERDICTS.values()), flush=True)
     return 1 if failed else 0
 

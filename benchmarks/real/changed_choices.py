@@ -38,7 +38,8 @@ def find_choice(program, model, image, arguments):
     settings = render(program, model, image, arguments, "--spp", "1")[1]
     if settings["integrator"] == "mis":
         return "mis"
-    return f"n {settings['light_paths']:g} c {settings['connections']:g}"
+    rays = settings.get("connection_rays", 0)
+    return f"n {settings['light_paths']:g} c {settings['connections']:g}" + (f" K {rays:g}" if rays else "")
 
 
 def compute_products(program, model, image, reference, load, arguments):

@@ -52,6 +52,14 @@ void check_case(const EqualityCase& test, std::uint64_t first_seed)
         TileMeans bdpt_balance(scene, test.camera, balance);
         check_equal(test, "mis = bdpt (balance)", mis, bdpt_balance);
     }
+    if (first_seed / 100 % 3 == 1) {
+        RenderOptions chosen = options(test, IntegratorKind::bdpt, first_seed + 8);
+        chosen.bidirectional.light_paths = 0.25;
+        chosen.bidirectional.connections = 4.0;
+        chosen.bidirectional.connection_rays = 3.0;
+        TileMeans bdpt_chosen(scene, test.camera, chosen);
+        check_equal(test, "mis = bdpt (chosen connections)", mis, bdpt_chosen);
+    }
     TileMeans nee(scene, test.camera, options(test, IntegratorKind::nee, first_seed + 5));
     check_equal(test, "mis = nee", mis, nee, test.detectable_bias_of_light_sampling);
     check_light_tracing(test, scene, mis, first_seed + 6);

@@ -116,6 +116,22 @@ TEST_CASE("each strategy alone, pinhole", "[strategies]")
     }
 }
 
+TEST_CASE("each strategy alone, with connections that are chosen", "[strategies]")
+{
+    Options options(49000);
+    const Scene scene = open_prepared_scene();
+    for (const auto& [s, edges] : {std::pair(2, 3), std::pair(2, 4), std::pair(3, 4)}) {
+        TileMeans reference(scene, pinhole(), options(IntegratorKind::mis, edges, edges));
+        RenderOptions alone = options.only(s, edges);
+        alone.bidirectional.light_paths = 0.25;
+        alone.bidirectional.connections = 6.0;
+        alone.bidirectional.connection_rays = 4.0;
+        TileMeans chosen(scene, pinhole(), alone);
+        check_equal("s = " + std::to_string(s) + " of " + std::to_string(edges) + " edges",
+                    reference, chosen, 0.06);
+    }
+}
+
 TEST_CASE("each strategy alone, many lights", "[strategies][tree]")
 {
     Options options(42000);

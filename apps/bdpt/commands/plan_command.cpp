@@ -60,6 +60,10 @@ std::vector<std::string> chosen_words(const RenderOptions& options, Isa isa)
         if (options.bidirectional.connections) {
             words.push_back(fmt::format("--connections={}", *options.bidirectional.connections));
         }
+        if (options.bidirectional.connection_rays > 0.0) {
+            words.push_back(
+                fmt::format("--connection-rays={}", options.bidirectional.connection_rays));
+        }
         if (!options.bidirectional.disabled.empty()) {
             words.push_back(fmt::format("--disable={}", disabled_text(options)));
         }

@@ -48,6 +48,7 @@ eval::VerifyOptions options_for(const VerifyArguments& arguments, const Prepared
     if (chosen.integrator == IntegratorKind::bdpt) {
         options.light_paths = chosen.bidirectional.light_paths;
         options.connections = chosen.bidirectional.connections;
+        options.connection_rays = chosen.bidirectional.connection_rays;
     }
     return options;
 }

@@ -38,8 +38,8 @@ void add_how(OptionList& options, VerifyRequest& request)
                 "--merge-radius is small enough",
                 render_options.integrator, integrators.type());
     add_fields(options, render_options,
-               std::array<std::string_view, 6>{"seed", "threads", "light_paths", "connections",
-                                               "merge_radius", "light_samples"});
+               std::array<std::string_view, 7>{"seed", "threads", "light_paths", "connections",
+                                               "connection_rays", "merge_radius", "light_samples"});
 }
 
 }  // namespace
@@ -97,6 +97,7 @@ VerifyArguments checked(const VerifyRequest& request, const OptionList& options)
     const RenderOptions& render = result.stage.options;
     verify.light_paths = render.bidirectional.light_paths;
     verify.connections = render.bidirectional.connections;
+    verify.connection_rays = render.bidirectional.connection_rays;
     if (render.integrator == IntegratorKind::vcm) {
         verify.merge_radius = render.bidirectional.merge_radius;
     }

@@ -33,6 +33,9 @@ struct PathContribution {
     /// Contribution if this were the only strategy, divided by its number of samples [nit].
     Rgb unweighted{0.0f};
     float weight = 1.0f;  ///< MIS weight
+    /// Expected number of times that this connection is chosen; 1 for all paths but connections
+    /// with `BidirectionalOptions::connection_rays`.
+    float chance = 1.0f;
     /// Balance-heuristic weight of every strategy for this path, by s, computed from the
     /// definition: N_s p_s over the sum of all; 0 for strategies that cannot sample the path. Where
     /// paths merge, the sum includes merging, so the shares add up to less than one. They are

@@ -173,6 +173,10 @@ struct BidirectionalOptions {
     /// share its light paths, which are kept in memory; else each camera path is connected to light
     /// paths of its own.
     std::optional<double> connections{};
+    /// If above 0, each camera path is connected to about this many vertices of these light paths,
+    /// chosen by their estimated contribution, in place of all of them: a connection costs a shadow
+    /// ray. `connections` must be whole then, and all pixels share light paths.
+    double connection_rays = 0.0;
     /// vcm: merge radius of the first sample, as a fraction of the radius of the scene's bounding
     /// sphere. 0: nothing merges, and vcm is bdpt. Otherwise all pixels of a sample index share its
     /// light paths, and have one time and wavelength.

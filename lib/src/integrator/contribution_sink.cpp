@@ -42,7 +42,7 @@ void ContributionSink::add(const SampleContext& sample, Strategy strategy,
     if (!films_.strategies.empty() || films_.on_path) [[unlikely]] {
         sample.enter(Phase::splat);
         report(strategy, center_, scale_.camera * weighted, scale_.camera / count * unweighted,
-               found.weight);
+               found);
     }
 }
 
@@ -63,12 +63,12 @@ void ContributionSink::splat(SampleContext& sample, Strategy strategy, const Con
     splats_.push_back({.raster = target.raster, .radiance = weighted});
     if (!films_.strategies.empty() || films_.on_path) [[unlikely]] {
         report(strategy, target.raster, scale_.splat * weighted,
-               scale_.splat * target.weight / count * unweighted, found.weight);
+               scale_.splat * target.weight / count * unweighted, found);
     }
 }
 
 void ContributionSink::report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb unweighted,
-                              float weight)
+                              const Contribution& found)
 {
     if (!films_.strategies.empty()) {
         films_.strategies.add(strategy, raster, {.weighted = weighted, .unweighted = unweighted});
@@ -82,7 +82,8 @@ void ContributionSink::report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb 
              .light_path = light_path_,
              .raster = raster,
              .unweighted = unweighted,
-             .weight = weight,
+             .weight = found.weight,
+             .chance = found.chance,
              .shares = weigher_ != nullptr ? weigher_->shares() : std::span<const float>{}});
     }
 }

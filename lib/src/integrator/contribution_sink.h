@@ -55,7 +55,8 @@ private:
         return films_.film == nullptr || films_.film->region().contains(x, y);
     }
     /// Passes a contribution, scaled, to strategy images and observers.
-    void report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb unweighted, float weight);
+    void report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb unweighted,
+                const Contribution& found);
 
     Films films_;
     const PixelFilter& filter_;

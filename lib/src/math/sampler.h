@@ -21,7 +21,9 @@ enum class SampleUse : std::uint32_t {
     /// Start of the light subpath: point and choice of the light (0), direction (1). And surfaces
     /// that a ray from the lens may pass (`Sampler::first_crossing`).
     light_start,
-    light_walk,  ///< scattering at a vertex of the light subpath
+    /// Scattering at a vertex of the light subpath. And the choice of connections
+    /// (`Sampler::choice_of_connections`).
+    light_walk,
     /// Point on the lens: of the camera subpath (0), for a vertex of the light subpath.
     lens,
     ground,  ///< light (even numbers) or direction (odd) for the ground under the scene
@@ -56,6 +58,9 @@ public:
     /// The vertex of `SampleUse::light_start` whose numbers are those of surfaces that a ray from
     /// the lens may pass, in their order.
     static constexpr std::uint32_t first_crossing = 2;
+
+    /// The vertex of `SampleUse::light_walk` whose number chooses the connections of a camera path.
+    static constexpr std::uint32_t choice_of_connections = 0;
 
     Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_t sample_index);
 

@@ -14,6 +14,7 @@ struct LightPathCounts {
     /// Light paths per camera path; a whole number of them for the whole image.
     double per_camera_path;
     double connections;  ///< mean number of light paths that a camera path is connected to
+    double rays;         ///< mean number of chosen connections per camera path; 0: all are made
     bool merged;         ///< each camera path merges with the whole set (vcm)
     /// True if all camera paths of a sample index share one set of light paths; otherwise each has
     /// its own, `connections` in number.

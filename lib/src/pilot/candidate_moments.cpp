@@ -5,7 +5,6 @@
 #include <algorithm>
 
 namespace bdpt {
-
 void CandidateMoments::add(const PathContribution& path, const PathShares& shares)
 {
     const auto unweighted = static_cast<double>(luminance(path.unweighted));

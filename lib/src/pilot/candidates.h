@@ -4,11 +4,13 @@
 
 namespace bdpt {
 
-/// Candidate numbers of light paths and connections per camera path; see `BidirectionalOptions`.
+/// Candidate numbers of light paths, connections, and connection rays per camera path; see
+/// `BidirectionalOptions`.
 /// The first is next-event estimation without light paths.
 struct Candidate {
     double light_paths = 0.0;
     double connections = 0.0;
+    double connection_rays = 0.0;
 
     [[nodiscard]] bool operator==(const Candidate&) const = default;
 };
@@ -18,10 +20,12 @@ struct Candidate {
 /// paths, whose brightest contributions, such as caustics seen in mirrors, are too rare for a pilot
 /// to notice.
 inline constexpr std::array candidates{
-    Candidate{0.0, 0.0},    Candidate{0.0625, 0.25}, Candidate{0.0625, 1.0}, Candidate{0.0625, 2.0},
-    Candidate{0.0625, 3.0}, Candidate{0.0625, 5.0},  Candidate{0.25, 0.25},  Candidate{0.25, 1.0},
-    Candidate{0.25, 2.0},   Candidate{0.25, 3.0},    Candidate{0.5, 0.25},   Candidate{0.5, 1.0},
-    Candidate{0.5, 2.0},    Candidate{1.0, 0.25},    Candidate{1.0, 1.0},    Candidate{1.0, 2.0}};
+    Candidate{0.0, 0.0},          Candidate{0.0625, 0.25},     Candidate{0.0625, 1.0},
+    Candidate{0.0625, 2.0},       Candidate{0.0625, 8.0, 4.0}, Candidate{0.0625, 8.0, 8.0},
+    Candidate{0.0625, 8.0, 16.0}, Candidate{0.25, 0.25},       Candidate{0.25, 1.0},
+    Candidate{0.25, 2.0},         Candidate{0.25, 8.0, 4.0},   Candidate{0.25, 8.0, 8.0},
+    Candidate{0.5, 0.25},         Candidate{0.5, 1.0},         Candidate{0.5, 8.0, 8.0},
+    Candidate{1.0, 0.25},         Candidate{1.0, 1.0},         Candidate{1.0, 8.0, 8.0}};
 
 template <typename T>
 using PerCandidate = std::array<T, candidates.size()>;

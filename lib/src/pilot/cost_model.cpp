@@ -2,6 +2,8 @@
 
 #include "pilot/path_shares.h"
 
+#include <cmath>
+
 namespace bdpt {
 namespace {
 
@@ -16,6 +18,8 @@ constexpr CostModel path_tracing{.sample = 20.0, .segment = 305.0, .shadow = 285
 constexpr CostModel camera_path{.sample = 140.0, .segment = 345.0, .shadow = 310.0};
 constexpr CostModel light_path{.sample = 20.0, .segment = 400.0, .shadow = 205.0};
 constexpr double connection = 200.0;         // its shadow ray
+constexpr double chosen_connection = 245.0;  // likewise, of a vertex that is not yet in the cache
+constexpr double estimate = 3.0;             // to choose connections, for each pair of vertices
 constexpr double shared_light_path = 150.0;  // to store it in memory
 constexpr double shared_choice = 30.0;       // to fetch it from there
 
@@ -24,13 +28,24 @@ double cost(const CostModel& model, double segments, double shadow_rays)
     return model.sample + model.segment * segments + model.shadow * shadow_rays;
 }
 
+double per(std::uint64_t count, std::uint64_t of)
+{
+    return of == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(of);
+}
+
 }  // namespace
 
-double sample_cost(const Candidate& candidate, const RenderStats& pilot)
+double connection_rays(const Candidate& candidate, const RenderStats& pilot)
 {
-    const auto per = [](std::uint64_t count, std::uint64_t of) {
-        return of == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(of);
-    };
+    const std::uint64_t connected = PathShares::pilot_connections * pilot.paths.camera;
+    const double all = candidate.connections * per(pilot.rays.shadow_interior, connected);
+    const double wanted = candidate.connection_rays;
+    // Where there are few, some are chosen twice.
+    return wanted > 0.0 && all > 0.0 ? wanted * all / std::sqrt(wanted * wanted + all * all) : all;
+}
+
+double sample_cost(const Candidate& candidate, const RenderStats& pilot, double connection_rays)
+{
     const RayCounts& rays = pilot.rays;
     const double segments = per(rays.camera, pilot.paths.camera);
     const double next_event =
@@ -40,12 +55,15 @@ double sample_cost(const Candidate& candidate, const RenderStats& pilot)
     }
     const double light = cost(light_path, per(rays.light, pilot.paths.light),
                               per(rays.shadow_to_lens, pilot.paths.light));
-    const double interior =
-        connection * per(rays.shadow_interior, PathShares::pilot_connections * pilot.paths.camera);
     const bool own = candidate.light_paths == candidate.connections && candidate.light_paths >= 1.0;
+    const double pairs = segments * per(rays.light, pilot.paths.light);
+    const double choice = candidate.connection_rays > 0.0 ? estimate * pairs
+                          : own                           ? 0.0
+                                                          : shared_choice;
     return cost(camera_path, segments, next_event) +
            candidate.light_paths * (light + (own ? 0.0 : shared_light_path)) +
-           candidate.connections * (interior + (own ? 0.0 : shared_choice));
+           candidate.connections * choice +
+           (candidate.connection_rays > 0.0 ? chosen_connection : connection) * connection_rays;
 }
 
 }  // namespace bdpt

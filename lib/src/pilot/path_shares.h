@@ -18,6 +18,8 @@ class PathShares {
 public:
     /// Number of light paths to which a camera path of the pilot is connected.
     static constexpr int pilot_connections = 2;
+    /// Its connection rays: so many that nearly all connections are made.
+    static constexpr double pilot_rays = 4096.0;
 
     /// The pilot weighted the path by the balance heuristic, and had `light_paths` per pixel of the
     /// image. `heuristic` is that of the candidates, balance or power.
@@ -50,7 +52,8 @@ public:
     struct SecondMoments {
         PerCandidate<double> own;          ///< s <= 1; infinite if the candidate has no such path
         PerCandidate<double> splats;       ///< t <= 1
-        PerCandidate<double> connections;  ///< s, t >= 2
+        PerCandidate<double> connections;  ///< s, t >= 2, if all connections are made
+        PerCandidate<double> choice;       ///< what is added if the candidate chooses among them
     };
     [[nodiscard]] SecondMoments second_moments() const;
     /// Returns the contribution of the candidate's strategies with s <= 1 when they find such a
@@ -72,6 +75,8 @@ private:
     float camera_mean_ = 0.0f;
     float splat_mean_ = 0.0f;
     double used_share_;
+    /// Share of the connection that found the path in all that a camera path can choose from.
+    double choice_share_;
     Group used_;
     int edges_;
     bool squares_;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -43,6 +44,7 @@ RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
     options.transport.heuristic = Heuristic::balance;
     options.bidirectional = {};
     options.bidirectional.connections = PathShares::pilot_connections;
+    options.bidirectional.connection_rays = PathShares::pilot_rays;
     options.bidirectional.merge_radius = 0.005;
     options.bidirectional.merge_alpha = 1.0;
     // One light path per connection of camera paths, if memory allows that.
@@ -67,7 +69,32 @@ RenderOptions with_candidate(RenderOptions options, const Candidate& candidate, 
     options.integrator = IntegratorKind::bdpt;
     options.bidirectional.light_paths = candidate.light_paths;
     options.bidirectional.connections = candidate.connections;
+    options.bidirectional.connection_rays = candidate.connection_rays;
     return options;
+}
+
+/// Rules out candidates that choose connections: in bodies that scatter light, the choice does not
+/// know how fast light is attenuated.
+void exclude_choice(PerCandidate<double>& errors)
+{
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        if (candidates[k].connection_rays > 0.0) {
+            errors[k] = std::numeric_limits<double>::infinity();
+        }
+    }
+}
+
+/// Returns the number of connection rays, averaged over the image: where camera paths leave the
+/// scene there are none.
+double mean_connection_rays(const Candidate& candidate, const PilotContributions& contributions)
+{
+    double sum = 0.0;
+    for (const PilotRow& row : contributions.rows) {
+        for (const PilotCell& cell : row.cells()) {
+            sum += connection_rays(candidate, cell.stats);
+        }
+    }
+    return sum / static_cast<double>(contributions.grid.cells());
 }
 
 /// Returns the error, at least the smallest relMSE that is distinguishable from zero: smaller
@@ -75,8 +102,12 @@ RenderOptions with_candidate(RenderOptions options, const Candidate& candidate, 
 double estimate_error(const PilotResult& pilot, std::size_t candidate, bool sees_lamps)
 {
     constexpr double least = 1e-4;
-    return std::max(least, pilot.errors[candidate] + (sees_lamps ? pilot.visible_lights.by_both
-                                                                 : pilot.visible_lights.by_hits));
+    // The noise of choosing connections is predicted less well where BSDFs are glossy.
+    constexpr double allowance = 1.05;
+    const double factor = candidates[candidate].connection_rays > 0.0 ? allowance : 1.0;
+    return std::max(least,
+                    factor * pilot.errors[candidate] +
+                        (sees_lamps ? pilot.visible_lights.by_both : pilot.visible_lights.by_hits));
 }
 
 bool fits(const RenderOptions& options, const PilotResult& pilot)
@@ -149,6 +180,9 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
                        .merging_alone = share_of_merging_alone(contributions, brightness),
                        .cells = std::move(errors.of_cells),
                        .stats = {}};
+    if (world.media().any_body_scatters()) {
+        exclude_choice(result.errors);
+    }
     // Shadow rays to directly visible lights are not part of next-event estimation.
     std::uint64_t to_lamps = 0;
     for (const PilotRow& row : contributions.rows) {
@@ -161,7 +195,8 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
     RenderStats without_lamps = result.stats;
     without_lamps.rays.shadow -= to_lamps;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        result.costs[k] = sample_cost(candidates[k], without_lamps);
+        result.costs[k] = sample_cost(candidates[k], without_lamps,
+                                      mean_connection_rays(candidates[k], contributions));
     }
     return result;
 }
@@ -194,6 +229,7 @@ std::shared_ptr<const SampleRates> best_rates(const PilotResult& pilot, const Re
         numbers.light_paths = chosen.bidirectional.light_paths;
         numbers.connections =
             chosen.bidirectional.connections.value_or(chosen.bidirectional.light_paths);
+        numbers.connection_rays = chosen.bidirectional.connection_rays;
     }
     const auto found = std::find(candidates.begin(), candidates.end(), numbers);
     return found == candidates.end()

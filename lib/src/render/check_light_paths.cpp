@@ -6,6 +6,7 @@
 #include <bdpt/error.h>
 #include <bdpt/options/integrators.h>
 
+#include <cmath>
 #include <cstdint>
 #include <sstream>
 #include <string>
@@ -47,7 +48,14 @@ void check_light_paths(const RenderOptions& options)
         throw Error(ErrorCode::usage,
                     "connections is " + text(connections) + ", but light_paths is 0");
     }
+    const double rays = options.bidirectional.connection_rays;
     const LightPathCounts counts(options);
+    const bool whole = counts.connections == std::floor(counts.connections);
+    if (rays > 0.0 && !(whole && counts.connections >= 1.0)) {
+        throw Error(ErrorCode::usage, "connection_rays is " + text(rays) + ", but connections is " +
+                                          text(counts.connections) +
+                                          ", not a whole number above 0");
+    }
     if (!info(options.integrator).traces_light_paths || !counts.shared) {
         return;
     }

@@ -38,6 +38,7 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     options.integrator = IntegratorKind::bdpt;
     options.bidirectional.light_paths = 1.0;
     options.bidirectional.connections.reset();
+    options.bidirectional.connection_rays = 0.0;
     if (asks_for_bdpt(options)) {
         return {.options = options};
     }

@@ -5,6 +5,7 @@
 #include "material/medium.h"
 #include "math/channel_choice.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -86,6 +87,12 @@ public:
     [[nodiscard]] float mean_scatterings(MediumId id) const
     {
         return mean_scatterings_[static_cast<std::size_t>(id)];
+    }
+    /// Tests whether a walk usually scatters several times in a body.
+    [[nodiscard]] bool any_body_scatters() const
+    {
+        return std::any_of(mean_scatterings_.begin(), mean_scatterings_.end(),
+                           [](float mean) { return mean > 1.0f; });
     }
     /// Samples a scattering event at the distance that one of the channels determines; nullopt if
     /// the walk reaches `b`. `w` is unit length, and `scatter` is true.

@@ -69,12 +69,27 @@ TEST_CASE("numbers of light paths and connections need not be whole")
     CHECK(json["connections"].dump() == "2");
     CHECK_FALSE(transport_json(options_of({})).contains("connections"));
     CHECK_THROWS_AS(options_of({"--integrator=mis", "--connections=2"}), Error);
+    CHECK_FALSE(json.contains("connection_rays"));
+}
+
+TEST_CASE("connections are chosen among those of a whole number of light paths")
+{
+    const RenderOptions options =
+        options_of({"--light-paths=0.0625", "--connections=8", "--connection-rays=2.5"});
+    CHECK(options.bidirectional.connection_rays == 2.5);
+    CHECK(transport_json(options)["connection_rays"].dump() == "2.5");
+    CHECK(integrator_words(options) ==
+          "bdpt --light-paths 0.0625 --connections 8 --connection-rays 2.5");
+    CHECK_THROWS_AS(options_of({"--connections=1.5", "--connection-rays=2"}), Error);
+    CHECK_THROWS_AS(options_of({"--connections=0.5", "--connection-rays=2"}), Error);
+    CHECK_THROWS_AS(options_of({"--integrator=mis", "--connection-rays=2"}), Error);
 }
 
 TEST_CASE("what is said of subpaths is said to bdpt unless another integrator is named")
 {
     CHECK(options_of({"--light-paths=2"}).integrator == IntegratorKind::bdpt);
     CHECK(options_of({"--connections=1"}).integrator == IntegratorKind::bdpt);
+    CHECK(options_of({"--connection-rays=2"}).integrator == IntegratorKind::bdpt);
     CHECK(options_of({"--disable=s0t2"}).integrator == IntegratorKind::bdpt);
     CHECK(options_of({"--max-camera-depth=2"}).integrator == IntegratorKind::bdpt);
     CHECK(options_of({"--max-light-depth=2"}).integrator == IntegratorKind::bdpt);
@@ -96,6 +111,11 @@ TEST_CASE("what was chosen is told in the words that choose it by hand")
     CHECK(parse_strategies(disabled_text(options)) == options.bidirectional.disabled);
     CHECK(integrator_words(options) ==
           "bdpt --light-paths 0.25 --connections 2 --disable s1t1,s0t12");
+    options.bidirectional.connection_rays = 8.0;
+    CHECK(integrator_text(options, true) ==
+          "auto chose bidirectional path tracing (1 light path for 4 camera paths, 2 connections "
+          "by 8 rays)");
+    options.bidirectional.connection_rays = 0.0;
     options.integrator = IntegratorKind::mis;
     CHECK(integrator_text(options, true) == "auto chose path tracing with light and BSDF sampling");
     options.integrator = IntegratorKind::bdpt;

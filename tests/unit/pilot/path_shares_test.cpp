@@ -229,4 +229,33 @@ TEST_CASE("cross terms of a sample are those of its definition", "[pilot]")
     }
 }
 
+TEST_CASE("connections that are chosen rarely vary more", "[pilot]")
+{
+    constexpr double chance = 0.05;  // of one of the connections to 8 light paths, by one ray
+    PathContribution path = path_of(2);
+    path.chance = static_cast<float>(chance * PathShares::pilot_rays * 8.0 / 2.0);
+    const auto moments = PathShares(path, Heuristic::power, pilot_light_paths).second_moments();
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double rays = candidates[k].connection_rays;
+        CAPTURE(candidates[k].light_paths, candidates[k].connections, rays);
+        if (rays == 0.0) {
+            CHECK(moments.choice[k] == 0.0);
+        } else {
+            CHECK(moments.choice[k] ==
+                  Approx(moments.connections[k] * (1.0 / (rays * chance) - 1.0)));
+        }
+    }
+    path.chance = static_cast<float>(PathShares::pilot_rays);  // always chosen
+    const auto sure = PathShares(path, Heuristic::power, pilot_light_paths).second_moments();
+    for (const double choice : sure.choice) {
+        CHECK(choice == 0.0);
+    }
+    // A path that was found otherwise stands for usual connections.
+    const auto other = PathShares(path_of(0), Heuristic::power, pilot_light_paths).second_moments();
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double rays = candidates[k].connection_rays;
+        CHECK((other.choice[k] > 0.0) == (rays > 0.0 && rays < 20.0));
+    }
+}
+
 }  // namespace bdpt::test::path_shares_test

@@ -18,6 +18,7 @@ PathContribution path_of(Strategy strategy, const std::vector<float>& shares)
             .raster = Vec2(0.5f),
             .unweighted = Rgb(radiance),
             .weight = 1.0f,
+            .chance = static_cast<float>(PathShares::pilot_rays),  // its only connection
             .shares = shares};
 }
 

@@ -55,11 +55,10 @@ PilotResult pilot_of(const Scene& scene, const CameraDesc& camera, const RenderO
     return run_pilot(scene.world(), open_camera(scene.world(), camera, options), options);
 }
 
-std::size_t index_of(double light_paths, double connections)
+std::size_t index_of(double light_paths, double connections, double rays = 0.0)
 {
-    const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
-        return c.light_paths == light_paths && c.connections == connections;
-    });
+    const auto found =
+        std::find(candidates.begin(), candidates.end(), Candidate{light_paths, connections, rays});
     REQUIRE(found != candidates.end());
     return static_cast<std::size_t>(found - candidates.begin());
 }
@@ -108,6 +107,7 @@ double measured_error(const Scene& scene, const Candidate& candidate)
     options.integrator = candidate.light_paths > 0.0 ? IntegratorKind::bdpt : IntegratorKind::mis;
     options.bidirectional.light_paths = candidate.light_paths;
     options.bidirectional.connections = candidate.connections;
+    options.bidirectional.connection_rays = candidate.connection_rays;
     options.sampling.samples = {.begin = 0, .end = samples};
     std::vector<double> sums(side * side);
     std::vector<double> squares(side * side);
@@ -139,8 +139,10 @@ TEST_CASE("a pilot predicts errors of renders with other numbers of light paths"
     // Noise of the pilot, and what Sobol points leave is not the same in every scene.
     constexpr double tolerance = 1.5;
     for (const std::size_t k :
-         {index_of(0.0625, 1.0), index_of(0.0625, 3.0), index_of(0.25, 0.25), index_of(1.0, 2.0)}) {
-        CAPTURE(candidates[k].light_paths, candidates[k].connections);
+         {index_of(0.0625, 1.0), index_of(0.0625, 8.0, 4.0), index_of(0.0625, 8.0, 16.0),
+          index_of(0.25, 0.25), index_of(1.0, 8.0, 8.0)}) {
+        CAPTURE(candidates[k].light_paths, candidates[k].connections,
+                candidates[k].connection_rays);
         const double predicted = pilot.errors[k] / pilot.errors[one];
         const double measured = measured_error(scene, candidates[k]) / measured_one;
         CAPTURE(predicted, measured);
@@ -225,8 +227,9 @@ TEST_CASE("what costs more rays has a higher price", "[pilot]")
                   .aov = 0,
                   .shadow_to_lens = 20,
                   .shadow_interior = 60};
-    const auto cost = [&](double n, double c) {
-        return sample_cost({.light_paths = n, .connections = c}, stats);
+    const auto cost = [&](double n, double c, double rays = 0.0) {
+        const Candidate candidate{.light_paths = n, .connections = c, .connection_rays = rays};
+        return sample_cost(candidate, stats, connection_rays(candidate, stats));
     };
     CHECK(cost(0.0, 0.0) < cost(0.0625, 0.25));
     CHECK(cost(0.0625, 0.25) < cost(0.0625, 1.0));
@@ -234,7 +237,11 @@ TEST_CASE("what costs more rays has a higher price", "[pilot]")
     CHECK(cost(0.25, 1.0) < cost(1.0, 1.0));
     // Light paths of one's own need not be kept.
     CHECK(cost(1.0, 1.0) - cost(1.0, 0.25) < cost(0.5, 1.0) - cost(0.5, 0.25));
-    CHECK(sample_cost({.light_paths = 0.0, .connections = 0.0}, RenderStats{}) > 0.0);
+    // Connections that are chosen cost less than all, but more than as many light paths.
+    CHECK(cost(0.25, 8.0, 4.0) < cost(0.25, 8.0, 8.0));
+    CHECK(cost(0.25, 8.0, 8.0) < cost(0.25, 8.0));
+    CHECK(cost(0.25, 1.0, 4.0) < cost(0.25, 8.0, 4.0));
+    CHECK(sample_cost({.light_paths = 0.0, .connections = 0.0}, RenderStats{}, 0.0) > 0.0);
 }
 
 TEST_CASE("a connection costs its choice and the shadow rays that one of the pilot's took",
@@ -247,11 +254,25 @@ TEST_CASE("a connection costs its choice and the shadow rays that one of the pil
     stats.rays.shadow_interior = PathShares::pilot_connections * shadow_rays * camera_paths;
     stats.rays.shadow = stats.rays.shadow_interior;
     const auto cost = [&](double connections) {
-        return sample_cost({.light_paths = 0.25, .connections = connections}, stats);
+        const Candidate candidate{.light_paths = 0.25, .connections = connections};
+        return sample_cost(candidate, stats, connection_rays(candidate, stats));
     };
     constexpr double shadow_ray = 200.0;  // [ns]
     constexpr double choice = 30.0;
     CHECK(cost(1.0) - cost(0.25) == Approx(0.75 * (choice + shadow_rays * shadow_ray)));
+}
+
+TEST_CASE("no more connections are chosen than there are", "[pilot]")
+{
+    RenderStats stats;
+    stats.paths = {.camera = 10};
+    const Candidate chosen{.light_paths = 0.25, .connections = 8.0, .connection_rays = 16.0};
+    CHECK(connection_rays(chosen, stats) == 0.0);
+    stats.rays.shadow_interior = 10 * PathShares::pilot_connections;  // one per light path
+    CHECK(connection_rays(chosen, stats) < 8.0);
+    stats.rays.shadow_interior *= 1000;
+    CHECK(connection_rays(chosen, stats) == Approx(16.0).epsilon(0.01));
+    CHECK(connection_rays({.light_paths = 0.25, .connections = 8.0}, stats) == Approx(8000.0));
 }
 
 TEST_CASE("of the best at equal cost, the one that fits into memory is taken", "[pilot]")

@@ -77,6 +77,12 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
     CHECK(refusal([](auto& o) {
               o.bidirectional.light_paths = std::numeric_limits<double>::quiet_NaN();
           }).find("light_paths is ") == 0);
+    CHECK(refusal([](auto& o) {
+              o.bidirectional.connections = 1.5;
+              o.bidirectional.connection_rays = 2.0;
+          }) == "connection_rays is 2, but connections is 1.5, not a whole number above 0");
+    CHECK(refusal([](auto& o) { o.bidirectional.connection_rays = -1.0; }) ==
+          "connection_rays is -1, not in [0, 4096]");
     CHECK(refusal([](auto& o) { o.bidirectional.connections = 4097.0; }) ==
           "connections is 4097, not in [0, 4096]");
     CHECK(refusal([](auto& o) {

@@ -238,6 +238,8 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
     option("option: ground_height (none, not 0.5)",
            [](RenderOptions& o) { o.film.ground_height = 0.5f; });
     option("option: aov (none, not albedo)", [](RenderOptions& o) { o.film.aovs = {Aov::albedo}; });
+    option("option: connection_rays (0, not 2)",
+           [](RenderOptions& o) { o.bidirectional.connection_rays = 2.0; });
     option("option: connections (none, not 3)",
            [](RenderOptions& o) { o.bidirectional.connections = 3.0; });
     option("option: disable (none, not s1t2)",

@@ -193,9 +193,11 @@ TEST_CASE("images with shared light paths are the same for any threads, tiles, p
           "[light-paths][purity]")
 {
     const Scene scene = room();
-    const auto [light_paths, connections] =
-        GENERATE(std::tuple(0.25, 1.0), std::tuple(1.0, 2.5), std::tuple(3.0, 0.0));
+    const auto [light_paths, connections, rays] =
+        GENERATE(std::tuple(0.25, 1.0, 0.0), std::tuple(1.0, 2.5, 0.0), std::tuple(3.0, 0.0, 0.0),
+                 std::tuple(0.25, 4.0, 3.0));
     RenderOptions o = options(light_paths, connections);
+    o.bidirectional.connection_rays = rays;
     o.film.filter.kind = GENERATE(FilterKind::box, FilterKind::gaussian);
     o.system.threads = 1;
     const RenderResult whole = image_of(scene, o);
@@ -206,6 +208,31 @@ TEST_CASE("images with shared light paths are the same for any threads, tiles, p
     RenderOptions other = o;
     other.sampling.seed = 6;
     CHECK_FALSE(image_of(scene, other).film == whole.film);
+}
+
+TEST_CASE("chosen connections cost as many shadow rays as asked for", "[light-paths]")
+{
+    const Scene scene = room();
+    RenderOptions o = options(0.5, 8.0);
+    const RenderStats all = image_of(scene, o).stats;
+    o.bidirectional.connection_rays = 2.0;
+    const RenderStats chosen = image_of(scene, o).stats;
+    CHECK(chosen.paths == all.paths);
+    CHECK(chosen.rays.light == all.rays.light);
+    const double rays =
+        static_cast<double>(chosen.rays.shadow_interior) / static_cast<double>(chosen.paths.camera);
+    CHECK(rays < 2.0);  // BSDFs may be black, and one connection may be chosen twice
+    CHECK(rays > 1.0);
+    CHECK(all.rays.shadow_interior > 5 * chosen.rays.shadow_interior);
+}
+
+TEST_CASE("own light paths are shared where connections are chosen", "[light-paths]")
+{
+    RenderOptions o = options(2.0, 2.0);
+    CHECK_FALSE(LightPathCounts(o).shared);
+    o.bidirectional.connection_rays = 1.0;
+    CHECK(LightPathCounts(o).shared);
+    CHECK(LightPathCounts(o).bundle == 2);
 }
 
 TEST_CASE("without light paths bdpt is path tracing with next-event estimation", "[light-paths]")

@@ -51,8 +51,8 @@ std::optional<Strategy> parse_strategy(std::string_view text)
 /// is named.
 IntegratorKind find_integrator(const RenderOptions& render, const OptionList& options)
 {
-    constexpr std::array for_bdpt{"--light-paths", "--connections", "--disable",
-                                  "--max-camera-depth", "--max-light-depth"};
+    constexpr std::array for_bdpt{"--light-paths", "--connections",      "--connection-rays",
+                                  "--disable",     "--max-camera-depth", "--max-light-depth"};
     const bool bdpt = std::any_of(for_bdpt.begin(), for_bdpt.end(),
                                   [&](const char* option) { return options.given(option); });
     return bdpt && !options.given("--integrator") && render.integrator == IntegratorKind::automatic
@@ -72,6 +72,7 @@ void check_takers(const RenderOptions& render, const OptionList& options)
         {"--merge-radius", {vcm}},
         {"--merge-alpha", {vcm}},
         {"--connections", {IntegratorKind::bdpt, vcm}},
+        {"--connection-rays", {IntegratorKind::bdpt, vcm}},
         {"--max-camera-depth", {IntegratorKind::bdpt, lt, vcm}},
         {"--max-light-depth", {IntegratorKind::bdpt, lt, vcm}},
         {"--light-paths", {IntegratorKind::bdpt, lt, vcm}},
@@ -108,6 +109,11 @@ void check_values(const RenderOptions& render, const OptionList& options)
     if (no_light_paths && options.given("--connections") &&
         render.bidirectional.connections.value_or(0.0) > 0.0) {
         throw OptionError("--connections needs --light-paths above 0");
+    }
+    const double connections = render.bidirectional.connections.value_or(1.0);
+    if (render.bidirectional.connection_rays > 0.0 &&
+        (connections < 1.0 || connections != std::floor(connections))) {
+        throw OptionError("--connection-rays needs --connections that are a whole number above 0");
     }
     const Heuristic heuristic = render.transport.heuristic;
     if (integrator == IntegratorKind::vcm && heuristic != Heuristic::power &&
@@ -207,6 +213,9 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
     if (options.bidirectional.connections) {
         result["connections"] = number_json(*options.bidirectional.connections);
     }
+    if (options.bidirectional.connection_rays > 0.0) {
+        result["connection_rays"] = number_json(options.bidirectional.connection_rays);
+    }
     if (options.integrator == IntegratorKind::vcm) {
         result["merge_radius"] = number_json(options.bidirectional.merge_radius);
         result["merge_alpha"] = number_json(options.bidirectional.merge_alpha);
@@ -237,9 +246,11 @@ std::string integrator_words(const RenderOptions& options)
         return name;
     }
     const double light_paths = options.bidirectional.light_paths;
-    const std::string words =
-        fmt::format("{} --light-paths {:g} --connections {:g}", name, light_paths,
-                    options.bidirectional.connections.value_or(light_paths));
+    std::string words = fmt::format("{} --light-paths {:g} --connections {:g}", name, light_paths,
+                                    options.bidirectional.connections.value_or(light_paths));
+    if (options.bidirectional.connection_rays > 0.0) {
+        words += fmt::format(" --connection-rays {:g}", options.bidirectional.connection_rays);
+    }
     const std::string disabled = disabled_text(options);
     return disabled.empty() ? words : words + " --disable " + disabled;
 }
@@ -263,8 +274,10 @@ std::string integrator_text(const RenderOptions& options, bool chosen)
         light_paths > 0.0 && light_paths < 1.0
             ? fmt::format("1 light path for {:.3g} camera paths", 1.0 / light_paths)
             : fmt::format("{} for each camera path", number(light_paths, "light path"));
-    return fmt::format("{} ({}{})", text, paths,
-                       connections == standard ? "" : ", " + number(connections, "connection"));
+    const double rays = options.bidirectional.connection_rays;
+    return fmt::format("{} ({}{}{})", text, paths,
+                       connections == standard ? "" : ", " + number(connections, "connection"),
+                       rays == 0.0 ? "" : " by " + number(rays, "ray"));
 }
 
 }  // namespace bdpt::app

@@ -44,6 +44,7 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     if (integrator == IntegratorKind::bdpt || integrator == IntegratorKind::vcm) {
         result.bidirectional.light_paths = options.light_paths;
         result.bidirectional.connections = options.connections;
+        result.bidirectional.connection_rays = options.connection_rays;
         result.bidirectional.merge_radius = options.merge_radius.value_or(0.0);
     }
     result.system.threads = 1;

@@ -47,6 +47,8 @@ void check_options(const VerifyOptions& options)
             "the number of light paths must be more than 0 and at most 4096");
     require(options.connections.value_or(0.0) >= 0.0 && options.connections.value_or(0.0) <= 4096.0,
             "the number of connections must be in [0, 4096]");
+    require(options.connection_rays >= 0.0 && options.connection_rays <= 4096.0,
+            "the number of connection rays must be in [0, 4096]");
     require(options.merge_radius.value_or(0.0) >= 0.0 && options.merge_radius.value_or(0.0) <= 1.0,
             "the merge radius must be in [0, 1]");
     require(options.light_samples >= 1 && options.light_samples <= 1024,

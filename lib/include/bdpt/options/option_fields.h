@@ -210,6 +210,14 @@ inline constexpr auto fields<BidirectionalOptions> = all_fields(
                  .value = "C",
                  .help = "Light subpaths that each camera subpath is connected to (bdpt, vcm)",
                  .otherwise = "--light-paths, or 1 if that is a fraction; auto chooses it"}},
+    OptionField{"connection_rays",
+                &BidirectionalOptions::connection_rays,
+                {.range = {0, 4096},
+                 .value = "K",
+                 .help = "Connect each camera subpath to about K vertices of its light subpaths, "
+                         "chosen by estimated contribution (bdpt, vcm). Needs a whole number of "
+                         "--connections; 8 of each is often good",
+                 .otherwise = "all vertices; auto chooses it"}},
     OptionField{"merge_radius",
                 &BidirectionalOptions::merge_radius,
                 {.range = {0, 1},

@@ -130,9 +130,13 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
                           .rr_survival = options_.transport.rr_survival},
                          scratch.camera_path);
     scratch.joiner.join_camera_path(sample, scratch.camera_path);
-    for (int i = 0; i < shared.count; ++i) {
-        sink.begin_joins(i);
-        scratch.joiner.join_paths(sample, cache_.path(shared, i), scratch.camera_path);
+    if (cache_.counts().rays > 0.0) {
+        scratch.joiner.join_chosen(sample, cache_, shared, scratch.camera_path);
+    } else {
+        for (int i = 0; i < shared.count; ++i) {
+            sink.begin_joins(i);
+            scratch.joiner.join_paths(sample, cache_.path(shared, i), scratch.camera_path);
+        }
     }
     if (cache_.counts().merged) {
         merge_paths(sample, scratch);

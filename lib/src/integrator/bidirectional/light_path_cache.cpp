@@ -71,7 +71,9 @@ std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, double mean_v
     }
     // In floating point, where the largest values of options do not overflow.
     const std::size_t vertex =
-        sizeof(PathVertex) + sizeof(Bsdf) + (counts.merged ? LightVertexGrid::bytes_of_vertex : 0);
+        sizeof(PathVertex) + sizeof(Bsdf) +
+        (counts.rays > 0.0 ? sizeof(LightVertexBlock) / LightVertexBlock::size : 0) +
+        (counts.merged ? LightVertexGrid::bytes_of_vertex : 0);
     const double bytes = static_cast<double>(counts.bundles) * counts.bundle * mean_vertices *
                          static_cast<double>(vertex);
     constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
@@ -92,16 +94,26 @@ void LightPathCache::begin_chunk(std::int64_t chunk)
     filled.path_ends.clear();
     filled.vertices.clear();
     filled.bsdfs.clear();
+    filled.blocks.clear();
+    filled.bundle_begins.clear();
 }
 
 void LightPathCache::add_bundle(std::int64_t chunk, const TimeAndWavelength& moment)
 {
-    chunks_[static_cast<std::size_t>(chunk)].moments.push_back(moment);
+    Chunk& filled = chunks_[static_cast<std::size_t>(chunk)];
+    filled.moments.push_back(moment);
+    if (counts_.rays > 0.0) {
+        filled.bundle_begins.push_back(filled.blocks.size());
+        filled.in_last_block = LightVertexBlock::size;
+    }
 }
 
 void LightPathCache::add_path(std::int64_t chunk, std::span<const PathVertex> path)
 {
     Chunk& filled = chunks_[static_cast<std::size_t>(chunk)];
+    if (counts_.rays > 0.0) {
+        add_to_blocks(filled, path);
+    }
     for (const PathVertex& vertex : path) {
         filled.vertices.push_back(vertex);
         if (vertex.bsdf != nullptr && vertex.connectible) {
@@ -111,6 +123,27 @@ void LightPathCache::add_path(std::int64_t chunk, std::span<const PathVertex> pa
         }
     }
     filled.path_ends.push_back({.vertices = filled.vertices.size(), .bsdfs = filled.bsdfs.size()});
+}
+
+void LightPathCache::add_to_blocks(Chunk& chunk, std::span<const PathVertex> path)
+{
+    const std::size_t path_in_bundle =
+        chunk.path_ends.size() -
+        (chunk.moments.size() - 1) * static_cast<std::size_t>(counts_.bundle);
+    for (std::size_t s = 2; s <= path.size(); ++s) {
+        if (!can_choose(path[s - 1])) {
+            continue;
+        }
+        if (chunk.in_last_block == LightVertexBlock::size) {
+            chunk.blocks.push_back({});
+            chunk.in_last_block = 0;
+        }
+        LightVertexBlock& block = chunk.blocks.back();
+        const std::size_t i = chunk.in_last_block++;
+        block.set(i, path.first(s), counts_.connections);
+        block.path_begin[i] = static_cast<std::uint32_t>(chunk.vertices.size());
+        block.path[i] = static_cast<std::uint32_t>(path_in_bundle);
+    }
 }
 
 void LightPathCache::end_chunk(std::int64_t chunk)
@@ -155,9 +188,31 @@ std::span<const PathVertex> LightPathCache::path(const Choice& choice, int which
     return std::span(chunk.vertices).subspan(begin, chunk.path_ends[path].vertices - begin);
 }
 
+std::span<const LightVertexBlock> LightPathCache::blocks(const Choice& choice) const
+{
+    const Chunk& chunk = find_chunk(choice.bundle);
+    const std::size_t bundle = index_in_chunk(choice.bundle);
+    const std::size_t begin = chunk.bundle_begins[bundle];
+    const std::size_t end = bundle + 1 < chunk.bundle_begins.size()
+                                ? chunk.bundle_begins[bundle + 1]
+                                : chunk.blocks.size();
+    return std::span(chunk.blocks).subspan(begin, end - begin);
+}
+
+void LightPathCache::prefetch_vertex(const PathVertex& vertex)
+{
+    // The vertex before it, too, is needed for weights; its BSDF lies elsewhere.
+    prefetch_bytes(&vertex - 1, &vertex + 1);
+}
+
 void LightPathCache::prefetch(const Choice& choice) const
 {
     const Chunk& chunk = find_chunk(choice.bundle);
+    if (counts_.rays > 0.0) {
+        const auto candidates = blocks(choice);
+        prefetch_bytes(candidates.data(), candidates.data() + candidates.size());
+        return;
+    }
     for (int i = 0; i < choice.count; ++i) {
         const std::size_t path = find_path(choice, i);
         const PathEnd begin = chunk.path_begin(path);

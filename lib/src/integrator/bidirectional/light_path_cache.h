@@ -1,5 +1,6 @@
 #pragma once
 
+#include "integrator/bidirectional/light_vertex_block.h"
 #include "integrator/sample_schedule.h"
 #include "integrator/sample_start.h"
 #include "memory/huge_page_pool.h"
@@ -60,9 +61,11 @@ public:
     /// rounds of the pixel use light paths of the same bundle, which are as well distributed over
     /// the rounds as a pixel's own; samples within a round use different bundles.
     [[nodiscard]] Choice choose(int x, int y, const ScheduledSample& sample) const;
-    /// Prefetches the light paths of the choice: they are scattered over more memory than a
-    /// processor's cache holds.
+    /// Prefetches the light paths of the choice, or their blocks where connections are chosen: they
+    /// are scattered over more memory than a processor's cache holds.
     void prefetch(const Choice& choice) const;
+    /// Prefetches what a connection needs of a vertex of a light path, but for its BSDF.
+    static void prefetch_vertex(const PathVertex& vertex);
     /// Returns time and wavelength of a bundle's light paths, and of the camera paths that are
     /// connected to them.
     [[nodiscard]] const TimeAndWavelength& moment(std::int64_t bundle) const
@@ -82,6 +85,17 @@ public:
             }
         }
     }
+    /// Returns the vertices of all light paths of the choice, which comprises a whole bundle, for
+    /// the choice of connections.
+    [[nodiscard]] std::span<const LightVertexBlock> blocks(const Choice& choice) const;
+    /// Returns the first `size` vertices of the path in the bundle of the choice that begins at
+    /// `begin`, as in `LightVertexBlock`.
+    [[nodiscard]] std::span<const PathVertex> prefix(const Choice& choice, std::uint32_t begin,
+                                                     int size) const
+    {
+        return std::span(find_chunk(choice.bundle).vertices)
+            .subspan(begin, static_cast<std::size_t>(size));
+    }
     /// Returns light path number `which` of the choice; empty if no light has power.
     [[nodiscard]] std::span<const PathVertex> path(const Choice& choice, int which) const;
 
@@ -99,18 +113,27 @@ private:
         PooledVector<PathEnd> path_ends;
         PooledVector<PathVertex> vertices;  // one path after another
         PooledVector<Bsdf> bsdfs;           // BSDFs of the connectible vertices, in order
+        // If connections are chosen: the blocks of one bundle after another, the first of each, and
+        // the number of vertices in the last block.
+        PooledVector<LightVertexBlock> blocks;
+        PooledVector<std::size_t> bundle_begins;
+        std::size_t in_last_block = LightVertexBlock::size;
 
         explicit Chunk(HugePagePool& pool)
             : moments(PoolAllocator<TimeAndWavelength>(pool)),
               path_ends(PoolAllocator<PathEnd>(pool)),
               vertices(PoolAllocator<PathVertex>(pool)),
-              bsdfs(PoolAllocator<Bsdf>(pool))
+              bsdfs(PoolAllocator<Bsdf>(pool)),
+              blocks(PoolAllocator<LightVertexBlock>(pool)),
+              bundle_begins(PoolAllocator<std::size_t>(pool))
         {}
         [[nodiscard]] PathEnd path_begin(std::size_t path) const
         {
             return path == 0 ? PathEnd{} : path_ends[path - 1];
         }
     };
+    /// Adds the vertices of the next path of the chunk to the blocks of its bundle.
+    void add_to_blocks(Chunk& chunk, std::span<const PathVertex> path);
     [[nodiscard]] const Chunk& find_chunk(std::int64_t bundle) const
     {
         return chunks_[static_cast<std::size_t>(bundle / chunk_bundles)];

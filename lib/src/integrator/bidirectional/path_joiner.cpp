@@ -101,4 +101,32 @@ void PathJoiner::join_paths(const SampleContext& sample, std::span<const PathVer
     }
 }
 
+void PathJoiner::join_chosen(const SampleContext& sample, const LightPathCache& cache,
+                             const LightPathCache::Choice& choice, const Subpath& camera)
+{
+    const float u =
+        sample.sampler.ordered_1d(SampleUse::light_walk, Sampler::choice_of_connections);
+    const auto chosen = chooser_.choose(camera, cache.blocks(choice), u);
+    for (const ConnectionChooser::Connection& each : chosen) {
+        LightPathCache::prefetch_vertex(cache.prefix(choice, each.path_begin, each.s).back());
+    }
+    for (const ConnectionChooser::Connection& each : chosen) {
+        __builtin_prefetch(cache.prefix(choice, each.path_begin, each.s).back().bsdf);
+    }
+    for (const ConnectionChooser::Connection& each : chosen) {
+        if (!strategies_.uses(each.s, each.t)) {
+            continue;
+        }
+        if (auto found = connect_interior(sample, cache.prefix(choice, each.path_begin, each.s),
+                                          camera.first(each.t), weigher_)) {
+            found->unweighted *= each.scale;
+            found->chance = each.chance;
+            sink_.begin_joins(static_cast<int>(each.path));
+            sink_.add(sample, {.s = each.s, .t = each.t}, *found,
+                      strategies_.count(each.s, each.t));
+            sample.enter(Phase::connect);
+        }
+    }
+}
+
 }  // namespace bdpt

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "integrator/bidirectional/connection_chooser.h"
+#include "integrator/bidirectional/light_path_cache.h"
 #include "integrator/contribution_sink.h"
 #include "path/subpath.h"
 
@@ -13,7 +15,11 @@ public:
     /// Keeps references to all arguments, which must outlive this.
     PathJoiner(const RenderOptions& options, const StrategySet& strategies, PathWeigher& weigher,
                ContributionSink& sink)
-        : options_(options), strategies_(strategies), weigher_(weigher), sink_(sink)
+        : options_(options),
+          strategies_(strategies),
+          weigher_(weigher),
+          sink_(sink),
+          chooser_(options)
     {}
 
     /// Handles s <= 1: the camera path hits lights, and is connected to new points on lights. Must
@@ -25,6 +31,9 @@ public:
     /// Handles s >= 2, t >= 2.
     void join_paths(const SampleContext& sample, std::span<const PathVertex> light,
                     const Subpath& camera);
+    /// Handles s >= 2, t >= 2 for all light paths of the choice by connections that are chosen.
+    void join_chosen(const SampleContext& sample, const LightPathCache& cache,
+                     const LightPathCache::Choice& choice, const Subpath& camera);
 
 private:
     void join_to_lights(SampleContext& sample, std::span<const PathVertex> camera);
@@ -35,6 +44,7 @@ private:
     const StrategySet& strategies_;
     PathWeigher& weigher_;
     ContributionSink& sink_;
+    ConnectionChooser chooser_;
 };
 
 }  // namespace bdpt

@@ -86,7 +86,8 @@ PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
                          left_of_indirect_sums * cell.indirect.variance(k, samples));
             errors.of_sums[k] += error / cells;
             of_cells.camera[first_cell + i][k] += error;
-            of_cells.costs[first_cell + i][k] = sample_cost(candidates[k], cell.stats);
+            of_cells.costs[first_cell + i][k] =
+                sample_cost(candidates[k], cell.stats, connection_rays(candidates[k], cell.stats));
         }
     }
     return errors;

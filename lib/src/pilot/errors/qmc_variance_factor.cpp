@@ -11,6 +11,7 @@ namespace {
 // do not benefit.
 constexpr double left_of_direct = 0.25;
 constexpr double left_of_connections = 0.3;
+constexpr double left_of_choice = 0.35;  // of what the choice of connections adds
 
 /// Returns the remaining fraction for paths that camera paths find alone: 1 for rare paths, as a
 /// single sample is not stratified. `value` is the path's contribution relative to the local
@@ -49,8 +50,10 @@ RemainingErrors remaining_errors(const PathShares& shares, double scale)
     static const PerCandidate<double> of_connections = left_by_more_connections();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const double own = direct ? left_of_direct : left_of_own(values[k] * per_brightness);
-        result.camera[k] = scale * (own * moments.own[k] + left_of_connections * of_connections[k] *
-                                                               moments.connections[k]);
+        result.camera[k] =
+            scale * (own * moments.own[k] +
+                     left_of_connections * of_connections[k] * moments.connections[k] +
+                     left_of_choice * moments.choice[k]);
         result.splats[k] = scale * moments.splats[k];
     }
     return result;

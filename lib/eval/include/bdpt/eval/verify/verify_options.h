@@ -37,10 +37,11 @@ struct VerifyOptions {
     int grid = 4;
     /// Maximum path length that is tested [edges], at least 1.
     int max_depth = 5;
-    /// Light paths per camera path, and the number of light paths that a camera path is connected
-    /// to, of bdpt; see `BidirectionalOptions`.
+    /// Light paths per camera path, the number of light paths that a camera path is connected to,
+    /// and the number of chosen connections, of bdpt; see `BidirectionalOptions`.
     double light_paths = 1.0;
     std::optional<double> connections{};
+    double connection_rays = 0.0;
     /// If set, `vcm` with this `BidirectionalOptions::merge_radius` is compared with bdpt as well;
     /// its image is unbiased in the limit of a radius of 0.
     std::optional<double> merge_radius{};

@@ -1,0 +1,205 @@
+// Which connections are chosen, and how often: each as often as its scale says.
+
+#include "integrator/bidirectional/connection_chooser.h"
+
+#include "camera/camera.h"
+#include "catch.hpp"
+#include "make_sample.h"
+#include "math/rgb.h"
+#include "path/random_walk.h"
+#include "path/strategy_set.h"
+#include "room.h"
+#include "scene/world.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace bdpt::test::connection_chooser_test {
+namespace {
+
+constexpr int max_depth = 5;
+constexpr int light_paths = 8;
+constexpr float rays = 4.0f;
+
+RenderOptions chosen_options()
+{
+    RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
+    options.transport.max_depth = max_depth;
+    options.transport.rr_start = max_depth + 1;
+    options.bidirectional.light_paths = 0.25;
+    options.bidirectional.connections = light_paths;
+    options.bidirectional.connection_rays = static_cast<double>(rays);
+    return options;
+}
+
+/// A camera path and the light paths of a bundle.
+class Paths {
+public:
+    Paths(const World& world, int index) : camera_(room_camera(), 1, 1)
+    {
+        RayCounts counts;
+        SampleContext sample =
+            make_sample(world, camera_, {SamplerKind::independent, 1, 0, 0, index}, counts);
+        trace_camera_subpath(sample, Vec2(0.5f),
+                             {.max_vertices = max_depth + 1, .rr_start = max_depth + 1}, camera);
+        const StrategySet strategies(chosen_options());
+        for (int i = 0; i < light_paths; ++i) {
+            sample.sampler = {SamplerKind::independent, 2, i, 0, index};
+            trace_light_subpath(sample, {.max_vertices = max_depth, .rr_start = max_depth + 1},
+                                strategies.next_event_sampling(), light.emplace_back(max_depth));
+            add_to_blocks(static_cast<std::uint32_t>(i));
+        }
+    }
+
+    /// Tests whether light is scattered at both ends of a connection.
+    [[nodiscard]] bool scatter(std::size_t path, int s, int t) const
+    {
+        const PathVertex& y = light[path].first(s).back();
+        const PathVertex& z = camera.first(t).back();
+        if (!can_choose(y) || !can_choose(z)) {
+            return false;
+        }
+        const Vec3 wi = glm::normalize(y.end.p - z.end.p);
+        return !is_black(z.bsdf->eval(wi, TransportMode::radiance).f_cos) &&
+               !is_black(y.bsdf->eval(-wi, TransportMode::importance).f_cos);
+    }
+
+    Subpath camera{max_depth + 1};
+    std::vector<Subpath> light;
+    std::vector<LightVertexBlock> blocks;
+
+private:
+    void add_to_blocks(std::uint32_t path)
+    {
+        for (int s = 2; s <= light[path].size(); ++s) {
+            const auto prefix = std::as_const(light[path]).first(s);
+            if (!can_choose(prefix.back())) {
+                continue;
+            }
+            if (entries_ % LightVertexBlock::size == 0) {
+                blocks.push_back({});
+            }
+            const std::size_t i = entries_++ % LightVertexBlock::size;
+            blocks.back().set(i, prefix, light_paths);
+            blocks.back().path[i] = path;
+        }
+    }
+
+    Camera camera_;
+    std::size_t entries_ = 0;
+};
+
+constexpr int numbers = 20000;
+
+/// Returns the middle of interval `i` of all `numbers`.
+float number(int i)
+{
+    return (static_cast<float>(i) + 0.5f) / static_cast<float>(numbers);
+}
+
+using Pair = std::tuple<std::uint32_t, int, int>;  // path, s, t
+
+}  // namespace
+
+TEST_CASE("a connection is chosen as often as its scale says", "[light-paths]")
+{
+    const Scene scene = room();
+    const Paths paths(scene.world(), 3);
+    ConnectionChooser chooser(chosen_options());
+    std::map<Pair, double> sums;
+    double chosen = 0.0;
+    for (int i = 0; i < numbers; ++i) {
+        for (const auto& each : chooser.choose(paths.camera, paths.blocks, number(i))) {
+            sums[{each.path, each.s, each.t}] += static_cast<double>(each.scale) / numbers;
+            chosen += 1.0 / numbers;
+        }
+    }
+    CHECK(sums.size() > 10);
+    for (const auto& [pair, sum] : sums) {
+        CAPTURE(std::get<0>(pair), std::get<1>(pair), std::get<2>(pair));
+        CHECK(sum == Approx(1.0).epsilon(0.02));
+    }
+    CHECK(chosen < 1.001 * static_cast<double>(rays));
+    CHECK(chosen > 0.8 * static_cast<double>(rays));  // one may be chosen twice
+}
+
+TEST_CASE("every connection that brings light may be chosen", "[light-paths]")
+{
+    const Scene scene = room();
+    ConnectionChooser chooser(chosen_options());
+    int connections = 0;
+    for (int index = 0; index < 16; ++index) {
+        const Paths paths(scene.world(), index);
+        const auto pairs = static_cast<float>(paths.blocks.size() * LightVertexBlock::size *
+                                              static_cast<std::size_t>(max_depth));
+        std::set<Pair> chosen;
+        bool in_bounds = true;
+        for (int i = 0; i < numbers; ++i) {
+            for (const auto& each : chooser.choose(paths.camera, paths.blocks, number(i))) {
+                chosen.insert({each.path, each.s, each.t});
+                // All pairs have a share of the rays.
+                in_bounds = in_bounds && each.scale < pairs / (0.1f * rays) &&
+                            each.s + each.t <= max_depth + 1;
+            }
+        }
+        CHECK(in_bounds);
+        for (std::uint32_t path = 0; path < light_paths; ++path) {
+            for (int s = 2; s <= paths.light[path].size(); ++s) {
+                for (int t = 2; t <= std::min(paths.camera.size(), max_depth + 1 - s); ++t) {
+                    if (paths.scatter(path, s, t)) {
+                        CAPTURE(index, path, s, t);
+                        CHECK(chosen.count({path, s, t}) == 1);
+                        ++connections;
+                    }
+                }
+            }
+        }
+    }
+    CHECK(connections > 200);
+}
+
+TEST_CASE("near vertices are chosen more often than far ones", "[light-paths]")
+{
+    // Two vertices of equal power straight above a camera vertex, at 1 and 2 m.
+    const Scene scene = room();
+    Paths paths(scene.world(), 0);
+    LightVertexBlock block{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const SegmentEnd& end = paths.camera.first(2).back().end;
+        const Vec3 p =
+            end.p + static_cast<float>(i + 1) * *paths.camera.first(2).back().bsdf->opaque_normal();
+        block.x[i] = p.x;
+        block.y[i] = p.y;
+        block.z[i] = p.z;
+        block.any_side[i] = 1.0f;
+        block.power[i] = 1.0f;
+        block.s[i] = max_depth - 1;  // no other camera vertex may be connected to it
+        block.path[i] = static_cast<std::uint32_t>(i);
+    }
+    RenderOptions one_ray = chosen_options();
+    one_ray.bidirectional.connection_rays = 1.0;
+    ConnectionChooser chooser(one_ray);
+    std::array<double, 2> shares{};
+    for (int i = 0; i < numbers; ++i) {
+        for (const auto& each : chooser.choose(paths.camera, std::span(&block, 1), number(i))) {
+            REQUIRE(each.t == 2);
+            shares[each.path] += 1.0 / numbers;
+        }
+    }
+    // By the squared distances, but for the tenth that is divided evenly.
+    CHECK(shares[0] == Approx(0.9 * 0.8 + 0.1 * 0.5).epsilon(0.01));
+    CHECK(shares[1] == Approx(0.9 * 0.2 + 0.1 * 0.5).epsilon(0.01));
+}
+
+}  // namespace bdpt::test::connection_chooser_test

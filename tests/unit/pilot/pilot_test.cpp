@@ -298,6 +298,39 @@ TEST_CASE("of the best at equal cost, the one that fits into memory is taken", "
     CHECK(with_best(pilot, options).bidirectional.disabled.empty());
 }
 
+TEST_CASE("connections are chosen only where that promises more than it may miss", "[pilot]")
+{
+    PilotResult pilot;
+    pilot.errors.fill(1.0);
+    pilot.costs.fill(10.0);
+    const std::size_t all = index_of(0.0625, 1.0);
+    const std::size_t chosen = index_of(0.0625, 8.0, 8.0);
+    pilot.errors[all] = 0.1;
+    pilot.errors[chosen] = 0.099;
+    CHECK(with_best(pilot, small()).bidirectional.connection_rays == 0.0);
+    pilot.errors[chosen] = 0.09;
+    const RenderOptions best = with_best(pilot, small());
+    CHECK(best.bidirectional.connections == 8.0);
+    CHECK(best.bidirectional.connection_rays == 8.0);
+}
+
+TEST_CASE("connections are not chosen where bodies scatter light", "[pilot][media]")
+{
+    const bool scatters = GENERATE(false, true);
+    SceneBuilder builder;
+    builder.walls(lambertian(Rgb(0.6f)), lambertian(Rgb(0.6f)));
+    builder.lamp(0.9f, 0.4f, Rgb(5.0f));
+    MaterialDesc body = glass(0.3f);
+    body.attenuation_color = Rgb(0.5f);
+    body.attenuation_distance = 0.2f;
+    body.volume_scatter.color = Rgb(scatters ? 0.8f : 0.0f);
+    builder.sphere({0.0f, 0.0f, 0.0f}, 0.5f, body, 16);
+    const Scene scene(std::move(builder.desc));
+    const PilotResult pilot = pilot_of(scene, inside(), small());
+    CHECK(std::isinf(pilot.errors[index_of(0.0625, 8.0, 8.0)]) == scatters);
+    CHECK(std::isfinite(pilot.errors[index_of(0.0625, 1.0)]));
+}
+
 TEST_CASE("points of lamps are joined to the lens where that is worth its cost", "[pilot]")
 {
     PilotResult pilot;

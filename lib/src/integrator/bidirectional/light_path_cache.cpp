@@ -135,7 +135,7 @@ void LightPathCache::add_to_blocks(Chunk& chunk, std::span<const PathVertex> pat
             continue;
         }
         if (chunk.in_last_block == LightVertexBlock::size) {
-            chunk.blocks.push_back({});
+            chunk.blocks.emplace_back();
             chunk.in_last_block = 0;
         }
         LightVertexBlock& block = chunk.blocks.back();

@@ -19,8 +19,7 @@ std::vector<std::string_view> own_options(const RenderArguments& asked)
     if (asked.options.integrator == IntegratorKind::automatic) {
         names.insert(names.end(),
                      {"option: integrator", "option: light_paths", "option: connections",
-                      "option: connection_rays",
-                      "option: disable", "option: rates"});
+                      "option: connection_rays", "option: disable", "option: rates"});
     }
     if (asked.sequence->cameras == SequenceCameras::all && !asked.size) {
         names.insert(names.end(), {"option: width", "option: height"});

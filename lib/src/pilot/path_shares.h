@@ -75,7 +75,8 @@ private:
     float camera_mean_ = 0.0f;
     float splat_mean_ = 0.0f;
     double used_share_;
-    /// Share of the connection that found the path in all that a camera path can choose from.
+    /// Share of the connection that found the path in the choice among those to the pilot's light
+    /// paths; with more light paths it is smaller in proportion.
     double choice_share_;
     Group used_;
     int edges_;

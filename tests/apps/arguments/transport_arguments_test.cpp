@@ -83,6 +83,7 @@ TEST_CASE("connections are chosen among those of a whole number of light paths")
     CHECK_THROWS_AS(options_of({"--connections=1.5", "--connection-rays=2"}), Error);
     CHECK_THROWS_AS(options_of({"--connections=0.5", "--connection-rays=2"}), Error);
     CHECK_THROWS_AS(options_of({"--integrator=mis", "--connection-rays=2"}), Error);
+    CHECK_THROWS_AS(options_of({"--light-paths=0", "--connection-rays=2"}), Error);
 }
 
 TEST_CASE("what is said of subpaths is said to bdpt unless another integrator is named")

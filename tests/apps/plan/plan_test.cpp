@@ -151,6 +151,27 @@ TEST_CASE("a plan pins all that auto has chosen", "[plan]")
     is_pinned("--disable=" + settings["disabled"][0].get<std::string>());
 }
 
+TEST_CASE("a plan pins how many connections auto has chosen", "[plan]")
+{
+    const ScratchFolder folder;
+    const Words box{BDPT_SOURCE_DIR "/scenes/cornell-box.gltf",
+                    "--size",
+                    "64x48",
+                    "--spp",
+                    "4",
+                    "-o",
+                    path(folder, "out.exr")};
+    checked(run(joined(joined({"plan"}, box),
+                       {"--parts", "2", "--for", "make", "-d", path(folder, "job")})));
+    const json there = json::parse(read_text(folder / "job" / "plan.json"));
+    const Words pinned = there["render"];
+    const Outcome outcome = checked(run(joined({"render", "--json"}, box)));
+    const json settings = json::parse(outcome.out.substr(0, outcome.out.find('\n')))["settings"];
+    REQUIRE(settings.contains("connection_rays"));
+    const std::string word = "--connection-rays=" + settings["connection_rays"].dump();
+    CHECK(std::find(pinned.begin(), pinned.end(), word) != pinned.end());
+}
+
 TEST_CASE("a plan pins what another machine would choose otherwise", "[plan]")
 {
     const ScratchFolder folder;

@@ -105,16 +105,21 @@ TEST_CASE("verify: light paths are chosen by hand or by auto")
     CHECK(report({"--light-paths", "0.25"}).first != plain);
     CHECK(report({"--light-paths", "0.25", "--connections", "2"}).first !=
           report({"--light-paths", "0.25"}).first);
+    CHECK(report({"--light-paths", "0.25", "--connections", "2", "--connection-rays", "1"}).first !=
+          report({"--light-paths", "0.25", "--connections", "2"}).first);
     // The words that the note has choose the same by hand; mis is verified as always.
     const auto [chosen, told] = report({"--integrator", "auto"});
     INFO(told);
     const std::regex note(
-        "auto chooses (mis|bdpt --light-paths ([0-9.]+) --connections ([0-9.]+))\n");
+        "auto chooses (mis|bdpt --light-paths ([0-9.]+) --connections ([0-9.]+)"
+        "( --connection-rays ([0-9.]+))?)\n");
     std::smatch words;
     REQUIRE(std::regex_search(told, words, note));
     CHECK(chosen == (words[1] == "mis"
                          ? plain
-                         : report({"--light-paths", words[2], "--connections", words[3]}).first));
+                         : report({"--light-paths", words[2], "--connections", words[3],
+                                   "--connection-rays", words[5].matched ? words[5].str() : "0"})
+                               .first));
 }
 
 TEST_CASE("verify: vcm is judged beside the rest if it is asked for")

@@ -27,6 +27,7 @@ bool same_choice(const RenderOptions& a, const RenderOptions& b)
     return a.integrator == b.integrator &&
            a.bidirectional.light_paths == b.bidirectional.light_paths &&
            a.bidirectional.connections == b.bidirectional.connections &&
+           a.bidirectional.connection_rays == b.bidirectional.connection_rays &&
            a.bidirectional.disabled == b.bidirectional.disabled;
 }
 
@@ -50,7 +51,8 @@ Scene hidden_lamp()
 
 TEST_CASE("auto is the default and gives the bits of what it chose", "[auto]")
 {
-    const Scene scene = room();
+    const bool hidden = GENERATE(false, true);
+    const Scene scene = hidden ? hidden_lamp() : room();
     REQUIRE(small().integrator == IntegratorKind::automatic);
     const RenderResult result = render(scene, room_camera(), small());
     const RenderOptions chosen = choice(scene, small());
@@ -59,6 +61,8 @@ TEST_CASE("auto is the default and gives the bits of what it chose", "[auto]")
     by_hand.integrator = chosen.integrator;
     by_hand.bidirectional.light_paths = chosen.bidirectional.light_paths;
     by_hand.bidirectional.connections = chosen.bidirectional.connections;
+    by_hand.bidirectional.connection_rays = chosen.bidirectional.connection_rays;
+    CAPTURE(hidden, chosen.bidirectional.connection_rays);
     by_hand.bidirectional.disabled = chosen.bidirectional.disabled;
     const RenderResult same = render(scene, room_camera(), by_hand);
     CHECK(same.film == result.film);

@@ -226,6 +226,30 @@ TEST_CASE("chosen connections cost as many shadow rays as asked for", "[light-pa
     CHECK(all.rays.shadow_interior > 5 * chosen.rays.shadow_interior);
 }
 
+TEST_CASE("observers learn how often a connection is chosen", "[light-paths]")
+{
+    RenderOptions o = options(0.5, 8.0);
+    o.bidirectional.connection_rays = 2.0;
+    o.system.threads = 1;
+    int connections = 0;
+    int rarely_chosen = 0;
+    bool others_are_sure = true;
+    RenderControl control;
+    control.on_path = [&](const PathContribution& path) {
+        if (path.strategy.s >= 2 && path.strategy.t >= 2) {
+            CHECK(path.chance > 0.0f);
+            ++connections;
+            rarely_chosen += path.chance < 0.5f ? 1 : 0;
+        } else {
+            others_are_sure = others_are_sure && path.chance == 1.0f;
+        }
+    };
+    static_cast<void>(render(room(), room_camera(), o, control));
+    CHECK(others_are_sure);
+    CHECK(connections > 100);
+    CHECK(rarely_chosen > 10);
+}
+
 TEST_CASE("own light paths are shared where connections are chosen", "[light-paths]")
 {
     RenderOptions o = options(2.0, 2.0);

@@ -69,12 +69,15 @@ double mean_of_middle(const Film& film)
 TEST_CASE("vcm without a merge radius is bdpt, to the bit", "[vcm]")
 {
     const Scene scene = room();
-    const auto [light_paths, connections] =
-        GENERATE(std::tuple(1.0, std::optional<double>()), std::tuple(2.0, std::optional<double>()),
-                 std::tuple(0.25, std::optional<double>()), std::tuple(0.5, std::optional(2.5)));
+    const auto [light_paths, connections, rays] = GENERATE(
+        std::tuple(1.0, std::optional<double>(), 0.0),
+        std::tuple(2.0, std::optional<double>(), 0.0),
+        std::tuple(0.25, std::optional<double>(), 0.0), std::tuple(0.5, std::optional(2.5), 0.0),
+        std::tuple(0.5, std::optional(4.0), 3.0));
     RenderOptions vcm = options();
     vcm.bidirectional.light_paths = light_paths;
     vcm.bidirectional.connections = connections;
+    vcm.bidirectional.connection_rays = rays;
     vcm.transport.heuristic = GENERATE(Heuristic::balance, Heuristic::power);
     RenderOptions bdpt = vcm;
     bdpt.integrator = IntegratorKind::bdpt;

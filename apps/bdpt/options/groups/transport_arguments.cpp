@@ -111,6 +111,9 @@ void check_values(const RenderOptions& render, const OptionList& options)
         throw OptionError("--connections needs --light-paths above 0");
     }
     const double connections = render.bidirectional.connections.value_or(1.0);
+    if (no_light_paths && render.bidirectional.connection_rays > 0.0) {
+        throw OptionError("--connection-rays needs --light-paths above 0");
+    }
     if (render.bidirectional.connection_rays > 0.0 &&
         (connections < 1.0 || connections != std::floor(connections))) {
         throw OptionError("--connection-rays needs --connections that are a whole number above 0");

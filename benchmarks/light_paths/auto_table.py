@@ -4,8 +4,8 @@
 Prints for each scene the choice of auto, the time share of the pilot, and its error at equal CPU time over that of the
 best of the three and over that of bdpt. That error is the least CPU time of all seeds (with the pilot) times relMSE,
 times relMSE over scales, and times relMSE without the ten pixels of largest error, which shows whether a few rare
-bright paths dominate. relMSE comes from the spread between seeds, so no noise of a reference counts; light that lt
-misses is added to its error. The noise column is one standard error of the first ratio, as a factor, by the jackknife
+bright paths dominate. relMSE comes from the spread between seeds, so no noise of a reference counts. Light that lt
+misses is an error that does not fall with time: it is counted as at the time of auto. The noise column is one standard error of the first ratio, as a factor, by the jackknife
 over seeds. Integrators take turns, so that a slow phase of the machine affects all. Needs numpy."""
 
 import argparse
@@ -60,9 +60,11 @@ def compute_products(seconds, images, seeds):
     """Returns for each integrator the least time of the chosen seeds, which all do the same work, times each of their
     errors."""
     chosen = {name: each[seeds] for name, each in images.items()}
+    least = {name: np.min(np.array(each)[seeds]) for name, each in seconds.items()}
     judge = seed_errors.SeedErrors([chosen["auto"], chosen["bdpt"]])
-    return {name: np.min(np.array(seconds[name])[seeds]) * judge.errors(chosen[name], biased=name == "lt")
-            for name in INTEGRATORS}
+    products = {name: least[name] * judge.errors(chosen[name]) for name in INTEGRATORS}
+    products["lt"] += least["auto"] * judge.biases(chosen["lt"])
+    return products
 
 
 def estimate_noise(seconds, images, best):

@@ -60,23 +60,32 @@ class SeedErrors:
     def __init__(self, sound):
         self.sound = sound
 
-    def error(self, images, biased, side, without=0):
-        """Returns the error of averages over squares of `side` pixels. Adds the bias of a `biased` integrator, less the
-        noise of both means."""
+    def variance(self, images, side, without=0):
+        """Returns the relative variance of averages over squares of `side` pixels."""
+        own = averages(images, side)
+        return compute_relative_error(own.var(axis=0, ddof=1), self.mean(side), side, without)
+
+    def bias(self, images, side):
+        """Returns the relative squared bias of averages over squares of `side` pixels, less the noise of both means."""
         own = averages(images, side)
         others = [averages(sound, side) for sound in self.sound]
-        mean = np.mean([each.mean(axis=0) for each in others], axis=0)
-        variance = own.var(axis=0, ddof=1)
-        error = compute_relative_error(variance, mean, side, without)
-        if biased:
-            noise = sum(each.var(axis=0, ddof=1) / len(each) for each in others) / len(others) ** 2 + variance / len(own)
-            error += max(0.0, compute_relative_error((own.mean(axis=0) - mean) ** 2 - noise, mean, side))
-        return error
+        noise = (sum(each.var(axis=0, ddof=1) / len(each) for each in others) / len(others) ** 2
+                 + own.var(axis=0, ddof=1) / len(own))
+        mean = self.mean(side)
+        return max(0.0, compute_relative_error((own.mean(axis=0) - mean) ** 2 - noise, mean, side))
 
-    def errors(self, images, biased=False):
-        """Returns relMSE, its mean over scales, and relMSE without dots."""
-        over_scales = [self.error(images, biased, side) for side in SCALES]
-        return np.array([over_scales[0], np.mean(over_scales), self.error(images, biased, 1, DOTS)])
+    def mean(self, side):
+        return np.mean([averages(sound, side).mean(axis=0) for sound in self.sound], axis=0)
+
+    def errors(self, images):
+        """Returns relMSE, its mean over scales, and relMSE without dots, of an integrator that misses no light."""
+        over_scales = [self.variance(images, side) for side in SCALES]
+        return np.array([over_scales[0], np.mean(over_scales), self.variance(images, 1, DOTS)])
+
+    def biases(self, images):
+        """Returns what missing light adds to `errors`."""
+        over_scales = [self.bias(images, side) for side in SCALES]
+        return np.array([over_scales[0], np.mean(over_scales), over_scales[0]])
 
 
 def noise(seeds, ratio):

@@ -102,12 +102,8 @@ double mean_connection_rays(const Candidate& candidate, const PilotContributions
 double estimate_error(const PilotResult& pilot, std::size_t candidate, bool sees_lamps)
 {
     constexpr double least = 1e-4;
-    // The noise of choosing connections is predicted less well where BSDFs are glossy.
-    constexpr double allowance = 1.05;
-    const double factor = candidates[candidate].connection_rays > 0.0 ? allowance : 1.0;
-    return std::max(least,
-                    factor * pilot.errors[candidate] +
-                        (sees_lamps ? pilot.visible_lights.by_both : pilot.visible_lights.by_hits));
+    return std::max(least, pilot.errors[candidate] + (sees_lamps ? pilot.visible_lights.by_both
+                                                                 : pilot.visible_lights.by_hits));
 }
 
 bool fits(const RenderOptions& options, const PilotResult& pilot)

@@ -5,6 +5,7 @@
 #include "camera/camera.h"
 #include "catch.hpp"
 #include "make_sample.h"
+#include "material/models/lambertian.h"
 #include "math/rgb.h"
 #include "path/random_walk.h"
 #include "path/strategy_set.h"
@@ -169,23 +170,29 @@ TEST_CASE("every connection that brings light may be chosen", "[light-paths]")
     CHECK(connections > 200);
 }
 
-TEST_CASE("near vertices are chosen more often than far ones", "[light-paths]")
+TEST_CASE("near and bright vertices are chosen more often than others", "[light-paths]")
 {
-    // Two vertices of equal power straight above a camera vertex, at 1 and 2 m.
+    // Two vertices straight above a camera vertex.
+    struct Case {
+        Vec2 distances;  // [m]
+        Vec2 powers;
+        double share;  // of the first
+    };
+    const auto [distances, powers, share] =
+        GENERATE(Case{{1.0f, 2.0f}, {1.0f, 1.0f}, 0.8}, Case{{1.0f, 1.0f}, {3.0f, 1.0f}, 0.75});
     const Scene scene = room();
     Paths paths(scene.world(), 0);
+    const PathVertex& vertex = paths.camera.first(2).back();
     LightVertexBlock block{};
-    for (std::size_t i = 0; i < 2; ++i) {
-        const SegmentEnd& end = paths.camera.first(2).back().end;
-        const Vec3 p =
-            end.p + static_cast<float>(i + 1) * *paths.camera.first(2).back().bsdf->opaque_normal();
+    for (int i = 0; i < 2; ++i) {
+        const Vec3 p = vertex.end.p + distances[i] * *vertex.bsdf->opaque_normal();
         block.x[i] = p.x;
         block.y[i] = p.y;
         block.z[i] = p.z;
         block.any_side[i] = 1.0f;
-        block.power[i] = 1.0f;
+        block.green[i] = powers[i];
         block.s[i] = max_depth - 1;  // no other camera vertex may be connected to it
-        block.path[i] = static_cast<std::uint32_t>(i);
+        block.path[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(i);
     }
     RenderOptions one_ray = chosen_options();
     one_ray.bidirectional.connection_rays = 1.0;
@@ -197,9 +204,22 @@ TEST_CASE("near vertices are chosen more often than far ones", "[light-paths]")
             shares[each.path] += 1.0 / numbers;
         }
     }
-    // By the squared distances, but for the tenth that is divided evenly.
-    CHECK(shares[0] == Approx(0.9 * 0.8 + 0.1 * 0.5).epsilon(0.01));
-    CHECK(shares[1] == Approx(0.9 * 0.2 + 0.1 * 0.5).epsilon(0.01));
+    // A tenth is divided evenly.
+    CHECK(shares[0] == Approx(0.9 * share + 0.1 * 0.5).epsilon(0.01));
+    CHECK(shares[1] == Approx(0.9 * (1.0 - share) + 0.1 * 0.5).epsilon(0.01));
+}
+
+TEST_CASE("the estimated power of a vertex has the colour of its surface", "[light-paths]")
+{
+    const Bsdf red({0.0f, 0.0f, 1.0f}, Frame({0.0f, 0.0f, 1.0f}), {0.0f, 0.0f, 1.0f},
+                   Lambertian({0.8f, 0.4f, 0.0f}));
+    PathVertex vertex;
+    vertex.beta = {1.0f, 2.0f, 3.0f};
+    vertex.bsdf = &red;
+    const Rgb power = estimated_power(vertex);
+    CHECK(power.r == Approx(0.8f));
+    CHECK(power.g == Approx(0.8f));
+    CHECK(power.b == Approx(3.0f * 0.04f));  // as a dielectric reflects
 }
 
 }  // namespace bdpt::test::connection_chooser_test

@@ -241,8 +241,8 @@ TEST_CASE("connections that are chosen rarely vary more", "[pilot]")
         if (rays == 0.0) {
             CHECK(moments.choice[k] == 0.0);
         } else {
-            CHECK(moments.choice[k] ==
-                  Approx(moments.connections[k] * (1.0 / (rays * chance) - 1.0)));
+            const double expected = rays * chance * 8.0 / candidates[k].connections;
+            CHECK(moments.choice[k] == Approx(moments.connections[k] * (1.0 / expected - 1.0)));
         }
     }
     path.chance = static_cast<float>(PathShares::pilot_rays);  // always chosen

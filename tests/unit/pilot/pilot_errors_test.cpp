@@ -4,6 +4,7 @@
 #include "pilot/errors/qmc_variance_factor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -103,6 +104,18 @@ PilotErrors prediction_with_glints(int count)
     return predict_errors(contributions, PilotBrightness(contributions));
 }
 
+std::size_t one_light_path()
+{
+    const auto found = std::find(candidates.begin(), candidates.end(), Candidate{1.0, 1.0});
+    return static_cast<std::size_t>(found - candidates.begin());
+}
+
+/// Returns what is added to the error for the noise of choosing connections.
+double of_choice(const PilotErrors& errors, std::size_t candidate)
+{
+    return candidates[candidate].connection_rays > 0.0 ? 2.0 * errors.noise[candidate] : 0.0;
+}
+
 PerCandidate<double> errors_with_glints(int count)
 {
     return prediction_with_glints(count).of_image;
@@ -125,11 +138,13 @@ TEST_CASE("of the variance of sums a part is left, of direct light another than 
     // Sums of 2 L and of 0: the products of different paths of a sample are 2 L^2 and 0.
     const double variance_of_sums = static_cast<double>(radiance * radiance);
     const double left = direct ? left_of_direct_sums : left_of_indirect_sums;
-    constexpr double with_unseen = 1.2;
+    const double of_sums = left * scale * variance_of_sums;
+    const double unseen = 0.2 * (of_one_path.sum(one_light_path()) + of_sums);
     const PilotErrors errors = predict_errors(contributions, brightness);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const double of_sums = left * scale * variance_of_sums;
-        CHECK(errors.of_image[k] / with_unseen == Approx(of_one_path.sum(k) + of_sums));
+        CHECK(errors.of_image[k] - unseen - of_choice(errors, k) ==
+              Approx(of_one_path.sum(k) + of_sums));
+        CHECK(errors.noise[k] == Approx(of_one_path.sum(k) / std::sqrt(2.0)));
         // The only cell is the image.
         CHECK(errors.of_cells.camera[0][k] == Approx(of_one_path.camera[k] + of_sums));
         CHECK(errors.of_cells.splats[k] == Approx(of_one_path.splats[k]));
@@ -140,9 +155,7 @@ TEST_CASE("errors of cells are apart from those of splats, which rates do not ch
 {
     const PilotContributions contributions = contributions_of(SplattedLight(), PilotGrid(200, 100));
     const PilotErrors errors = predict_errors(contributions, PilotBrightness(contributions));
-    const auto one = static_cast<std::size_t>(
-        std::find(candidates.begin(), candidates.end(), Candidate{1.0, 1.0}) - candidates.begin());
-    const double unseen = errors.of_image[one] * (0.2 / 1.2);
+    const double unseen = 2.0 * errors.noise[one_light_path()];
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         CAPTURE(k);
         double camera = 0.0;
@@ -150,9 +163,27 @@ TEST_CASE("errors of cells are apart from those of splats, which rates do not ch
             camera += cell[k] / static_cast<double>(errors.of_cells.camera.size());
         }
         CHECK((errors.of_cells.splats[k] > 0.0) == (candidates[k].light_paths > 0.0));
-        CHECK(errors.of_image[k] - unseen ==
+        CHECK(errors.of_image[k] - unseen - of_choice(errors, k) ==
               Approx(camera + errors.of_cells.splats[k]).margin(1e-5));
     }
+}
+
+TEST_CASE("rare paths are expected where the error of the paths found is noisy", "[pilot]")
+{
+    // Of many equal paths the error is certain; of few it is not. Then a fifth is added.
+    const auto unseen = [](PilotGrid grid) {
+        const PilotContributions contributions = contributions_of(TwoLights(3), grid);
+        const PilotBrightness brightness(contributions);
+        const double left = left_of_indirect_sums * static_cast<double>(radiance * radiance);
+        const double scale = brightness.scale(0);
+        const RemainingErrors of_one_path =
+            remaining_errors(contributions.rows[0].joined()[0].shares, scale);
+        const double found = of_one_path.sum(one_light_path()) + left * scale;
+        return predict_errors(contributions, brightness).of_image[one_light_path()] / found - 1.0;
+    };
+    CHECK(unseen(PilotGrid(1, 1)) == Approx(0.2).epsilon(0.001));
+    CHECK(unseen(PilotGrid(800, 800)) < 0.05);
+    CHECK(unseen(PilotGrid(800, 800)) > 0.0);
 }
 
 TEST_CASE("a path that a usual render hardly finds does not count, but many of them do", "[pilot]")

@@ -139,7 +139,7 @@ TEST_CASE("a pilot predicts errors of renders with other numbers of light paths"
     // Noise of the pilot, and what Sobol points leave is not the same in every scene.
     constexpr double tolerance = 1.5;
     for (const std::size_t k :
-         {index_of(0.0625, 1.0), index_of(0.0625, 8.0, 4.0), index_of(0.0625, 8.0, 16.0),
+         {index_of(0.0625, 1.0), index_of(0.0625, 8.0, 4.0), index_of(0.0625, 16.0, 12.0),
           index_of(0.25, 0.25), index_of(1.0, 8.0, 8.0)}) {
         CAPTURE(candidates[k].light_paths, candidates[k].connections,
                 candidates[k].connection_rays);
@@ -298,7 +298,7 @@ TEST_CASE("of the best at equal cost, the one that fits into memory is taken", "
     CHECK(with_best(pilot, options).bidirectional.disabled.empty());
 }
 
-TEST_CASE("connections are chosen only where that promises more than it may miss", "[pilot]")
+TEST_CASE("connections are chosen where that has the least product of error and cost", "[pilot]")
 {
     PilotResult pilot;
     pilot.errors.fill(1.0);
@@ -306,9 +306,9 @@ TEST_CASE("connections are chosen only where that promises more than it may miss
     const std::size_t all = index_of(0.0625, 1.0);
     const std::size_t chosen = index_of(0.0625, 8.0, 8.0);
     pilot.errors[all] = 0.1;
-    pilot.errors[chosen] = 0.099;
+    pilot.errors[chosen] = 0.101;
     CHECK(with_best(pilot, small()).bidirectional.connection_rays == 0.0);
-    pilot.errors[chosen] = 0.09;
+    pilot.errors[chosen] = 0.099;
     const RenderOptions best = with_best(pilot, small());
     CHECK(best.bidirectional.connections == 8.0);
     CHECK(best.bidirectional.connection_rays == 8.0);

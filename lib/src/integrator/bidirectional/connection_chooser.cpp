@@ -15,11 +15,6 @@ constexpr float share_of_camera_vertices = 0.3f;
 constexpr float share_of_pairs = 0.1f;
 constexpr float share_of_estimates = 1.0f - share_of_camera_vertices - share_of_pairs;
 
-float sum_of_channels(Rgb color)
-{
-    return color.x + color.y + color.z;
-}
-
 }  // namespace
 
 ConnectionChooser::ConnectionChooser(const RenderOptions& options)
@@ -36,7 +31,7 @@ std::span<const ConnectionChooser::Connection> ConnectionChooser::choose(
     float total = 0.0f;
     float pairs = 0.0f;
     for (const CameraVertex& vertex : vertices_) {
-        total += vertex.throughput * vertex.all.sum;
+        total += vertex.all.sum;
         pairs += vertex.all.number;
     }
     if (!(total > 0.0f && std::isfinite(total))) {
@@ -50,7 +45,7 @@ std::span<const ConnectionChooser::Connection> ConnectionChooser::choose(
     float running = u;
     const BlockEstimates* next = blocks_.data();
     for (const CameraVertex& vertex : vertices_) {
-        const float rate = by_estimate * vertex.throughput + of_vertex / vertex.all.sum;
+        const float rate = by_estimate + of_vertex / vertex.all.sum;
         for (const LightVertexBlock& block : light) {
             const BlockEstimates& estimates = *next++;
             const float of_block = estimates.all.sum * rate + estimates.all.number * of_pair;
@@ -94,7 +89,7 @@ void ConnectionChooser::estimate_all(const Subpath& camera, std::span<const Ligh
         const std::size_t before = blocks_.size();
         const Estimates all = estimate(prefix, light);
         if (all.sum > 0.0f) {
-            vertices_.push_back({.t = t, .throughput = sum_of_channels(z.beta), .all = all});
+            vertices_.push_back({.t = t, .all = all});
         } else {
             blocks_.resize(before);
         }
@@ -114,6 +109,7 @@ ConnectionChooser::Estimates ConnectionChooser::estimate(std::span<const PathVer
     const Vec3 n = normal.value_or(Vec3(0.0f));
     const float any_side = normal ? 0.0f : 1.0f;
     // Splats, which find the first vertex of a camera path without its walk, are not considered.
+    const Rgb power = estimated_power(end);
     const float area = t == 2 ? 0.0f : nearby_area(camera, light_paths_);
     Float4 sums{};
     Float4 numbers{};
@@ -128,8 +124,9 @@ ConnectionChooser::Estimates ConnectionChooser::estimate(std::span<const PathVer
         const Float4 at_light =
             positive_part(block.any_side * distance - (x * block.nx + y * block.ny + z * block.nz));
         const Float4 cosines = at_camera * at_light;
+        const Float4 both = block.red * power.x + block.green * power.y + block.blue * power.z;
         const Float4 value =
-            block.power * cosines / (squared * squared + cosines * (block.area + area) + least);
+            both * cosines / (squared * squared + cosines * (block.area + area) + least);
         const Float4 estimates = block.s <= max_vertices_ - t ? value : zero;
         const Float4 counts = estimates > 0.0f ? one : zero;
         blocks_.push_back(

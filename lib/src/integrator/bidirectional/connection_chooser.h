@@ -51,8 +51,7 @@ private:
     /// A vertex of the camera path that has connections.
     struct CameraVertex {
         int t;
-        float throughput;  ///< sum of its channels
-        Estimates all;     ///< without the throughput
+        Estimates all;
     };
 
     void estimate_all(const Subpath& camera, std::span<const LightVertexBlock> light);

@@ -18,9 +18,18 @@ void LightVertexBlock::set(std::size_t i, std::span<const PathVertex> light, dou
     ny[i] = n.y;
     nz[i] = n.z;
     any_side[i] = normal ? 0.0f : 1.0f;
-    power[i] = vertex.beta.x + vertex.beta.y + vertex.beta.z;
+    const Rgb power = estimated_power(vertex);
+    red[i] = power.x;
+    green[i] = power.y;
+    blue[i] = power.z;
     area[i] = nearby_area(light, count);
     s[i] = static_cast<std::int32_t>(light.size());
+}
+
+Rgb estimated_power(const PathVertex& vertex)
+{
+    constexpr float least_albedo = 0.04f;  // of usual dielectrics
+    return vertex.beta * max(vertex.bsdf->base_color(), Rgb(least_albedo));
 }
 
 float nearby_area(std::span<const PathVertex> subpath, double count)

@@ -14,12 +14,12 @@ namespace bdpt {
 struct LightVertexBlock {
     static constexpr std::size_t size = 4;
 
-    Float4 x, y, z;     ///< position [m]
-    Float4 nx, ny, nz;  ///< normal if the vertex scatters on one side of it only; else zero
-    Float4 any_side;    ///< 1 if the vertex scatters to all sides; else 0
-    Float4 power;       ///< sum of the throughput's channels; 0 if there is no vertex
-    Float4 area;        ///< `nearby_area` of the vertex [m^2]
-    Int4 s;             ///< number of vertices of the light path up to this one
+    Float4 x, y, z;           ///< position [m]
+    Float4 nx, ny, nz;        ///< normal if the vertex scatters on one side of it only; else zero
+    Float4 any_side;          ///< 1 if the vertex scatters to all sides; else 0
+    Float4 red, green, blue;  ///< `estimated_power` of the vertex; 0 if there is none
+    Float4 area;              ///< `nearby_area` of the vertex [m^2]
+    Int4 s;                   ///< number of vertices of the light path up to this one
     std::array<std::uint32_t, size> path_begin;  ///< index of the path's first vertex in its chunk
     std::array<std::uint32_t, size> path;        ///< number of the light path in its bundle
 
@@ -33,6 +33,10 @@ struct LightVertexBlock {
 {
     return scatters(vertex.kind) && vertex.connectible;
 }
+
+/// Returns the throughput of the scattered light if the base colour is the albedo; a dielectric
+/// with a black base reflects some light, too.
+[[nodiscard]] Rgb estimated_power(const PathVertex& vertex);
 
 /// Returns 1 / (pi count pdf) for the last vertex of a subpath, where `pdf` is its density [1/m^2].
 /// If two connected vertices are nearer to each other than the root of this area, a walk from the

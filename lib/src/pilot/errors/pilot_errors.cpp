@@ -24,6 +24,7 @@ constexpr double max_light_of_dots = 0.0025;  ///< light over that of the image
 /// Errors of a part of a pilot's contributions.
 struct PartOfErrors {
     PerCandidate<ErrorsByValue> of_paths{};
+    PerCandidate<double> squares{};  ///< of the errors of single paths
     PerCandidate<double> of_sums{};  ///< of the products of different paths of a sample
     PerCandidate<double> of_splats{};
 
@@ -34,8 +35,10 @@ struct PartOfErrors {
         const PerCandidate<double> numbers = path.numbers();
         const double relative = path.mean() * std::sqrt(scale);
         for (std::size_t k = 0; k < candidates.size(); ++k) {
+            const double error = errors.sum(k) / paths;
             of_paths[k].add(relative / numbers[k], usual_samples * pixels / paths * numbers[k],
-                            errors.sum(k) / paths);
+                            error);
+            squares[k] += error * error;
             of_splats[k] += errors.splats[k] / paths;
         }
         return errors;
@@ -44,6 +47,7 @@ struct PartOfErrors {
     {
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             of_paths[k].add(other.of_paths[k]);
+            squares[k] += other.squares[k];
             of_sums[k] += other.of_sums[k];
             of_splats[k] += other.of_splats[k];
         }
@@ -148,24 +152,35 @@ PilotErrors compute_errors(const PilotContributions& contributions,
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const double usual = all.of_paths[k].without_brightest(dots, light);
         errors.of_image[k] = usual + all.of_sums[k];
+        errors.noise[k] = std::sqrt(all.squares[k]);
         errors.of_cells.dots[k] = all.of_paths[k].without_brightest(0.0, 0.0) - usual;
     }
     return errors;
 }
 
 /// Adds the expected error of rare paths that no pilot finds to all candidates, so that a small
-/// gain does not justify a much more expensive one.
-PerCandidate<double> with_unseen(PerCandidate<double> errors)
+/// gain does not justify a much more expensive one. Where the largest errors of single paths make
+/// the sum noisy, still larger ones are likely.
+void add_unseen(PilotErrors& errors)
 {
-    constexpr double share = 0.2;  // fraction of the error with one light path per camera path
-    const auto one = std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) {
-        return c.light_paths == 1.0 && c.connections == 1.0;
-    });
-    const double unseen = share * errors[static_cast<std::size_t>(one - candidates.begin())];
-    for (double& error : errors) {
+    constexpr double most = 0.2;  // fraction of the error with one light path per camera path
+    const auto found = std::find(candidates.begin(), candidates.end(), Candidate{1.0, 1.0});
+    const auto one = static_cast<std::size_t>(found - candidates.begin());
+    const double unseen = std::min(most * errors.of_image[one], 2.0 * errors.noise[one]);
+    for (double& error : errors.of_image) {
         error += unseen;
     }
-    return errors;
+}
+
+/// The noise of choosing connections is predicted less well where BSDFs are glossy: those
+/// candidates are chosen for a gain that exceeds the noise of the prediction.
+void add_noise_of_choice(PilotErrors& errors)
+{
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        if (candidates[k].connection_rays > 0.0) {
+            errors.of_image[k] += 2.0 * errors.noise[k];
+        }
+    }
 }
 
 }  // namespace
@@ -174,7 +189,8 @@ PilotErrors predict_errors(const PilotContributions& contributions,
                            const PilotBrightness& brightness)
 {
     PilotErrors errors = compute_errors(contributions, brightness);
-    errors.of_image = with_unseen(errors.of_image);
+    add_unseen(errors);
+    add_noise_of_choice(errors);
     return errors;
 }
 

@@ -23,6 +23,7 @@ struct CellErrors {
 /// Errors excluding directly visible light.
 struct PilotErrors {
     PerCandidate<double> of_image{};  ///< relMSE of one sample per pixel
+    PerCandidate<double> noise{};     ///< standard error of that, as far as paths show it
     CellErrors of_cells;
 };
 

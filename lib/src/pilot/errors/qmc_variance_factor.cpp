@@ -1,5 +1,7 @@
 #include "pilot/errors/qmc_variance_factor.h"
 
+#include "math/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +13,7 @@ namespace {
 // do not benefit.
 constexpr double left_of_direct = 0.25;
 constexpr double left_of_connections = 0.3;
-constexpr double left_of_choice = 0.35;  // of what the choice of connections adds
+constexpr double left_of_choice = 0.3;  // of what the choice of connections adds
 
 /// Returns the remaining fraction for paths that camera paths find alone: 1 for rare paths, as a
 /// single sample is not stratified. `value` is the path's contribution relative to the local
@@ -29,7 +31,8 @@ PerCandidate<double> left_by_more_connections()
 {
     PerCandidate<double> result;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        result[k] = 1.0 / std::sqrt(std::sqrt(std::max(1.0, candidates[k].connections)));
+        const auto c = static_cast<float>(std::max(1.0, candidates[k].connections));
+        result[k] = exp_exact(-log_exact(c) / 3.0f);
     }
     return result;
 }

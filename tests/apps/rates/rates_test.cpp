@@ -163,7 +163,7 @@ TEST_CASE("tasks of an adaptive plan take the rates of the plan", "[command]")
 TEST_CASE("auto gives noisy pixels more samples where that helps", "[command]")
 {
     const ScratchFolder folder;
-    const Words words{BDPT_SOURCE_DIR "/scenes/alpha.gltf", "--size", "64x48", "--max-depth", "4"};
+    const Words words{BDPT_SOURCE_DIR "/scenes/veach-plates.gltf", "--size", "64x48", "--max-depth", "4"};
     const auto image = [&](const std::string& name, const Words& more) {
         succeed(joined(joined({"render"}, words), joined({"-o", path(folder, name), "--quiet",
                                                           "--stats", path(folder, "stats.json")},

@@ -13,9 +13,9 @@ namespace bdpt {
 
 /// Chooses some of the connections between a camera path and the vertices of its light paths
 /// [cf. Popov et al. 2015, "Probabilistic Connections for Bidirectional Path Tracing"]. The
-/// probability of each is proportional to an estimate of its contribution: throughputs and cosines
-/// over the squared distance, times the approximate MIS weight, without BSDFs and visibility. An
-/// estimate costs a hundredth of a connection. For one thread.
+/// probability of each is proportional to an estimate of its contribution: throughputs, base
+/// colours in place of BSDFs, and cosines over the squared distance, times the approximate MIS
+/// weight, without visibility. An estimate costs a hundredth of a connection. For one thread.
 class ConnectionChooser {
 public:
     /// The connection of the first `s` vertices of a light path with the first `t` of the camera

@@ -5,8 +5,9 @@ Prints for each scene the choice of auto, the time share of the pilot, and its e
 best of the three and over that of bdpt. That error is the least CPU time of all seeds (with the pilot) times relMSE,
 times relMSE over scales, and times relMSE without the ten pixels of largest error, which shows whether a few rare
 bright paths dominate. relMSE comes from the spread between seeds, so no noise of a reference counts. Light that lt
-misses is an error that does not fall with time: it is counted as at the time of auto. The noise column is one standard error of the first ratio, as a factor, by the jackknife
-over seeds. Integrators take turns, so that a slow phase of the machine affects all. Needs numpy."""
+misses is an error that does not fall with time: it is multiplied by the time of auto. The noise column is one standard
+error of the first ratio, as a factor, by the jackknife over seeds. Integrators take turns, so that a slow phase of the
+machine affects all. Needs numpy."""
 
 import argparse
 import json

@@ -24,7 +24,8 @@ import seed_errors
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # For each number of light paths: connections, and connection rays.
 CONNECTIONS = {0.0625: ((0.25, 0), (1, 0), (2, 0), (8, 4), (8, 8), (8, 12), (16, 12)),
-               0.25: ((0.25, 0), (1, 0), (2, 0), (8, 4), (8, 8)), 0.5: ((0.25, 0), (1, 0), (8, 8)), 1: ((0.25, 0), (1, 0), (8, 8))}
+               0.25: ((0.25, 0), (1, 0), (2, 0), (8, 4), (8, 8)),
+               0.5: ((0.25, 0), (1, 0), (8, 8)), 1: ((0.25, 0), (1, 0), (8, 8))}
 
 
 def render(bdpt, scene, arguments, image, *options):
@@ -62,7 +63,7 @@ def format_options(options):
 def compute_products(seconds, images, seeds, without):
     """Returns least time times error for each choice, from the given seeds."""
     judge = seed_errors.SeedErrors([each[seeds] for each in images])
-    return np.array([min(time[seed] for seed in seeds) * judge.error(each[seeds], False, 1, without)
+    return np.array([min(time[seed] for seed in seeds) * judge.variance(each[seeds], 1, without)
                      for time, each in zip(seconds, images)])
 
 

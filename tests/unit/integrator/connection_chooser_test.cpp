@@ -170,27 +170,38 @@ TEST_CASE("every connection that brings light may be chosen", "[light-paths]")
     CHECK(connections > 200);
 }
 
-TEST_CASE("near and bright vertices are chosen more often than others", "[light-paths]")
+TEST_CASE("near and bright vertices of like colour are chosen more often than others",
+          "[light-paths]")
 {
-    // Two vertices straight above a camera vertex.
-    struct Case {
-        Vec2 distances;  // [m]
-        Vec2 powers;
-        double share;  // of the first
-    };
-    const auto [distances, powers, share] =
-        GENERATE(Case{{1.0f, 2.0f}, {1.0f, 1.0f}, 0.8}, Case{{1.0f, 1.0f}, {3.0f, 1.0f}, 0.75});
+    // Two vertices straight above a camera vertex, which has a colour.
     const Scene scene = room();
     Paths paths(scene.world(), 0);
     const PathVertex& vertex = paths.camera.first(2).back();
+    const Rgb power = estimated_power(vertex);
+    REQUIRE(vertex.bsdf->base_color().r != vertex.bsdf->base_color().b);
+    constexpr Rgb red{1.0f, 0.0f, 0.0f};
+    constexpr Rgb blue{0.0f, 0.0f, 1.0f};
+    struct Case {
+        Vec2 distances;  // [m]
+        std::array<Rgb, 2> powers;
+        double share;  // of the first
+    };
+    const auto share_of_red = static_cast<double>(power.r / (power.r + power.b));
+    const std::array cases{Case{{1.0f, 2.0f}, {red, red}, 0.8},
+                           Case{{1.0f, 1.0f}, {3.0f * red, red}, 0.75},
+                           Case{{1.0f, 1.0f}, {red, blue}, share_of_red}};
+    const Case& expected = cases[GENERATE(0u, 1u, 2u)];
     LightVertexBlock block{};
     for (int i = 0; i < 2; ++i) {
-        const Vec3 p = vertex.end.p + distances[i] * *vertex.bsdf->opaque_normal();
+        const Vec3 p = vertex.end.p + expected.distances[i] * *vertex.bsdf->opaque_normal();
+        const Rgb color = expected.powers[static_cast<std::size_t>(i)];
         block.x[i] = p.x;
         block.y[i] = p.y;
         block.z[i] = p.z;
         block.any_side[i] = 1.0f;
-        block.green[i] = powers[i];
+        block.red[i] = color.r;
+        block.green[i] = color.g;
+        block.blue[i] = color.b;
         block.s[i] = max_depth - 1;  // no other camera vertex may be connected to it
         block.path[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(i);
     }
@@ -205,8 +216,8 @@ TEST_CASE("near and bright vertices are chosen more often than others", "[light-
         }
     }
     // A tenth is divided evenly.
-    CHECK(shares[0] == Approx(0.9 * share + 0.1 * 0.5).epsilon(0.01));
-    CHECK(shares[1] == Approx(0.9 * (1.0 - share) + 0.1 * 0.5).epsilon(0.01));
+    CHECK(shares[0] == Approx(0.9 * expected.share + 0.1 * 0.5).epsilon(0.01));
+    CHECK(shares[1] == Approx(0.9 * (1.0 - expected.share) + 0.1 * 0.5).epsilon(0.01));
 }
 
 TEST_CASE("the estimated power of a vertex has the colour of its surface", "[light-paths]")

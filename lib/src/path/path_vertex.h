@@ -38,7 +38,10 @@ struct PathVertex {
     float area_per_solid_angle = 1.0f;
     std::optional<LightId> light;
     Vec2 barycentrics{0.0f};  ///< barycentric coordinates on a triangle light
-    double sum = 0.0;         ///< sum stored by `WeightSums`
+    /// Sum of `WeightSums` over the strategies that move this vertex alone to the other subpath.
+    double sum_of_one = 0.0;
+    /// Likewise over those that move its predecessor, too, for a density of one of that vertex.
+    double sum_of_more = 0.0;
     VertexKind kind = VertexKind::surface;
     bool connectible = true;       ///< has a lobe that is not delta: strategies can connect here
     bool scattered_delta = false;  ///< the walk left through a delta lobe
@@ -47,7 +50,7 @@ struct PathVertex {
     const Bsdf* bsdf = nullptr;    ///< BSDF or phase function of the vertex; lives in the `Subpath`
 };
 
-static_assert(std::is_trivially_copyable_v<PathVertex> && sizeof(PathVertex) <= 120);
+static_assert(std::is_trivially_copyable_v<PathVertex> && sizeof(PathVertex) <= 128);
 
 /// Tests whether vertices of this kind scatter light by their `bsdf`.
 [[nodiscard]] constexpr bool scatters(VertexKind kind)

@@ -21,10 +21,11 @@ struct JoinDensities {
     AreaPdf next_event;                ///< x_0 sampled from x_1 by next-event estimation
 };
 
-/// Balance and power heuristics in constant time per connection: for each vertex of a subpath, the
-/// weights of all strategies that move vertices from one subpath to the other are summed once; a
-/// connection adds the two vertices at either end whose densities it changes [Georgiev 2012,
-/// "Implementing Vertex Connection and Merging", sec. 4]. Equals `mis_weight` up to rounding.
+/// Balance and power heuristics in constant time per connection: each vertex of a subpath stores
+/// the weights of all strategies that move it and any number of its predecessors to the other
+/// subpath, for unknown densities of itself and its predecessor from the other side. A connection
+/// multiplies them by these densities, the only ones that it changes [Georgiev 2012, "Implementing
+/// Vertex Connection and Merging", sec. 4]. Equals `mis_weight` up to rounding.
 class WeightSums {
 public:
     /// Tests whether the strategies can be weighted this way.
@@ -47,21 +48,12 @@ public:
                                         const JoinDensities& join) const;
 
 private:
-    // Returns the sum of vertex k of a subpath: over all strategies that sample it and any number
-    // of vertices before it from the other side, the heuristic's function of count times density,
-    // relative to sampling them from this side. Strategies that merge at one of these vertices
-    // sample it from both sides. `pdf_rev` is its density from the other side; `joins` tells
-    // whether a strategy can connect there; `before` is the sum of vertex k - 1.
-    [[nodiscard]] double camera_sum(std::span<const PathVertex> camera, std::size_t k,
-                                    AreaPdf pdf_rev, bool joins, double before) const;
-    [[nodiscard]] double light_sum(std::span<const PathVertex> light, std::size_t k,
-                                   AreaPdf pdf_rev, bool joins, double before) const;
-    /// Returns the sum of the vertex before the end of a subpath; 0 if there is none.
-    [[nodiscard]] double beyond_camera_end(std::span<const PathVertex> camera,
-                                           AreaPdf pdf_rev) const;
-    [[nodiscard]] double beyond_light_end(std::span<const PathVertex> light, AreaPdf pdf_rev) const;
+    /// Stores the sums of vertex k of a subpath: `term` is that of the strategy that connects its
+    /// predecessor to it, and of merging at it.
+    void store_sums(std::span<PathVertex> path, std::size_t k, double term) const;
 
-    [[nodiscard]] double raise(double ratio) const;
+    [[nodiscard]] double raise(double value) const;
+    [[nodiscard]] double raise(AreaPdf pdf) const;
     /// Returns the term of a strategy that connects light paths to these two vertices (s, t >= 2).
     [[nodiscard]] double connection_term(const PathVertex& a, const PathVertex& b) const
     {
@@ -70,11 +62,12 @@ private:
         }
         return joins_ * raise(static_cast<double>(connection_count(world_, a, b)));
     }
-    [[nodiscard]] double camera_term(std::span<const PathVertex> camera, const PathVertex& next,
-                                     bool joins) const;
-    [[nodiscard]] double light_term(std::span<const PathVertex> light, const PathVertex& next,
-                                    bool joins) const;
-    [[nodiscard]] double merge_term(const PathVertex& vertex, AreaPdf pdf, bool joins) const;
+    [[nodiscard]] double camera_term(std::span<const PathVertex> camera,
+                                     const PathVertex& next) const;
+    [[nodiscard]] double light_term(std::span<const PathVertex> light,
+                                    const PathVertex& next) const;
+    [[nodiscard]] double merge_term(const PathVertex& vertex, AreaPdf pdf) const;
+    [[nodiscard]] double lens_sum(const PathVertex& lens, AreaPdf pdf_rev) const;
 
     const World& world_;
     bool squares_;

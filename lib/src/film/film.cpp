@@ -1,5 +1,6 @@
 #include <bdpt/error.h>
 #include <bdpt/film/film.h>
+#include <bdpt/memory/huge_pages.h>
 
 #include <glm/common.hpp>
 
@@ -62,8 +63,8 @@ Film::Film(const FilmLayout& layout) : layout_(layout)
         static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
     const bool splats = layout.splats == SplatImage::present;
     for (std::size_t half = 0; half < 2; ++half) {
-        samples_[half].resize(pixels);
-        splats_[half].resize(splats ? pixels : 0);
+        resize_in_huge_pages(samples_[half], pixels);
+        resize_in_huge_pages(splats_[half], splats ? pixels : 0);
     }
     const bool clamps = layout.clamp != std::numeric_limits<float>::infinity();
     losses_.resize(clamps ? static_cast<std::size_t>(height()) : 0);

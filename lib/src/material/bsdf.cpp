@@ -24,7 +24,7 @@ BsdfEval Bsdf::eval(Vec3 wi, TransportMode mode) const noexcept
             return {};
         }
         BsdfEval value = model.eval(local_wo_, local_wi, mode);
-        if (mode == TransportMode::importance) {
+        if (mode == TransportMode::importance && !is_flat()) {
             const float ratio_i = cosines.ratio();
             value.f_cos *= ratio_i / ratio_o_;
         }
@@ -45,7 +45,7 @@ std::optional<BsdfSample> Bsdf::sample(float u_lobe, Vec2 u, TransportMode mode)
             const Cosines cosines{dot(sampled->wi, ng_), local_cos};
             if (!cosines.agree()) {
                 sampled.reset();
-            } else if (mode == TransportMode::importance) {
+            } else if (mode == TransportMode::importance && !is_flat()) {
                 const float ratio_i = cosines.ratio();
                 sampled->weight *= ratio_i / ratio_o_;
             }

@@ -89,13 +89,19 @@ private:
           model_(std::in_place_type<Model>, model)
     {
         const Cosines cosines{from.cosine, height(model, from.local_wo)};
-        ratio_o_ = cosines.agree() ? cosines.ratio() : 0.0f;
+        ratio_o_ = !cosines.agree() ? 0.0f : shading.z == ng ? flat : cosines.ratio();
     }
+
+    static constexpr float flat = -1.0f;
+    /// Tests whether the normals are equal.
+    [[nodiscard]] bool is_flat() const noexcept { return ratio_o_ < 0.0f; }
 
     Frame shading_;
     Vec3 ng_{0.0f, 0.0f, 1.0f};
     Vec3 local_wo_{0.0f};
-    float ratio_o_ = 0.0f;  ///< wo.ng / wo.ns; 0 if they differ in sign: nothing scatters
+    /// wo.ng / wo.ns, positive; `flat` if the normals are equal; 0 if the signs differ: nothing
+    /// scatters.
+    float ratio_o_ = 0.0f;
     AnyModel model_;
 };
 

@@ -26,11 +26,11 @@ struct Frame {
                 n};
     }
 
-    [[nodiscard, gnu::always_inline]] inline Vec3 to_local(Vec3 v) const
+    [[nodiscard, gnu::always_inline]] inline Vec3 to_local(const Vec3& v) const
     {
         return {dot(v, x), dot(v, y), dot(v, z)};
     }
-    [[nodiscard, gnu::always_inline]] inline Vec3 to_world(Vec3 v) const
+    [[nodiscard, gnu::always_inline]] inline Vec3 to_world(const Vec3& v) const
     {
         return v.x * x + v.y * y + v.z * z;
     }

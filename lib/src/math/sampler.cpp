@@ -82,8 +82,8 @@ Vec2 Sampler::ordered_2d(SampleUse use, std::uint32_t vertex) const
         pair = reverse_bits(std::uint64_t{permute_upwards(low_word(point), low_word(pair))} << 32U |
                             permute_upwards(high_word(point), high_word(pair)));
     }
-    set_[first] = to_float(low_word(pair));
-    set_[first + 1] = to_float(high_word(pair));
+    set_[first] = low_word(pair);
+    set_[first + 1] = high_word(pair);
 }
 
 void Sampler::begin_set()

@@ -71,12 +71,12 @@ public:
         next_ = set_size;
     }
 
-    [[nodiscard]] float next_1d() { return set_[reserve(1)]; }
+    [[nodiscard]] float next_1d() { return to_float(set_[reserve(1)]); }
 
     [[nodiscard]] Vec2 next_2d()
     {
         const std::size_t first = reserve(2);
-        return {set_[first], set_[first + 1]};
+        return {to_float(set_[first]), to_float(set_[first + 1])};
     }
 
     /// Returns a single dimension with 48 bits, in the format of `fine_uniform`: the upper 24 in x,
@@ -85,7 +85,7 @@ public:
     {
         const std::size_t at = reserve(1);
         const std::uint64_t lower = bits(next_set_ - 1, fine_hashes + at);
-        return {set_[at], to_float(static_cast<std::uint32_t>(lower >> 32U))};
+        return {to_float(set_[at]), to_float(static_cast<std::uint32_t>(lower >> 32U))};
     }
 
     /// Returns a point of a use at a vertex for which `start` is never called. It is cheaper: such
@@ -160,7 +160,7 @@ private:
     std::uint32_t shuffled_index_ = 0;  ///< index of the point in the order of the current set
     std::uint32_t reversed_index_ = 0;  ///< bit-reversed index of the point in its sequence
     SamplerKind kind_;
-    std::array<float, set_size> set_{};
+    std::array<std::uint32_t, set_size> set_{};  ///< bits of numbers, see `to_float`
 };
 
 }  // namespace bdpt

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "math/elementary.h"
+#include "math/float4.h"
 #include "math/pdf.h"
 #include "math/select.h"
 
@@ -20,14 +21,19 @@ namespace bdpt {
 {
     const float a = 2.0f * u.x - 1.0f;
     const float b = 2.0f * u.y - 1.0f;
-    // The larger one is random, so this must not be a branch.
-    const bool wide = std::abs(a) > std::abs(b);
-    const float radius = select(wide, a, b);
+    // The larger one is random, so this must not be a branch: vectors are selected by masks.
+    const float size_a = std::abs(a);
+    const float size_b = std::abs(b);
+    const Int4 wide =
+        Float4{size_a, size_a, size_a, size_a} > Float4{size_b, size_b, size_b, size_b};
+    const Float4 ordered = wide ? Float4{a, b} : Float4{b, a};
+    const float radius = ordered[0];
     const float divisor = select(radius == 0.0f, 1.0f, radius);
-    const SinCos angle = sin_cos_eighth(0.25f * pi * select(wide, b, a) / divisor);
+    const SinCos angle = sin_cos_eighth(0.25f * pi * ordered[1] / divisor);
     const float across = radius * angle.cos;
     const float along = radius * angle.sin;
-    return {select(wide, across, along), select(wide, along, across)};
+    const Float4 point = wide ? Float4{across, along} : Float4{along, across};
+    return {point[0], point[1]};
 }
 
 /// Maps to cosine-weighted directions, z >= 0 [Malley's method].

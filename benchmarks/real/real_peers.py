@@ -61,7 +61,7 @@ class Bdpt:
         numbers = [",".join(map(str, job[key])) for key in ("from", "look_at")]
         self.scene = (job["model"], f"--env '{job['environment']}' --from={numbers[0]} --look-at={numbers[1]} "
                                     f"--fov {job['fov']}")
-        self.way = f"{arguments.bdpt}: {way}"
+        self.way = way if ": " in way else f"{arguments.bdpt}: {way}"
         self.version = "bdpt"
         self.started = None
 
@@ -233,7 +233,7 @@ def parse_arguments():
     parser.add_argument("models", type=pathlib.Path, metavar="MODELS")
     parser.add_argument("--bdpt", type=pathlib.Path, default=real_scenes.ROOT / "build/release/apps/bdpt")
     parser.add_argument("--way", action="append", metavar="OPTIONS",
-                        help="of `bdpt render`; default: --integrator auto")
+                        help="of `bdpt render`, or PROGRAM: OPTIONS; default: --integrator auto")
     parser.add_argument("--peers", default="cycles,mitsuba")
     parser.add_argument("--mitsuba-sampler", default="independent", help="its plugin, for example multijitter")
     parser.add_argument("--only", default="", help="scenes whose names this regular expression matches")

@@ -20,9 +20,12 @@ constexpr int max_exponent = 1;
 /// are missed in one neighbourhood may be found in the next, so the maximum of nearby ones counts.
 constexpr int mean_radius = 3;  // 7 x 7 cells
 constexpr int max_radius = 1;   // 3 x 3 cells
-/// Error that each cell has beside the pilot's estimate and dots, as a fraction of the mean error:
-/// rare bright paths also occur where the pilot has not found them.
+/// Error beside the pilot's estimate and dots, as a fraction of the mean error: rare bright paths
+/// also occur where the pilot has not found them.
 constexpr double unseen_share = 0.25;
+/// Share of that and of dots in cells where no camera path scatters, relative to others: noise of
+/// light that is seen directly.
+constexpr double share_of_background = 0.05;
 /// Fraction of the cells with the greatest errors, all of which count like the least of them.
 constexpr double share_of_dots = 0.001;
 /// Rates are worth it if they reduce error times cost to this or less.
@@ -59,8 +62,13 @@ Evidence evidence_for(std::size_t candidate, const PilotGrid& grid, const CellEr
     clamp_dots(errors);
     const double unseen = unseen_share * std::max(0.0, mean_of(errors)) + cells.dots[candidate];
     errors = local_mean(errors, size, mean_radius);
-    for (double& error : errors) {
-        error = std::max(0.0, error) + unseen;
+    Plane shares = local_mean(cells.scattering, size, mean_radius);
+    for (double& share : shares) {
+        share = std::max(share, share_of_background);
+    }
+    const double mean_share = mean_of(shares);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        errors[i] = std::max(0.0, errors[i]) + unseen * shares[i] / mean_share;
     }
     return {.errors = std::move(errors),
             .costs = local_mean(costs, size, mean_radius),

@@ -20,7 +20,8 @@ PilotGrid grid()
 CellErrors equal_cells()
 {
     CellErrors cells{.camera = std::vector<PerCandidate<double>>(grid().cells()),
-                     .costs = std::vector<PerCandidate<double>>(grid().cells())};
+                     .costs = std::vector<PerCandidate<double>>(grid().cells()),
+                     .scattering = std::vector<double>(grid().cells(), 1.0)};
     for (std::size_t i = 0; i < grid().cells(); ++i) {
         cells.camera[i].fill(i % 100 == 0 ? 1000.0 : 0.0);
         cells.costs[i].fill(static_cast<double>(1 + i % 7));
@@ -107,6 +108,31 @@ TEST_CASE("rates help little where dots are the noise", "[pilot]")
     multiply_right(cells.camera, 30.0);
     cells.dots[used] = 100.0;
     CHECK(rates_of(cells) == nullptr);
+}
+
+TEST_CASE("dots are the noise of cells where paths scatter", "[pilot]")
+{
+    const auto before_background = [](double part) {
+        CellErrors cells = equal_cells();
+        for (std::size_t i = 0; i < grid().cells(); ++i) {
+            const auto column = static_cast<int>(i % static_cast<std::size_t>(grid().columns()));
+            if (column < (1.0 - part) * grid().columns()) {
+                cells.camera[i][used] = 0.0;
+                cells.costs[i][used] = 50.0;
+                cells.scattering[i] = 0.0;
+            }
+        }
+        cells.dots[used] = 100.0;
+        return cells;
+    };
+    const auto rates = rates_of(before_background(0.3));
+    REQUIRE(rates != nullptr);
+    CHECK(rates->rate(50, 100) == 0.5f);
+    CHECK(rates->rate(390, 100) == 2.0f);
+    // Samples that the object cannot take are those of the background.
+    const auto of_small = rates_of(before_background(0.1));
+    REQUIRE(of_small != nullptr);
+    CHECK(of_small->mean() > 0.99);
 }
 
 TEST_CASE("one rare bright path does not decide rates", "[pilot]")

@@ -352,6 +352,29 @@ TEST_CASE("points of lamps are joined to the lens where that is worth its cost",
     CHECK(with_best(pilot, small()).integrator == IntegratorKind::bdpt);
 }
 
+TEST_CASE("cells tell whether camera paths scatter there; else they cost less", "[pilot]")
+{
+    // A wall fills the right half of the image; there is nothing in the left half.
+    SceneBuilder builder;
+    builder.quad({0.0f, -9.0f, -1.0f}, {9.0f, -9.0f, -1.0f}, {9.0f, 9.0f, -1.0f},
+                 {0.0f, 9.0f, -1.0f}, lambertian(Rgb(0.6f)));
+    builder.quad({0.0f, 2.0f, 1.0f}, {0.0f, 3.0f, 1.0f}, {1.0f, 3.0f, 1.0f}, {1.0f, 2.0f, 1.0f},
+                 emitter(Rgb(8.0f)));
+    const PilotGrid grid(side, side);
+    const CellErrors cells = pilot_of(Scene(std::move(builder.desc)), inside(), small()).cells;
+    REQUIRE(cells.scattering.size() == grid.cells());
+    const std::size_t in_front_of_nothing = grid.cell_at({2.5f, 12.5f});
+    const std::size_t in_front_of_wall = grid.cell_at({21.5f, 12.5f});
+    CHECK(cells.scattering[in_front_of_nothing] == 0.0);
+    CHECK(cells.scattering[in_front_of_wall] == 1.0);
+    RenderStats one_ray;
+    one_ray.paths.camera = 1;
+    one_ray.rays.camera = 1;
+    const double cost = sample_cost(candidates[0], one_ray, 0.0);
+    CHECK(cells.costs[in_front_of_nothing][0] < 0.6 * cost);
+    CHECK(cells.costs[in_front_of_wall][0] > 1.5 * cost);
+}
+
 TEST_CASE("a pilot that is abandoned traces nothing more", "[pilot]")
 {
     const Scene scene = indirect_room();

@@ -21,6 +21,10 @@ namespace {
 constexpr double max_dots = 0.0003;           ///< number over that of the pixels
 constexpr double max_light_of_dots = 0.0025;  ///< light over that of the image
 
+/// Cost of a camera path that leaves the scene at once, over that of the cost model: such rays meet
+/// few boxes of the BVH.
+constexpr double cost_of_background = 0.5;
+
 /// Errors of a part of a pilot's contributions.
 struct PartOfErrors {
     PerCandidate<ErrorsByValue> of_paths{};
@@ -93,6 +97,13 @@ PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
             of_cells.costs[first_cell + i][k] =
                 sample_cost(candidates[k], cell.stats, connection_rays(candidates[k], cell.stats));
         }
+        if (cell.stats.rays.camera > cell.stats.paths.camera) {
+            of_cells.scattering[first_cell + i] = 1.0;
+        } else {
+            for (double& cost : of_cells.costs[first_cell + i]) {
+                cost *= cost_of_background;
+            }
+        }
     }
     return errors;
 }
@@ -119,7 +130,8 @@ PilotErrors compute_errors(const PilotContributions& contributions,
     const PilotGrid& grid = contributions.grid;
     const std::size_t rows = contributions.rows.size();
     CellErrors of_cells{.camera = std::vector<PerCandidate<double>>(grid.cells()),
-                        .costs = std::vector<PerCandidate<double>>(grid.cells())};
+                        .costs = std::vector<PerCandidate<double>>(grid.cells()),
+                        .scattering = std::vector<double>(grid.cells())};
     std::vector<PartOfErrors> parts(rows + contributions.parts.size());
     std::vector<std::vector<CellError>> of_splats(contributions.parts.size());
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {

@@ -13,6 +13,9 @@ struct CellErrors {
     /// Cost of a camera sample in each cell, with its share of light paths [unit of the cost
     /// model].
     std::vector<PerCandidate<double>> costs;
+    /// 1 for cells where a camera path scatters, 0 where all leave the scene at once: these find no
+    /// rare bright paths.
+    std::vector<double> scattering;
     /// relMSE of splats of light paths, mean of all pixels: rates do not change their number.
     PerCandidate<double> splats{};
     /// relMSE of the rare bright paths that the choice of a candidate excludes: the pilot does not

@@ -92,7 +92,7 @@ private:
         ratio_o_ = !cosines.agree() ? 0.0f : shading.z == ng ? flat : cosines.ratio();
     }
 
-    static constexpr float flat = -1.0f;
+    static constexpr float flat = -1.0f;  ///< `ratio_o_` where both ratios are exactly one
     /// Tests whether the normals are equal.
     [[nodiscard]] bool is_flat() const noexcept { return ratio_o_ < 0.0f; }
 

@@ -48,8 +48,9 @@ public:
                                         const JoinDensities& join) const;
 
 private:
-    /// Stores the sums of vertex k of a subpath: `term` is that of the strategy that connects its
-    /// predecessor to it, and of merging at it.
+    /// Stores the sums of vertex k of a subpath. `term` is the sum of the terms of connecting its
+    /// predecessor to it and of merging at it; for k = 0, that of a walk from the other side that
+    /// hits it.
     void store_sums(std::span<PathVertex> path, std::size_t k, double term) const;
 
     [[nodiscard]] double raise(double value) const;

@@ -23,8 +23,8 @@ constexpr int max_radius = 1;   // 3 x 3 cells
 /// Error beside the pilot's estimate and dots, as a fraction of the mean error: rare bright paths
 /// also occur where the pilot has not found them.
 constexpr double unseen_share = 0.25;
-/// Share of that and of dots in cells where no camera path scatters, relative to others: noise of
-/// light that is seen directly.
+/// Cells where no camera path scatters have this share of both, relative to other cells: light that
+/// is seen directly has little noise, which the pilot does not measure.
 constexpr double share_of_background = 0.05;
 /// Fraction of the cells with the greatest errors, all of which count like the least of them.
 constexpr double share_of_dots = 0.001;

@@ -48,7 +48,7 @@ def checks(folder):
             "default threads": (["render", scene, *HOW, "-o", image], image),
             "denoise, merge": (["merge", folder / "p.part.exr", "-o", image], image),
             "compare": (["compare", folder / "b.exr", folder / "b.exr"], None),
-            "verify": (["verify", scene, "--time", "1s", "--threads", "32", "--size", "16x12"], None),
+            "verify": (["verify", scene, "--time", "0.3s", "--threads", "32", "--size", "16x12"], None),
         }
         if volume.exists():
             commands["volume"] = (["render", scene, *HOW, "-o", image, "--volume", volume, "--threads", "64"], image)

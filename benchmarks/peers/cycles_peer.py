@@ -20,7 +20,7 @@ def material_nodes(bpy, item):
     if item.kind == "diffuse":
         socket(surface, "Roughness", 0.0)  # above 0 it would be Oren-Nayar
     else:
-        surface.distribution = "GGX" if item.alpha > 0 else "SHARP"
+        surface.distribution = "GGX"  # smooth where the roughness is 0
         socket(surface, "Roughness", math.sqrt(item.alpha))
     if item.kind == "glass":
         socket(surface, "IOR", item.ior)
@@ -114,7 +114,8 @@ def render(described, job):
         scene.cycles.samples = samples
         watch = Stopwatch()
         bpy.ops.render.render(write_still=write)
-        return watch.seconds(), watch.cpu_seconds()
+        # While the threads of Cycles render, one of Blender can wait for them in a loop, which takes CPU time as well.
+        return watch.seconds(), min(watch.cpu_seconds(), job["threads"] * watch.seconds())
 
     timed(1)  # does the work that only the first render has
     first, samples = timed(1), job.get("samples")

@@ -16,9 +16,9 @@ struct EqualityCase {
     int max_depth = 4;
     /// `pt` and `mis` see delta lights through light sampling alone, so they miss what those cast
     /// through mirrors and glass: such scenes have other lights only.
-    double detectable_bias = 0.04;
+    double detectable_bias = 0.035;
     /// For nee and lt, which some scenes make noisy.
-    double detectable_bias_of_light_sampling = 0.04;
+    double detectable_bias_of_light_sampling = 0.035;
     /// `lt` sees all paths of this many edges and more: 2 where the sky can be seen, for no light
     /// path starts towards the lens there. None where camera rays can meet mirrors or smooth glass.
     std::optional<int> seen_by_lt = 1;

@@ -100,8 +100,8 @@ EqualityCase steep_map(std::string name, MaterialDesc material)
     material.normal_texture = TextureRef{.image = ImageId{0}, .scale = {5, 6}};
     EqualityCase result = ball(std::move(name), material);
     result.scene.images.push_back(steep_bumps());
-    result.detectable_bias = 0.035;
-    result.detectable_bias_of_light_sampling = 0.06;
+    result.detectable_bias = 0.03;
+    result.detectable_bias_of_light_sampling = 0.05;
     return result;
 }
 
@@ -171,7 +171,7 @@ EqualityCase camera_in_a_block()
             .max_depth = 4,
             .detectable_bias = 0.06,
             // Few samples of light find a way through the glass.
-            .detectable_bias_of_light_sampling = 0.35};
+            .detectable_bias_of_light_sampling = 0.25};
 }
 
 }  // namespace

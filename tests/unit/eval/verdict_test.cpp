@@ -310,7 +310,7 @@ TEST_CASE("what is said to be detectable is detected nine times out of ten")
 {
     // As few as anything is said of.
     const int batches = static_cast<int>(trusted_samples / (16 * bdpt_samples));
-    constexpr int runs = 8;
+    constexpr int runs = 12;
     const VerifyReport sound = judge_toy({}, batches);
     for (int s = 0; s < 3; ++s) {
         const StrategyFinding& claimed = finding(sound, {.s = s, .t = 3 - s});
@@ -324,7 +324,7 @@ TEST_CASE("what is said to be detectable is detected nine times out of ten")
             found += judge(evidence, toy_options()).verdict == Verdict::fail ? 1 : 0;
         }
         CAPTURE(s, claimed.whole.detectable);
-        CHECK(found >= 5);  // fewer with a chance of 0.5 %
+        CHECK(found >= 8);  // fewer with a chance of 0.4 %
     }
 }
 

@@ -184,7 +184,7 @@ TEST_CASE("samples from both ends of a normal-mapped surface carry the same ligh
     const auto integral = [&](const test::MappedSurface& surface, TransportMode mode) {
         test::Random random(mode == radiance ? 97 : 101);
         test::Moments sum;
-        for (int i = 0; i < 25000; ++i) {
+        for (int i = 0; i < 50000; ++i) {
             const Vec3 wo = random.direction();
             const float u_lobe = random.next();
             const auto sampled = surface.seen_from(wo).sample(u_lobe, random.next_2d(), mode);
@@ -203,7 +203,7 @@ TEST_CASE("samples from both ends of a normal-mapped surface carry the same ligh
             const test::Moments from_light = integral(surface, importance);
             const double error = std::hypot(from_eye.standard_error(), from_light.standard_error());
             CAPTURE(what.name, lean, from_eye.mean(), from_light.mean(), error);
-            CHECK(error < 0.03);
+            CHECK(error < 0.02);
             CHECK(std::abs(from_eye.mean() - from_light.mean()) < 5.0 * error);
         }
     }

@@ -343,16 +343,16 @@ TEST_CASE("any changed byte of compressed data is an error or a mesh, mostly ano
             CAPTURE(i);
             Glb broken = sound;
             broken.bin[i] = static_cast<char>(broken.bin[i] ^ (1 << (i % 8)));
-            const Error error = load_error(folder.write("broken.glb", broken.bytes()));
-            const bool loads = std::string(error.what()).empty();
-            const bool clean = error.code() != ErrorCode::out_of_memory &&
-                               (error.code() != ErrorCode::internal || loads) &&
-                               !contains(error.what(), "\n");
-            if (!clean) {
-                FAIL_CHECK(error.what());
+            const std::filesystem::path file = folder.write("broken.glb", broken.bytes());
+            try {
+                equal += triangles_of(load_gltf(file)) == expected ? 1U : 0U;
+            } catch (const Error& error) {
+                ++refused;
+                if (error.code() == ErrorCode::out_of_memory ||
+                    error.code() == ErrorCode::internal || contains(error.what(), "\n")) {
+                    FAIL_CHECK(error.what());
+                }
             }
-            refused += loads ? 0U : 1U;
-            equal += loads && triangles_of(broken.load()) == expected ? 1U : 0U;
         }
         CHECK(refused > 0);
         CAPTURE(equal, refused);  // some bytes are padding, or of what moves only

@@ -44,15 +44,12 @@ def convert_settings(settings):
     if settings["integrator"] == "mis":
         return ("--integrator", "mis")
     n = settings["light_paths"]
-    disabled = settings.get("disabled", [])
-    return (*bdpt_options(n, settings.get("connections", n), settings.get("connection_rays", 0)),
-            *(("--disable", ",".join(disabled)) if disabled else ()))
+    return bdpt_options(n, settings.get("connections", n), settings.get("connection_rays", 0))
 
 
-def list_candidates(chosen):
-    """Returns the options of all choices, with the disabled strategies of the chosen one."""
-    disabled = chosen[8:] if len(chosen) > 2 else ("--disable", "s1t1")
-    each = [(*bdpt_options(n, c, rays), *disabled) for n, numbers in CONNECTIONS.items() for c, rays in numbers]
+def list_candidates():
+    """Returns the options of all choices."""
+    each = [bdpt_options(n, c, rays) for n, numbers in CONNECTIONS.items() for c, rays in numbers]
     return [("--integrator", "mis"), *each]
 
 
@@ -89,7 +86,7 @@ def main():
         for scene in arguments.scenes or sorted((ROOT / "scenes").glob("*.gltf")):
             told = render(arguments.bdpt, scene, arguments, image, "--integrator", "auto", "--spp", "1")
             choice = convert_settings(told["settings"])
-            all_choices = list_candidates(choice)
+            all_choices = list_candidates()
             seconds, images = ([[] for _ in all_choices] for _ in range(2))
             for seed in range(1, arguments.seeds + 1):
                 for i, options in enumerate(all_choices):

@@ -177,6 +177,11 @@ struct BidirectionalOptions {
     /// chosen by their estimated contribution, in place of all of them: a connection costs a shadow
     /// ray. `connections` must be whole then, and all pixels share light paths.
     double connection_rays = 0.0;
+    /// Points on lights that are connected to the lens (s = t = 1), per camera path: above 0, up to
+    /// 1. Few are enough: camera paths hit lights that fill a pixel, and a point on any other light
+    /// serves the whole image. Where camera paths cannot hit lights (lt), and with uniform
+    /// weights, each takes one.
+    double visible_light_samples = 1.0 / 64.0;
     /// vcm: merge radius of the first sample, as a fraction of the radius of the scene's bounding
     /// sphere. 0: nothing merges, and vcm is bdpt. Otherwise all pixels of a sample index share its
     /// light paths, and have one time and wavelength.

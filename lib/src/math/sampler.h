@@ -17,7 +17,9 @@ namespace bdpt {
 enum class SampleUse : std::uint32_t {
     film,         ///< position in the pixel; at a light vertex: pixel that receives its splat
     camera_walk,  ///< scattering at a vertex of the camera subpath
-    next_event,   ///< point on a light for a vertex of the camera subpath
+    /// Point on a light for a vertex of the camera subpath. And the choice whether there is one for
+    /// the lens (`Sampler::choice_of_visible_light`).
+    next_event,
     /// Start of the light subpath: point and choice of the light (0), direction (1). And surfaces
     /// that a ray from the lens may pass (`Sampler::first_crossing`).
     light_start,
@@ -61,6 +63,10 @@ public:
 
     /// The vertex of `SampleUse::light_walk` whose number chooses the connections of a camera path.
     static constexpr std::uint32_t choice_of_connections = 0;
+
+    /// The vertex of `SampleUse::next_event` whose number decides whether a point on a light is
+    /// connected to the lens.
+    static constexpr std::uint32_t choice_of_visible_light = 0;
 
     Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_t sample_index);
 

@@ -33,6 +33,12 @@ StrategySet::StrategySet(const RenderOptions& options, const LearnedLight* learn
                              options.bidirectional.disabled.end(), has_more_edges_than_one) &&
                 max_camera_depth_ >= max_depth_ && max_light_depth_ >= max_depth_),
       merges_(light_paths_.merged),
+      // Where camera paths cannot hit lights, nothing else finds those that are directly visible.
+      // Uniform weights would give few samples as much weight as many.
+      visible_light_samples_(allows(1, 0, 2) && is_switched_on(options, {0, 2}) &&
+                                     options.transport.heuristic != Heuristic::uniform
+                                 ? options.bidirectional.visible_light_samples
+                                 : 1.0),
       // Images of single strategies show what each finds by itself.
       next_event_sampling_{.environments = options.bidirectional.strategy_depth > 0
                                                ? EnvironmentSampling::plain
@@ -49,10 +55,11 @@ StrategySet::StrategySet(const RenderOptions& options, const LearnedLight* learn
             }
             // s = 1 samples new light points for each camera vertex; other strategies use light
             // paths.
-            const double samples = s == 1 && t >= 2 ? next_event_sampling_.samples
-                                   : s <= 1         ? 1.0
-                                   : t <= 1         ? light_paths()
-                                                    : connections();
+            const double samples = s == 1 && t >= 2   ? next_event_sampling_.samples
+                                   : s == 1 && t == 1 ? visible_light_samples_
+                                   : s <= 1           ? 1.0
+                                   : t <= 1           ? light_paths()
+                                                      : connections();
             if (samples == 0.0) {
                 continue;
             }

@@ -29,8 +29,9 @@ public:
     }
 
     /// Tests whether every strategy that can sample a path of two edges or more is used. For each
-    /// camera path those with s = 0 take one sample, s = 1 `light_samples` at each vertex, the
-    /// others `light_paths` where t <= 1 and `connections` where t >= 2.
+    /// camera path those with s = 0 take one sample, s = 1 `light_samples` at each vertex and
+    /// `visible_light_samples` at the lens, the others `light_paths` where t <= 1 and `connections`
+    /// where t >= 2.
     [[nodiscard]] bool is_complete() const { return complete_; }
     [[nodiscard]] double light_paths() const { return light_paths_.per_camera_path; }
     [[nodiscard]] double light_samples() const { return next_event_sampling_.samples; }
@@ -61,6 +62,7 @@ private:
     LightPathCounts light_paths_;
     bool complete_;
     bool merges_;
+    double visible_light_samples_;
     int camera_vertices_ = 1;
     int light_vertices_ = 0;
     NextEventSampling next_event_sampling_;

@@ -16,7 +16,4 @@ namespace bdpt {
 [[nodiscard]] double sample_cost(const Candidate& candidate, const RenderStats& pilot,
                                  double connection_rays);
 
-/// Additional cost of connecting a point on a light to the lens [ns].
-inline constexpr double visible_light_cost = 270.0;
-
 }  // namespace bdpt

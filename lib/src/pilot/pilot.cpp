@@ -19,9 +19,6 @@
 namespace bdpt {
 namespace {
 
-/// The strategy that connects a point on a light to the lens.
-constexpr Strategy see_lamp{.s = 1, .t = 1};
-
 std::uint64_t cache_bytes(const RenderOptions& options)
 {
     return LightPathCache::bytes(LightPathCounts(options), LightPathCache::usual_vertices(options));
@@ -45,6 +42,7 @@ RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
     options.bidirectional = {};
     options.bidirectional.connections = PathShares::pilot_connections;
     options.bidirectional.connection_rays = PathShares::pilot_rays;
+    options.bidirectional.visible_light_samples = 1.0;
     options.bidirectional.merge_radius = 0.005;
     options.bidirectional.merge_alpha = 1.0;
     // One light path per connection of camera paths, if memory allows that.
@@ -56,14 +54,10 @@ RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
     return options;
 }
 
-RenderOptions with_candidate(RenderOptions options, const Candidate& candidate, bool sees_lamps)
+RenderOptions with_candidate(RenderOptions options, const Candidate& candidate)
 {
-    if (!sees_lamps) {
-        options.bidirectional.disabled = {see_lamp};
-    }
     if (candidate.light_paths == 0.0) {
         options.integrator = IntegratorKind::mis;
-        options.bidirectional.disabled.clear();
         return options;
     }
     options.integrator = IntegratorKind::bdpt;
@@ -99,11 +93,14 @@ double mean_connection_rays(const Candidate& candidate, const PilotContributions
 
 /// Returns the error, at least the smallest relMSE that is distinguishable from zero: smaller
 /// values are noise of the pilot, and images without error are best where they cost least.
-double estimate_error(const PilotResult& pilot, std::size_t candidate, bool sees_lamps)
+double estimate_error(const PilotResult& pilot, std::size_t candidate)
 {
     constexpr double least = 1e-4;
-    return std::max(least, pilot.errors[candidate] + (sees_lamps ? pilot.visible_lights.by_both
-                                                                 : pilot.visible_lights.by_hits));
+    // Path tracing has to hit lights that are directly visible.
+    const double visible_lights = candidates[candidate].light_paths > 0.0
+                                      ? pilot.visible_lights.by_both
+                                      : pilot.visible_lights.by_hits;
+    return std::max(least, pilot.errors[candidate] + visible_lights);
 }
 
 bool fits(const RenderOptions& options, const PilotResult& pilot)
@@ -171,7 +168,7 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
     const PilotBrightness brightness(contributions);
     PilotErrors errors = predict_errors(contributions, brightness);
     PilotResult result{.errors = errors.of_image,
-                       .visible_lights = visible_light_errors(contributions, brightness),
+                       .visible_lights = visible_light_errors(contributions, brightness, asked),
                        .costs = {},
                        .merging_alone = share_of_merging_alone(contributions, brightness),
                        .cells = std::move(errors.of_cells),
@@ -202,17 +199,11 @@ RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
     std::optional<RenderOptions> best;
     double least = 0.0;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        for (const bool sees_lamps : {false, true}) {
-            if (sees_lamps && candidates[k].light_paths == 0.0) {
-                continue;  // path tracing has no such strategy
-            }
-            const double product = estimate_error(pilot, k, sees_lamps) *
-                                   (pilot.costs[k] + (sees_lamps ? visible_light_cost : 0.0));
-            RenderOptions options = with_candidate(asked, candidates[k], sees_lamps);
-            if ((!best || product < least) && fits(options, pilot)) {
-                best = std::move(options);
-                least = product;
-            }
+        const double product = estimate_error(pilot, k) * pilot.costs[k];
+        RenderOptions options = with_candidate(asked, candidates[k]);
+        if ((!best || product < least) && fits(options, pilot)) {
+            best = std::move(options);
+            least = product;
         }
     }
     return *best;

@@ -13,13 +13,14 @@ constexpr int direct_edges = 2;
 PilotLamp seen_lamp(const PathContribution& path, const PathShares& shares, std::size_t cell)
 {
     const auto value = static_cast<double>(luminance(path.unweighted));
+    const auto odds = static_cast<double>(path.shares[1] / path.shares[0]);
     return {.x = static_cast<int>(std::floor(path.raster.x)),
             .y = static_cast<int>(std::floor(path.raster.y)),
             .cell = cell,
             .value = value,
             // The estimate of s = 0 if it were alone.
-            .radiance = value * static_cast<double>(path.shares[1] / path.shares[0]),
-            .weight = shares.weights().front(),
+            .radiance = value * odds,
+            .odds = odds,
             .mean = shares.splat_mean()};
 }
 

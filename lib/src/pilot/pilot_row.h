@@ -22,7 +22,7 @@ struct PilotLamp {
     std::size_t cell;
     double value;     ///< contribution to the pixel if this strategy were alone [nit]
     double radiance;  ///< radiance of the light there [nit]
-    double weight;    ///< MIS weight of this strategy
+    double odds;      ///< density of this strategy over that of s = 0
     double mean;      ///< contribution to the brightness of its cell [nit]
 };
 

@@ -131,7 +131,7 @@ TEST_CASE("a plan pins all that auto has chosen", "[plan]")
                        {"--parts", "2", "--for", "make", "-d", path(folder, "job")})));
     const json there = json::parse(read_text(folder / "job" / "plan.json"));
     const Words pinned = there["render"];
-    const Words all{"--integrator=bdpt", "--light-paths=", "--connections=", "--disable=s1t1"};
+    const Words all{"--integrator=bdpt", "--light-paths=", "--connections="};
     for (const std::string& word : all) {
         CAPTURE(word);
         CHECK(std::any_of(pinned.begin(), pinned.end(),
@@ -148,7 +148,6 @@ TEST_CASE("a plan pins all that auto has chosen", "[plan]")
     is_pinned("--integrator=" + settings["integrator"].get<std::string>());
     is_pinned("--light-paths=" + settings["light_paths"].dump());
     is_pinned("--connections=" + settings["connections"].dump());
-    is_pinned("--disable=" + settings["disabled"][0].get<std::string>());
 }
 
 TEST_CASE("a plan pins how many connections auto has chosen", "[plan]")

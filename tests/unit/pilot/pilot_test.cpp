@@ -331,25 +331,19 @@ TEST_CASE("connections are not chosen where bodies scatter light", "[pilot][medi
     CHECK(std::isfinite(pilot.errors[index_of(0.0625, 1.0)]));
 }
 
-TEST_CASE("points of lamps are joined to the lens where that is worth its cost", "[pilot]")
+TEST_CASE("path tracing has to hit lamps, to whose points bdpt connects the lens", "[pilot]")
 {
     PilotResult pilot;
     pilot.errors.fill(1.0);
     pilot.costs.fill(10000.0);
-    const std::size_t few = index_of(0.0625, 1.0);
-    pilot.errors[few] = 0.2;
-    const auto disabled = [&] { return with_best(pilot, small()).bidirectional.disabled; };
-    const std::vector<Strategy> see_lamp{{.s = 1, .t = 1}};
-    CHECK(disabled() == see_lamp);
-    pilot.visible_lights = {.by_hits = 0.1, .by_both = 0.01};
-    CHECK(disabled().empty());
-    pilot.visible_lights = {.by_hits = 0.01, .by_both = 0.1};
-    CHECK(disabled() == see_lamp);
-    // Path tracing has to hit them.
+    pilot.errors[index_of(0.0625, 1.0)] = 0.2;
     pilot.errors[0] = 0.15;
-    CHECK(with_best(pilot, small()).integrator == IntegratorKind::mis);
-    pilot.visible_lights = {.by_hits = 1.0, .by_both = 0.01};
-    CHECK(with_best(pilot, small()).integrator == IntegratorKind::bdpt);
+    const auto chosen = [&] { return with_best(pilot, small()).integrator; };
+    CHECK(chosen() == IntegratorKind::mis);
+    pilot.visible_lights = {.by_hits = 0.04, .by_both = 0.01};
+    CHECK(chosen() == IntegratorKind::mis);
+    pilot.visible_lights = {.by_hits = 0.07, .by_both = 0.01};
+    CHECK(chosen() == IntegratorKind::bdpt);
 }
 
 TEST_CASE("cells tell whether camera paths scatter there; else they cost less", "[pilot]")

@@ -99,28 +99,6 @@ TEST_CASE("auto traces light paths where they pay", "[auto]")
     CHECK(choice(Scene(std::move(open.desc)), small()).integrator == IntegratorKind::mis);
 }
 
-TEST_CASE("auto joins points of lamps to the lens where they are smaller than pixels", "[auto]")
-{
-    const auto disabled = [](float half) {
-        SceneBuilder builder;
-        builder.walls(lambertian(Rgb(0.6f)), lambertian(Rgb(0.6f)));
-        builder.ceiling(lambertian(Rgb(0.8f)));
-        // One lamp for the ceiling, and some with as much light as it that are seen.
-        builder.quad({-0.3f, 0.4f, 0.3f}, {0.3f, 0.4f, 0.3f}, {0.3f, 0.4f, -0.3f},
-                     {-0.3f, 0.4f, -0.3f}, emitter(Rgb(8.0f)));
-        for (const float x : {-0.6f, -0.2f, 0.2f, 0.6f}) {
-            builder.quad({x - half, -half, -0.9f}, {x + half, -half, -0.9f},
-                         {x + half, half, -0.9f}, {x - half, half, -0.9f},
-                         emitter(Rgb(0.04f / (half * half))));
-        }
-        const RenderOptions chosen = choice(Scene(std::move(builder.desc)), small());
-        REQUIRE(chosen.integrator == IntegratorKind::bdpt);
-        return chosen.bidirectional.disabled;
-    };
-    CHECK(disabled(0.2f) == std::vector<Strategy>{{.s = 1, .t = 1}});
-    CHECK(disabled(0.005f).empty());
-}
-
 TEST_CASE("auto tells of light that only vcm finds", "[auto]")
 {
     // The sun shines by way of the mirror floor at a ball, which is seen in the floor: two mirrors

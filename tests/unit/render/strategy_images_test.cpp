@@ -181,6 +181,7 @@ TEST_CASE("an unweighted image is what that strategy renders alone", "[strategy 
     const Scene scene = stage();
     RenderOptions o = options();
     o.bidirectional.light_paths = GENERATE(1, 3);
+    o.bidirectional.visible_light_samples = 1.0;  // as where camera paths do not hit lights
     o.sampling.samples = {.begin = 0, .end = 64};
     // With weights beside 1 for splats.
     o.film.filter = {.kind = FilterKind::gaussian, .radius = 0.7f};

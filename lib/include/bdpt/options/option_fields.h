@@ -218,6 +218,9 @@ inline constexpr auto fields<BidirectionalOptions> = all_fields(
                          "chosen by estimated contribution (bdpt, vcm). Needs a whole number of "
                          "--connections; 8 of each is often good",
                  .otherwise = "all vertices; auto chooses it"}},
+    OptionField{"visible_light_samples",
+                &BidirectionalOptions::visible_light_samples,
+                {.range = {.low = 0, .high = 1, .low_is_excluded = true}}},
     OptionField{"merge_radius",
                 &BidirectionalOptions::merge_radius,
                 {.range = {0, 1},

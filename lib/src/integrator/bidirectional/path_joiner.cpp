@@ -30,12 +30,20 @@ void PathJoiner::join_camera_path(SampleContext& sample, Subpath& path)
             join_to_lights(sample, camera);
         }
     }
-    if (strategies_.uses(1, 1) && sample.camera.is_perspective()) {
+    if (sample.camera.is_perspective() && connects_light_to_lens(sample)) {
         if (const auto found = connect_light_to_lens(sample, weigher_)) {
             sink_.splat(sample, {.s = 1, .t = 1}, *found, strategies_.count(1, 1), 1);
             sample.enter(Phase::connect);
         }
     }
+}
+
+bool PathJoiner::connects_light_to_lens(const SampleContext& sample) const
+{
+    const float count = strategies_.count(1, 1);
+    return count == 1.0f ||
+           (count > 0.0f && sample.sampler.ordered_1d(SampleUse::next_event,
+                                                      Sampler::choice_of_visible_light) < count);
 }
 
 void PathJoiner::join_to_lights(SampleContext& sample, std::span<const PathVertex> camera)

@@ -36,6 +36,8 @@ public:
                      const LightPathCache::Choice& choice, const Subpath& camera);
 
 private:
+    /// Decides at random whether a camera path connects a point on a light to the lens.
+    [[nodiscard]] bool connects_light_to_lens(const SampleContext& sample) const;
     void join_to_lights(SampleContext& sample, std::span<const PathVertex> camera);
     /// Tests whether a path of one edge to `x0` is excluded as background.
     [[nodiscard]] bool is_background(const SampleContext& sample, const PathVertex& x0) const;

@@ -43,8 +43,15 @@ double variance_of_hits(std::span<const PilotLamp> pixel, double points_per_pixe
 }  // namespace
 
 VisibleLightErrors visible_light_errors(const PilotContributions& contributions,
-                                        const PilotBrightness& brightness)
+                                        const PilotBrightness& brightness,
+                                        const RenderOptions& options)
 {
+    const double samples = options.bidirectional.visible_light_samples;
+    const auto weight = [&](const PilotLamp& lamp) {
+        const double odds = samples * lamp.odds;
+        const double raised = options.transport.heuristic == Heuristic::power ? odds * odds : odds;
+        return raised / (1.0 + raised);
+    };
     const double points = contributions.camera_paths();
     const double pixels = contributions.grid.pixels();
     const std::vector<PilotLamp> lamps = by_pixel(contributions);
@@ -56,11 +63,12 @@ VisibleLightErrors visible_light_errors(const PilotContributions& contributions,
         const double hits = brightness.scale(first->cell) *
                             variance_of_hits({first, last}, points / pixels) / pixels;
         errors.by_hits += hits;
-        const double left = 1.0 - first->weight;
+        const double left = 1.0 - weight(*first);
         errors.by_both += left * left * hits;
         for (; first != last; ++first) {
-            const double weighted = first->weight * first->value;
-            errors.by_both += brightness.scale(first->cell) * weighted * weighted / points;
+            const double weighted = weight(*first) * first->value;
+            errors.by_both +=
+                brightness.scale(first->cell) * weighted * weighted / (samples * points);
         }
     }
     return errors;

@@ -10,9 +10,11 @@ struct VisibleLightErrors {
     double by_both = 0.0;  ///< points on lights are also connected to the lens (s = t = 1)
 };
 
-/// Computes the errors from points on lights that a pilot has seen. Camera paths miss lights that
-/// fill a small part of a pixel; those that fill it they cannot miss.
+/// Computes the errors of renders with `options` from points on lights that a pilot has seen, one
+/// for each of its samples. Camera paths miss lights that fill a small part of a pixel; those that
+/// fill it they cannot miss.
 [[nodiscard]] VisibleLightErrors visible_light_errors(const PilotContributions& contributions,
-                                                      const PilotBrightness& brightness);
+                                                      const PilotBrightness& brightness,
+                                                      const RenderOptions& options);
 
 }  // namespace bdpt

@@ -32,7 +32,11 @@ TEST_CASE("bdpt with any numbers of light paths and connections agrees with mis"
         shared.bidirectional.light_paths = light_paths;
         shared.bidirectional.connections = connections;
         shared.transport.heuristic = i % 4 == 0 ? Heuristic::power : Heuristic::balance;
-        shared.bidirectional.visible_light_samples = i % 8 < 4 ? 1.0 : 0.2;
+        if (i % 8 < 4) {
+            shared.bidirectional.disabled = {{.s = 1, .t = 1}};
+        } else {
+            shared.bidirectional.visible_light_samples = 0.2;
+        }
         TileMeans bdpt(scene, test.camera, shared);
         const std::string what = "mis = bdpt with " + std::to_string(light_paths) +
                                  " light paths and " + std::to_string(connections) + " connections";

@@ -146,6 +146,9 @@ std::optional<Contribution> hit_light(const SampleContext& sample,
         return std::nullopt;
     }
     sample.enter(Phase::weigh);
+    if (camera.size() == 2 && weigher.is_seen_by_walks_alone(*x0.light)) {
+        return Contribution{.unweighted = value, .weight = 1.0f, .dispersed = x0.dispersed};
+    }
     const PathVertex& x1 = camera[camera.size() - 2];
     const LightDensities densities =
         light_densities(sample, x0, x1.end, weigher.next_event_sampling());

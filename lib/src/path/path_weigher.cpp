@@ -40,6 +40,14 @@ void PathWeigher::begin_light_path(std::span<PathVertex> path)
     }
 }
 
+bool PathWeigher::is_seen_by_walks_alone(LightId light) const
+{
+    const bool by_connection =
+        strategies_.uses(1, 1) && can_be_seen_directly(world_.lights()[light], camera_);
+    const bool by_hit_of_lens = strategies_.uses(2, 0) && camera_.has_finite_lens();
+    return !by_connection && !by_hit_of_lens && !keeps_paths_;
+}
+
 float PathWeigher::weight(std::span<const PathVertex> light, std::span<const PathVertex> camera,
                           const JoinDensities& join)
 {

@@ -27,7 +27,11 @@ public:
     void begin_camera_path(std::span<PathVertex> path);
     void begin_light_path(std::span<PathVertex> path);
 
-    /// Enables `shares()`.
+    /// Tests whether camera walks (s = 0) are the only strategy for paths of one edge from the
+    /// light, so that each has weight 1 and needs no densities. False if `shares()` needs them.
+    [[nodiscard]] bool is_seen_by_walks_alone(LightId light) const;
+
+    /// Gathers the densities of every path, for `shares()`.
     void keep_paths() { keeps_paths_ = true; }
 
     /// Returns the weight of connecting the first s light vertices to the first t camera vertices.

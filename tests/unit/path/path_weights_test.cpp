@@ -71,6 +71,7 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
     int paths = 0;
     for (const auto heuristic : {Heuristic::balance, Heuristic::power}) {
         PathWeigher weigher(world, camera, strategies, heuristic, max_depth + 1);
+        weigher.keep_paths();
         const auto check = [&](const std::optional<Contribution>& found) {
             if (found) {
                 ++paths;
@@ -103,6 +104,49 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
         }
     }
     CHECK(paths > 5000);
+}
+
+TEST_CASE("lights that are seen directly have the weights that their densities give", "[mis]")
+{
+    SceneBuilder builder;
+    builder.lamp(0.9f, 0.5f, Rgb(5.0f));
+    builder.light(
+        EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    const World world(std::move(builder.desc));
+    CameraDesc lens = test::room_camera();
+    lens.lens_radius = GENERATE(0.0f, 0.1f);
+    const Camera camera(lens, 16, 16);
+    RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
+    options.bidirectional.disabled =
+        GENERATE(std::vector<Strategy>{}, std::vector<Strategy>{{.s = 1, .t = 1}},
+                 std::vector<Strategy>{{.s = 2, .t = 0}});
+    const StrategySet strategies(options);
+    constexpr auto heuristic = Heuristic::balance;
+    PathWeigher weigher(world, camera, strategies, heuristic, 2);
+    PathWeigher by_densities(world, camera, strategies, heuristic, 2);
+    by_densities.keep_paths();
+    Subpath path(2);
+    RayCounts rays;
+    int full = 0;
+    int shared = 0;
+    for (int i = 0; i < 256; ++i) {
+        SampleContext sample =
+            test::make_sample(world, camera, {SamplerKind::sobol, 1, i % 16, i / 16, i}, rays);
+        const Vec2 raster(static_cast<float>(i % 16) + 0.5f, static_cast<float>(i / 16) + 0.5f);
+        trace_camera_subpath(sample, raster, {.max_vertices = 2}, path);
+        const auto found = hit_light(sample, path.first(2), weigher);
+        const auto expected = hit_light(sample, path.first(2), by_densities);
+        REQUIRE(found.has_value());
+        REQUIRE(expected.has_value());
+        CHECK(found->weight == expected->weight);
+        CHECK(found->unweighted == expected->unweighted);
+        ++(found->weight == 1.0f ? full : shared);
+    }
+    CHECK(full + shared == 256);
+    const bool by_hits_of_lens = camera.has_finite_lens() && strategies.uses(2, 0);
+    CHECK((full > 0) == !by_hits_of_lens);
+    CHECK((shared > 0) == (by_hits_of_lens || strategies.uses(1, 1)));
 }
 
 TEST_CASE("joining and hitting agree about the densities of the same path", "[mis]")

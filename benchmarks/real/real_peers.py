@@ -9,9 +9,10 @@ skipped with its reason. Renderers take turns; each image is by one thread.
 Prints for each scene and renderer: microseconds of CPU time for a camera path, squared relative error (variance
 between seeds over the square of the renderer's light, see compute_light, without the worst 0.1 % of pixels), the same
 relative to the independent reference of bdpt, CPU time, error x time over that of the first way of bdpt for both
-errors, and the mean radiance over that of bdpt. CPU time is without loading: for bdpt without a render of one pixel,
-for the others that of 63 samples beyond the first. Materials are not equal in all, so means may differ:
-look at --pictures."""
+errors, and the mean radiance over that of bdpt. Where rare bright paths decide, use --reference 2048 or more: errors
+are divided by the reference, whose own noise makes those of dark pixels larger. CPU time is without loading: for bdpt
+without a render of one pixel, for the others that of 63 samples beyond the first. Materials are not equal in all, so
+means may differ: look at --pictures."""
 
 import argparse
 import contextlib

@@ -59,6 +59,9 @@ public:
     }
     /// Called on one thread between the last chunk of a pass and its tiles.
     virtual void end_chunks() {}
+    /// Returns the group of a tile: those of one group use the same data, so that they are best
+    /// rendered one after the other.
+    [[nodiscard]] virtual std::uint32_t group(const Tile& /*tile*/) const { return 0; }
     /// Adds to `films` the samples of all pixels of `tile` that are in the film's region, and the
     /// splats of the light paths of all of its pixels. Tiles of an integrator without splats lie
     /// inside of the region. Returns the amount of work.

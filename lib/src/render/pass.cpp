@@ -7,12 +7,14 @@
 
 #include <bdpt/options/integrators.h>
 
-#include <tbb/blocked_range2d.h>
+#include <tbb/blocked_range.h>
 #include <tbb/combinable.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace bdpt {
 namespace {
@@ -64,23 +66,37 @@ void render_parts(const Work& work, SampleRange samples, RenderResult& result,
     }
 }
 
+/// Returns the tiles of the region, group after group.
+std::vector<Tile> tiles_of(const PixelRect& region, int side, const Integrator& integrator)
+{
+    std::vector<Tile> tiles;
+    for (int y = region.y0; y < region.y1; y += side) {
+        for (int x = region.x0; x < region.x1; x += side) {
+            tiles.push_back({.x_begin = x,
+                             .x_end = std::min(x + side, region.x1),
+                             .y_begin = y,
+                             .y_end = std::min(y + side, region.y1)});
+        }
+    }
+    std::ranges::stable_sort(tiles, {}, [&](const Tile& tile) { return integrator.group(tile); });
+    return tiles;
+}
+
 void render_at_once(const Work& work, const RenderOptions& options, SampleRange samples,
                     RenderResult& result)
 {
-    // Each pixel of the whole image has its light path, and any of them can reach a crop.
-    const PixelRect area =
-        info(options.integrator).traces_light_paths ? whole_image(options) : result.film.region();
-    const int side = options.system.tile_size;
-    const int columns = (area.width() + side - 1) / side;
-    const int rows = (area.height() + side - 1) / side;
     tbb::combinable<RenderStats> stats_of_threads;
     render_parts(work, samples, result, stats_of_threads);
     if (work.abandon.stop_requested()) {
         return;
     }
+    // Each pixel of the whole image has its light path, and any of them can reach a crop.
+    const PixelRect region =
+        info(options.integrator).traces_light_paths ? whole_image(options) : result.film.region();
+    const std::vector<Tile> tiles = tiles_of(region, options.system.tile_size, work.integrator);
     tbb::parallel_for(
-        tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
-        [&](const tbb::blocked_range2d<int>& range) {
+        tbb::blocked_range<std::size_t>(0, tiles.size()),
+        [&](const tbb::blocked_range<std::size_t>& range) {
             if (work.abandon.stop_requested()) {
                 return;
             }
@@ -90,17 +106,9 @@ void render_at_once(const Work& work, const RenderOptions& options, SampleRange 
                               .strategies = result.strategies,
                               .on_path = work.on_path,
                               .times = times ? &*times : nullptr};
-            for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
-                for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
-                    const int x = area.x0 + column * side;
-                    const int y = area.y0 + row * side;
-                    const Tile tile{.x_begin = x,
-                                    .x_end = std::min(x + side, area.x1),
-                                    .y_begin = y,
-                                    .y_end = std::min(y + side, area.y1)};
-                    stats_of_threads.local() +=
-                        render_tile(work, options, tile, samples, films, result);
-                }
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                stats_of_threads.local() +=
+                    render_tile(work, options, tiles[i], samples, films, result);
             }
         },
         tbb::simple_partitioner{});

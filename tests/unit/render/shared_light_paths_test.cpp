@@ -76,22 +76,26 @@ TEST_CASE("numbers of light paths are kept for the whole image", "[light-paths]"
 TEST_CASE("pixels take shared light paths evenly, and neighbours take different ones",
           "[light-paths]")
 {
-    constexpr int side = 64;
+    // The second has several groups of pixels.
+    const auto [columns, rows] = GENERATE(std::tuple(64, 64), std::tuple(256, 256));
     const auto [light_paths, connections] =
         GENERATE(std::tuple(0.25, 1.0), std::tuple(0.25, 0.25), std::tuple(0.5, 2.5),
                  std::tuple(2.0, 1.0), std::tuple(0.0625, 0.5));
-    CAPTURE(light_paths, connections);
+    CAPTURE(columns, rows, light_paths, connections);
     RenderOptions o = options(light_paths, connections);
-    o.film.width = side;
-    o.film.height = side;
+    o.film.width = columns;
+    o.film.height = rows;
     const LightPathCounts counts(o);
     const LightPathCache cache(counts, o);
+    const std::uint32_t groups = cache.groups().groups();
+    CHECK((groups > 1) == (columns == 256));
+    const std::int64_t part = counts.bundles / groups;
     for (const std::int64_t index : {0, 1, 7}) {
         std::vector<int> joins(static_cast<std::size_t>(counts.bundles));
         int total = 0;
         int near = 0;
-        for (int y = 0; y < side; ++y) {
-            for (int x = 0; x < side; ++x) {
+        for (int y = 0; y < rows; ++y) {
+            for (int x = 0; x < columns; ++x) {
                 const auto choice = cache.choose(x, y, {.index = index});
                 REQUIRE(choice.bundle >= 0);
                 REQUIRE(choice.bundle < counts.bundles);
@@ -102,16 +106,16 @@ TEST_CASE("pixels take shared light paths evenly, and neighbours take different 
                 if (x > 0) {
                     const std::int64_t way =
                         std::abs(choice.bundle - cache.choose(x - 1, y, {.index = index}).bundle);
-                    near += 8 * way < counts.bundles ? 1 : 0;
+                    near += 8 * way < part ? 1 : 0;
                 }
             }
         }
-        CHECK(total == Approx(connections * side * side).epsilon(0.01));
+        CHECK(total == Approx(connections * columns * rows).epsilon(0.01));
         const double each = static_cast<double>(total) / static_cast<double>(counts.bundles);
         const auto [least, most] = std::minmax_element(joins.begin(), joins.end());
         CHECK(*least >= std::floor(0.74 * each));
         CHECK(*most <= std::ceil(1.26 * each));
-        CHECK(near < side * side / 6);  // by chance a quarter would be
+        CHECK(near < columns * rows / 6);  // by chance a quarter would be
     }
 }
 
@@ -208,6 +212,43 @@ TEST_CASE("images with shared light paths are the same for any threads, tiles, p
     RenderOptions other = o;
     other.sampling.seed = 6;
     CHECK_FALSE(image_of(scene, other).film == whole.film);
+}
+
+TEST_CASE("an image with groups of pixels is the same for any threads, tiles, parts and crops",
+          "[light-paths][purity]")
+{
+    const Scene scene = room();
+    RenderOptions o = options(0.25, 1.0);
+    o.film.width = 150;
+    o.film.height = 110;
+    o.transport.max_depth = 2;
+    const LightPathCounts counts(o);
+    REQUIRE(LightPathCache(counts, o).groups().groups() == 4);
+    o.system.threads = 1;
+    check_purity(scene, o, image_of(scene, o));
+}
+
+TEST_CASE("tiles are rendered group by group", "[light-paths]")
+{
+    RenderOptions o = options(0.25, 1.0);
+    o.film.width = 150;
+    o.film.height = 110;
+    o.transport.max_depth = 2;
+    o.sampling.samples = {.begin = 0, .end = 1};
+    o.system.threads = 1;
+    const LightPathCache cache(LightPathCounts(o), o);
+    std::vector<std::uint32_t> groups;
+    RenderControl control;
+    control.on_path = [&](const PathContribution& path) {
+        if (path.strategy.t >= 2) {
+            groups.push_back(cache.groups().group(static_cast<int>(path.raster.x),
+                                                  static_cast<int>(path.raster.y)));
+        }
+    };
+    static_cast<void>(render(room(), room_camera(), o, control));
+    REQUIRE(groups.size() > 1000);
+    CHECK(std::ranges::is_sorted(groups));
+    CHECK(groups.back() == 3);
 }
 
 TEST_CASE("chosen connections cost as many shadow rays as asked for", "[light-paths]")

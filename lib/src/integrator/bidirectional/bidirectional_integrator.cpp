@@ -85,6 +85,11 @@ void BidirectionalIntegrator::end_chunks()
     }
 }
 
+std::uint32_t BidirectionalIntegrator::group(const Tile& tile) const
+{
+    return cache_.groups().group(tile.x_begin, tile.y_begin);
+}
+
 RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange samples,
                                                  const Films& films) const
 {

@@ -26,6 +26,7 @@ public:
     [[nodiscard]] RenderStats render_chunk(std::int64_t part, SampleRange samples,
                                            const Films& films) override;
     void end_chunks() override;
+    [[nodiscard]] std::uint32_t group(const Tile& tile) const override;
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
 

@@ -2,7 +2,6 @@
 
 #include "integrator/bidirectional/light_vertex_grid.h"
 #include "math/sampler.h"
-#include "math/sobol.h"
 #include "math/split_mix.h"
 #include "path/strategy_set.h"
 
@@ -13,22 +12,6 @@
 
 namespace bdpt {
 namespace {
-
-/// Spreads the bits of `x` to every second bit of the result.
-constexpr std::uint32_t spread_bits(std::uint32_t x)
-{
-    x = (x | x << 8U) & 0x00ff00ffU;
-    x = (x | x << 4U) & 0x0f0f0f0fU;
-    x = (x | x << 2U) & 0x33333333U;
-    return (x | x << 1U) & 0x55555555U;
-}
-
-/// Returns the index of a pixel along the Z curve; films have at most 65536 pixels per side.
-constexpr std::uint32_t morton(int x, int y)
-{
-    return spread_bits(static_cast<std::uint32_t>(x)) | spread_bits(static_cast<std::uint32_t>(y))
-                                                            << 1U;
-}
 
 void prefetch_bytes(const void* begin, const void* end)
 {
@@ -45,7 +28,10 @@ void prefetch_bytes(const void* begin, const void* end)
 }  // namespace
 
 LightPathCache::LightPathCache(const LightPathCounts& counts, const RenderOptions& options)
-    : counts_(counts), kind_(options.sampling.sampler), seed_(options.sampling.seed)
+    : counts_(counts),
+      groups_(std::int64_t{options.film.width} * options.film.height, counts.bundles),
+      kind_(options.sampling.sampler),
+      seed_(options.sampling.seed)
 {
     if (counts.shared) {
         chunks_.reserve(static_cast<std::size_t>(chunks()));
@@ -159,11 +145,8 @@ void LightPathCache::end_chunk(std::int64_t chunk)
 
 LightPathCache::Choice LightPathCache::choose(int x, int y, const ScheduledSample& sample) const
 {
-    const std::uint32_t pixel = morton(x, y);
-    const std::uint64_t seed = split_mix(seed_ + golden_ratio_64);
-    // The radical inverse of the pixel's index, with an Owen scramble, in 32 bits.
-    const std::uint32_t u =
-        reverse_bits(permute_upwards(pixel, static_cast<std::uint32_t>(seed))) + sample.sub_index;
+    const auto seed = static_cast<std::uint32_t>(split_mix(seed_ + golden_ratio_64));
+    const std::uint32_t u = groups_.place(x, y, seed, sample.sub_index);
     const std::uint64_t place = std::uint64_t{u} * static_cast<std::uint64_t>(counts_.bundles);
     Choice choice{.bundle = static_cast<std::int64_t>(place >> 32U)};
     // The remaining fraction is uniform over the pixels of one bundle; from one sample to the next

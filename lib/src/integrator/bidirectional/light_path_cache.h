@@ -1,6 +1,7 @@
 #pragma once
 
 #include "integrator/bidirectional/light_vertex_block.h"
+#include "integrator/bidirectional/pixel_groups.h"
 #include "integrator/sample_schedule.h"
 #include "integrator/sample_start.h"
 #include "memory/huge_page_pool.h"
@@ -57,10 +58,12 @@ public:
     void end_chunk(std::int64_t chunk);
 
     /// Chooses the light paths to which the camera path of `sample` of pixel (x, y) is connected.
-    /// They are evenly distributed over the image, and far apart for neighbouring pixels. All
-    /// rounds of the pixel use light paths of the same bundle, which are as well distributed over
-    /// the rounds as a pixel's own; samples within a round use different bundles.
+    /// They are evenly distributed over the image, and far apart for neighbouring pixels, but all
+    /// in the part of the light paths that belongs to the pixel's group. All rounds of the pixel
+    /// use light paths of the same bundle, which are as well distributed over the rounds as a
+    /// pixel's own; samples within a round use different bundles.
     [[nodiscard]] Choice choose(int x, int y, const ScheduledSample& sample) const;
+    [[nodiscard]] const PixelGroups& groups() const { return groups_; }
     /// Prefetches the light paths of the choice, or their blocks where connections are chosen: they
     /// are scattered over more memory than a processor's cache holds.
     void prefetch(const Choice& choice) const;
@@ -150,6 +153,7 @@ private:
     }
 
     LightPathCounts counts_;
+    PixelGroups groups_;
     SamplerKind kind_;
     std::uint64_t seed_;
     std::unique_ptr<HugePagePool> pool_ = std::make_unique<HugePagePool>();

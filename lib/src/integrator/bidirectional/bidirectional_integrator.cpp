@@ -45,7 +45,7 @@ BidirectionalIntegrator::BidirectionalIntegrator(const World& world, const Movin
 
 std::int64_t BidirectionalIntegrator::max_samples_in_pass() const
 {
-    return cache_.counts().shared ? 1 : Integrator::max_samples_in_pass();
+    return cache_.counts().kept() ? 1 : Integrator::max_samples_in_pass();
 }
 
 int BidirectionalIntegrator::own_light_paths() const
@@ -75,7 +75,7 @@ BidirectionalIntegrator::Scratch::Scratch(const BidirectionalIntegrator& integra
 std::int64_t BidirectionalIntegrator::begin_pass(SampleRange samples)
 {
     merging_ = Merging(options_, cache_.counts(), world_.bounding_sphere(), samples.begin);
-    return cache_.counts().shared ? cache_.chunks() : 0;
+    return cache_.counts().shared ? cache_.chunks() * (samples.end - samples.begin) : 0;
 }
 
 void BidirectionalIntegrator::end_chunks()
@@ -112,7 +112,7 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
     const std::int64_t index = scheduled.index;
     SampleStart start(options_, filter_, world_, camera_, x, y, index);
     LightPathCache::Choice shared;
-    if (cache_.counts().shared) {
+    if (cache_.counts().kept()) {
         shared = cache_.choose(x, y, scheduled);
         cache_.prefetch(shared);
         start.moment = cache_.moment(shared.bundle);
@@ -160,21 +160,27 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
     sink.end_sample();
 }
 
-RenderStats BidirectionalIntegrator::render_chunk(std::int64_t chunk, SampleRange samples,
+RenderStats BidirectionalIntegrator::render_chunk(std::int64_t part, SampleRange samples,
                                                   const Films& films)
 {
     Scratch scratch(*this, films);
-    const std::int64_t index = samples.begin;
     const LightPathCounts& counts = cache_.counts();
+    const std::int64_t index = samples.begin + part / cache_.chunks();
+    const std::int64_t chunk = part % cache_.chunks();
     const std::int64_t first = chunk * LightPathCache::chunk_bundles;
     const std::int64_t last = std::min(first + LightPathCache::chunk_bundles, counts.bundles);
-    cache_.begin_chunk(chunk);
+    const bool keeps = counts.kept();
+    if (keeps) {
+        cache_.begin_chunk(chunk);
+    }
     for (std::int64_t bundle = first; bundle < last; ++bundle) {
         // Vertices that may merge share one time and one wavelength: those of the first light path.
         Sampler sampler = cache_.sampler(index, counts.merged ? 0 : bundle, 0);
         sampler.start(SampleUse::film);
         const TimeAndWavelength moment = draw_time_and_wavelength(sampler, world_, camera_);
-        cache_.add_bundle(chunk, moment);
+        if (keeps) {
+            cache_.add_bundle(chunk, moment);
+        }
         const TimedCamera camera(camera_, moment.time);
         for (int i = 0; i < counts.bundle; ++i) {
             SampleContext sample{.world = world_,
@@ -187,12 +193,14 @@ RenderStats BidirectionalIntegrator::render_chunk(std::int64_t chunk, SampleRang
             scratch.sink.begin_light_path(index);
             trace_light_path(sample, scratch);
             scratch.sink.end_sample();
-            if (counts.kept()) {
+            if (keeps) {
                 cache_.add_path(chunk, scratch.light_path.all());
             }
         }
     }
-    cache_.end_chunk(chunk);
+    if (keeps) {
+        cache_.end_chunk(chunk);
+    }
     return scratch.stats;
 }
 

@@ -325,6 +325,33 @@ void add_materials(std::vector<EqualityCase>& cases)
 
 }  // namespace
 
+std::vector<EqualityCase> silhouette_cases()
+{
+    // Octahedra with the normals of spheres, turned so that the lens sees much of what faces away.
+    const auto turned = [](Vec3 center, float angle) {
+        return glm::scale(
+            glm::rotate(glm::translate(Mat4(1.0f), center), angle, Vec3(0.0f, 1.0f, 0.0f)),
+            Vec3(0.8f));
+    };
+    const auto spheres = [&](const MaterialDesc& left, const MaterialDesc& right) {
+        SceneBuilder builder = lit_room();
+        const MeshId mesh = builder.sphere_mesh(4);
+        builder.place(mesh, left, turned({-0.5f, -0.1f, 0.4f}, 0.45f));
+        builder.place(mesh, right, turned({0.5f, -0.1f, 0.4f}, -0.45f));
+        return builder;
+    };
+    std::vector<EqualityCase> cases{
+        in_room("lambertian and plastic", spheres(lambertian(white), plastic(red, 0.3f))),
+        in_room("metal and thin glass", spheres(metal(green, 0.5f), thin_glass(0.6f)))};
+    // Light paths can hit a large lens, too, and do not sample directions to it here.
+    EqualityCase through_lens = cases.front();
+    through_lens.name += ", through a lens";
+    through_lens.camera.lens_radius = 0.3f;
+    through_lens.camera.focus_distance = 3.0f;
+    cases.push_back(std::move(through_lens));
+    return cases;
+}
+
 std::vector<EqualityCase> equality_cases()
 {
     std::vector<EqualityCase> cases;

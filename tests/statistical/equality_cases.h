@@ -42,6 +42,10 @@ struct EqualityCase {
 /// Materials whose normal maps lean by up to 70 degrees. Not among `equality_cases` either.
 [[nodiscard]] std::vector<EqualityCase> normal_map_cases();
 
+/// Coarse meshes with smooth normals, which face away from the lens at silhouettes. Not among
+/// `equality_cases` either.
+[[nodiscard]] std::vector<EqualityCase> silhouette_cases();
+
 /// Fog, and bodies that scatter within. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> media_cases();
 

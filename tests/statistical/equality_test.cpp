@@ -143,6 +143,11 @@ TEST_CASE("all integrators agree: steep normal maps", "[equality][layers]")
     check_cases(normal_map_cases(), 310000);
 }
 
+TEST_CASE("all integrators agree: silhouettes of coarse meshes", "[equality]")
+{
+    check_cases(silhouette_cases(), 330000);
+}
+
 TEST_CASE("all integrators agree: many lights", "[equality][tree]")
 {
     check_cases(many_light_cases(), 400000);

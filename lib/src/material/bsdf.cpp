@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <cmath>
 #include <type_traits>
 
 namespace bdpt {
@@ -12,6 +13,44 @@ static_assert(std::is_trivially_copyable_v<Bsdf> && sizeof(Bsdf) <= 160);
 // cosine ratios of both directions [Veach 1997, sec. 5.3]; it is exactly 1 if the normals are
 // equal.
 
+namespace {
+
+/// Raises `w` above the horizon of the normal `n`, to the side of `n` that `side` tells.
+Vec3 raise(Vec3 w, Vec3 n, float side)
+{
+    constexpr float least_cosine = 0.01f;
+    return glm::normalize(w + (std::copysign(least_cosine, side) - dot(w, n)) * n);
+}
+
+}  // namespace
+
+void Bsdf::raise_wo() noexcept
+{
+    const float side = dot(shading_.to_world(local_wo_), ng_);
+    if (side == 0.0f) {
+        return;
+    }
+    local_wo_ = raise(local_wo_, visit([](const auto& model) { return normal_of(model); }), side);
+    if (auto* seen = std::get_if<SeenFrom<MetallicRoughness>>(&model_)) {
+        seen->move_to(local_wo_);
+    }
+    ratio_o_ = raised;
+}
+
+template <typename Model>
+BsdfEval Bsdf::eval_model(const Model& model, Vec3 local_wi, const Cosines& cosines,
+                          TransportMode mode) const noexcept
+{
+    BsdfEval value = model.eval(local_wo_, local_wi, mode);
+    if (mode == TransportMode::importance && ratio_o_ > 0.0f) {
+        value.f_cos *= cosines.ratio() / ratio_o_;
+    }
+    if (ratio_o_ == raised) {
+        value.pdf_rev = {};
+    }
+    return value;
+}
+
 BsdfEval Bsdf::eval(Vec3 wi, TransportMode mode) const noexcept
 {
     if (ratio_o_ == 0.0f) {
@@ -20,14 +59,28 @@ BsdfEval Bsdf::eval(Vec3 wi, TransportMode mode) const noexcept
     const Vec3 local_wi = shading_.to_local(wi);
     return visit([&](const auto& model) -> BsdfEval {
         const Cosines cosines{dot(wi, ng_), height(model, local_wi)};
-        if (!cosines.agree()) {
+        return cosines.agree() ? eval_model(model, local_wi, cosines, mode) : BsdfEval{};
+    });
+}
+
+BsdfEval Bsdf::eval_to_lens(Vec3 to_lens) const noexcept
+{
+    if (ratio_o_ == 0.0f) {
+        return {};
+    }
+    const Vec3 local = shading_.to_local(to_lens);
+    return visit([&](const auto& model) -> BsdfEval {
+        const Cosines cosines{dot(to_lens, ng_), height(model, local)};
+        if (cosines.agree()) {
+            return eval_model(model, local, cosines, TransportMode::importance);
+        }
+        if (cosines.geometric == 0.0f) {
             return {};
         }
-        BsdfEval value = model.eval(local_wo_, local_wi, mode);
-        if (mode == TransportMode::importance && !is_flat()) {
-            const float ratio_i = cosines.ratio();
-            value.f_cos *= ratio_i / ratio_o_;
-        }
+        const Vec3 above = raise(local, normal_of(model), cosines.geometric);
+        BsdfEval value = eval_model(model, above, {cosines.geometric, height(model, above)},
+                                    TransportMode::importance);
+        value.pdf_fwd = {};
         return value;
     });
 }
@@ -45,9 +98,10 @@ std::optional<BsdfSample> Bsdf::sample(float u_lobe, Vec2 u, TransportMode mode)
             const Cosines cosines{dot(sampled->wi, ng_), local_cos};
             if (!cosines.agree()) {
                 sampled.reset();
-            } else if (mode == TransportMode::importance && !is_flat()) {
-                const float ratio_i = cosines.ratio();
-                sampled->weight *= ratio_i / ratio_o_;
+            } else if (mode == TransportMode::importance && ratio_o_ > 0.0f) {
+                sampled->weight *= cosines.ratio() / ratio_o_;
+            } else if (ratio_o_ == raised) {
+                sampled->pdf_rev = {};
             }
         }
         return sampled;

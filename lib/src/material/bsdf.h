@@ -46,6 +46,18 @@ public:
     [[nodiscard]] BsdfEval eval(Vec3 wi, TransportMode mode) const noexcept;
     [[nodiscard]] std::optional<BsdfSample> sample(float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept;
+    /// Makes a surface visible to the lens, from where `wo` comes, where its shading normal faces
+    /// away: as at the silhouettes of smooth meshes of few triangles, where nothing would scatter.
+    /// Scatters as if seen from just above the horizon of that normal (docs/mis.md, 5). Light paths
+    /// do not sample such directions: densities of `wo` are zero.
+    void see_from_lens() noexcept
+    {
+        if (ratio_o_ == 0.0f) {
+            raise_wo();
+        }
+    }
+    /// Evaluates the BSDF of a light path towards the lens, likewise.
+    [[nodiscard]] BsdfEval eval_to_lens(Vec3 to_lens) const noexcept;
     /// Tests whether it has a lobe that is not delta: strategies can connect here.
     [[nodiscard]] bool connectible() const noexcept
     {
@@ -92,15 +104,20 @@ private:
         ratio_o_ = !cosines.agree() ? 0.0f : shading.z == ng ? flat : cosines.ratio();
     }
 
-    static constexpr float flat = -1.0f;  ///< `ratio_o_` where both ratios are exactly one
-    /// Tests whether the normals are equal.
-    [[nodiscard]] bool is_flat() const noexcept { return ratio_o_ < 0.0f; }
+    void raise_wo() noexcept;
+    /// Evaluates the model for a local direction with these cosines, which agree.
+    template <typename Model>
+    [[nodiscard]] BsdfEval eval_model(const Model& model, Vec3 local_wi, const Cosines& cosines,
+                                      TransportMode mode) const noexcept;
+
+    static constexpr float flat = -1.0f;    ///< `ratio_o_` where both ratios are exactly one
+    static constexpr float raised = -2.0f;  ///< `ratio_o_` where `local_wo_` has been raised
 
     Frame shading_;
     Vec3 ng_{0.0f, 0.0f, 1.0f};
     Vec3 local_wo_{0.0f};
-    /// wo.ng / wo.ns, positive; `flat` if the normals are equal; 0 if the signs differ: nothing
-    /// scatters.
+    /// wo.ng / wo.ns, positive; `flat` if the normals are equal; 0 if the signs differ, so that
+    /// nothing scatters; `raised` if the lens sees it nevertheless.
     float ratio_o_ = 0.0f;
     AnyModel model_;
 };

@@ -264,7 +264,7 @@ std::optional<Contribution> connect_to_lens(SampleContext& sample,
     }
     const PathVertex lens = lens_vertex(*to_lens);
     // Light subpaths scatter by the adjoint BSDF (docs/mis.md, 5).
-    const BsdfEval f = y.bsdf->eval(to_lens->wi, TransportMode::importance);
+    const BsdfEval f = y.bsdf->eval_to_lens(to_lens->wi);
     const Rgb value = y.beta * f.f_cos * to_lens->weight;
     auto found = join(sample, light, std::span(&lens, 1), value, weigher, [&] {
         const float distance_squared = to_lens->distance * to_lens->distance;

@@ -85,16 +85,22 @@ bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
 }
 
 /// Returns the interaction at the end of the segment, stored as the next vertex of `path`; null if
-/// there is none.
+/// there is none. `by_lens`: the lens is its origin.
 const SurfacePoint* shade(const SampleContext& sample, const WalkStep& step,
-                          const SegmentSample& event, SegmentKey segment, Subpath& path)
+                          const SegmentSample& event, SegmentKey segment, bool by_lens,
+                          Subpath& path)
 {
     if (event.is_nothing()) {
         return nullptr;
     }
     const PhaseScope scope(sample.clock, Phase::shade);
-    return &path.emplace_surface(
-        [&] { return make_interaction(sample, event, *step.origin, step.direction, segment); });
+    return &path.emplace_surface([&] {
+        SurfacePoint point = make_interaction(sample, event, *step.origin, step.direction, segment);
+        if (by_lens) {
+            point.bsdf.see_from_lens();
+        }
+        return point;
+    });
 }
 
 /// Continues from the first vertex until the path is full, leaves the scene or is absorbed.
@@ -113,7 +119,8 @@ void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path
         const SegmentSample event = sample_segment(
             sample, *step.origin, step.direction, segment,
             {.from_camera = rules.from_camera(), .vertices = path.size(), .beta = step.beta});
-        const SurfacePoint* hit = shade(sample, step, event, segment, path);
+        const bool by_lens = rules.from_camera() && path.size() == 1;
+        const SurfacePoint* hit = shade(sample, step, event, segment, by_lens, path);
         if (watches_lens) {
             look_for_lens(sample, step,
                           hit ? glm::distance(hit->end.p, step.origin->p)

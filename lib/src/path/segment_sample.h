@@ -65,7 +65,8 @@ struct WalkPlace {
                                            Vec3 direction, SegmentKey segment,
                                            const WalkPlace& place);
 
-/// Constructs the interaction at the end of the segment, if there is one: the walk's next vertex.
+/// Constructs the interaction at the end of the segment, which is not nothing: the walk's next
+/// vertex.
 [[nodiscard]] inline SurfacePoint make_interaction(const SampleContext& sample,
                                                    const SegmentSample& event,
                                                    const SegmentEnd& origin, Vec3 direction,

@@ -65,7 +65,7 @@ TEST_CASE("opaque surfaces scatter no light from the other side of their normal"
     CHECK(scattered > 10000);
 }
 
-TEST_CASE("directions between the two normals' horizons scatter nothing")
+TEST_CASE("directions between the two normals' horizons scatter nothing but to the lens")
 {
     const SpecularAlbedo albedo(1.5f);
     test::Random random(61);
@@ -90,6 +90,86 @@ TEST_CASE("directions between the two normals' horizons scatter nothing")
                 CHECK(value.pdf_fwd.value == 0.0f);
                 CHECK(value.pdf_rev.value == 0.0f);
             }
+        }
+    }
+}
+
+TEST_CASE("the lens sees surfaces whose shading normal faces away from it")
+{
+    const Vec3 ng{0.0f, 0.0f, 1.0f};
+    const Vec3 ns = tilted_normal();
+    const Frame facet = Frame::from_normal(normalize(ns + Vec3{0.3f, 0.2f, 0.0f}));
+    const bool mapped = GENERATE(false, true);
+    for (const test::BsdfCase& bsdf_case : test::bsdf_cases()) {
+        const test::TestedBsdf placed(bsdf_case);
+        const auto at = [&](Vec3 wo) {
+            return mapped ? placed.mapped(ng, ns, facet, wo) : placed.at(ng, ns, wo);
+        };
+        CAPTURE(bsdf_case.name, mapped);
+        if (!at(ns).connectible() || (bsdf_case.refracts() && bsdf_case.ior == 1.0f)) {
+            continue;
+        }
+        test::Random random(68);
+        const float alpha = bsdf_case.surface.roughness * bsdf_case.surface.roughness;
+        // Tables of layers are interpolated.
+        const double tolerance = bsdf_case.layers || mapped
+                                     ? 0.005
+                                     : 2e-4 + 1e-5 / std::max(0.001, static_cast<double>(alpha));
+        int seen = 0;
+        for (int i = 0; i < 40000; ++i) {
+            const Vec3 wo = random.direction();
+            if (agrees(wo) || std::abs(wo.z) < 0.01f) {
+                continue;
+            }
+            Bsdf bsdf = at(wo);
+            bsdf.see_from_lens();
+            const auto sampled =
+                bsdf.sample(random.next(), random.next_2d(), TransportMode::radiance);
+            if (!sampled || sampled->delta || std::abs(sampled->wi.z) < 0.01f) {
+                continue;
+            }
+            const Vec3 wi = sampled->wi;
+            CAPTURE(wo.x, wo.y, wo.z, wi.x, wi.y, wi.z);
+            REQUIRE(agrees(wi));
+            const BsdfEval radiance = bsdf.eval(wi, TransportMode::radiance);
+            CHECK(max_component(sampled->weight) * sampled->pdf_fwd.value ==
+                  Approx(max_component(radiance.f_cos)).epsilon(tolerance));
+            CHECK(sampled->pdf_fwd.value == Approx(radiance.pdf_fwd.value).epsilon(tolerance));
+            // Light paths evaluate the adjoint, and do not sample it.
+            const BsdfEval importance = at(wi).eval_to_lens(wo);
+            CHECK(max_component(importance.f_cos) / std::abs(wo.z) ==
+                  Approx(max_component(radiance.f_cos) / std::abs(wi.z)).epsilon(tolerance));
+            CHECK(importance.pdf_rev.value == Approx(radiance.pdf_fwd.value).epsilon(tolerance));
+            CHECK(importance.pdf_fwd.value == 0.0f);
+            CHECK(radiance.pdf_rev.value == 0.0f);
+            CHECK(sampled->pdf_rev.value == 0.0f);
+            ++seen;
+        }
+        CHECK(seen > 20);
+    }
+}
+
+TEST_CASE("the lens sees other surfaces as light paths do")
+{
+    for (const test::BsdfCase& bsdf_case : test::bsdf_cases()) {
+        const test::TestedBsdf placed(bsdf_case);
+        test::Random random(69);
+        for (int i = 0; i < 1000; ++i) {
+            const Vec3 wo = random.direction();
+            const Vec3 wi = random.direction();
+            if (!agrees(wo) || !agrees(wi)) {
+                continue;
+            }
+            const Bsdf bsdf = placed.at({0.0f, 0.0f, 1.0f}, tilted_normal(), wo);
+            const BsdfEval value = bsdf.eval(wi, TransportMode::importance);
+            const BsdfEval to_lens = bsdf.eval_to_lens(wi);
+            CHECK(to_lens.f_cos == value.f_cos);
+            CHECK(to_lens.pdf_fwd.value == value.pdf_fwd.value);
+            CHECK(to_lens.pdf_rev.value == value.pdf_rev.value);
+            Bsdf seen = bsdf;
+            seen.see_from_lens();
+            CHECK(seen.eval(wi, TransportMode::radiance).f_cos ==
+                  bsdf.eval(wi, TransportMode::radiance).f_cos);
         }
     }
 }

@@ -165,8 +165,10 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
             break;
         }
         sample.enter(Phase::shade);
-        const SurfacePoint point =
-            make_interaction(sample, event, ray.origin, ray.direction, segment);
+        SurfacePoint point = make_interaction(sample, event, ray.origin, ray.direction, segment);
+        if (depth == 1) {
+            point.bsdf.see_from_lens();
+        }
         sample.enter(Phase::walk);
         const Vec3 along = point.end.p - ray.origin.p;
         const float distance_squared = dot(along, along);

@@ -23,7 +23,9 @@ public:
     [[nodiscard]] bool has_smooth_lobe() const noexcept { return model_.has_smooth_lobe(); }
     [[nodiscard]] bool transmits() const noexcept { return model_.transmits(); }
     [[nodiscard]] Rgb base_color() const noexcept { return model_.base_color(); }
-    /// Returns the cosine to the normal of the surface without the map.
+    /// Returns the normal of the surface without the map.
+    [[nodiscard]] Vec3 normal() const noexcept { return ns_.value(); }
+    /// Returns the cosine to it.
     [[nodiscard]] float height(Vec3 w) const noexcept { return dot(w, ns_.value()); }
 
 private:

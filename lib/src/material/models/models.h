@@ -75,4 +75,16 @@ template <ScatteringModel Model>
     return model.height(w);
 }
 
+/// Returns the local normal of that cosine.
+template <ScatteringModel Model>
+[[nodiscard]] Vec3 normal_of(const Model&) noexcept
+{
+    return {0.0f, 0.0f, 1.0f};
+}
+template <ScatteringModel Model>
+[[nodiscard]] Vec3 normal_of(const Mapped<Model>& model) noexcept
+{
+    return model.normal();
+}
+
 }  // namespace bdpt

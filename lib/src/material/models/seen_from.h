@@ -24,6 +24,9 @@ public:
     [[nodiscard]] bool transmits() const noexcept { return model_.transmits(); }
     [[nodiscard]] Rgb base_color() const noexcept { return model_.base_color(); }
 
+    /// Changes wo.
+    void move_to(Vec3 wo) noexcept { from_ = model_.side(wo.z); }
+
 private:
     Model model_;
     typename Model::Side from_;

@@ -85,7 +85,7 @@ bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
 }
 
 /// Returns the interaction at the end of the segment, stored as the next vertex of `path`; null if
-/// there is none. `by_lens`: the lens is its origin.
+/// there is none. `by_lens`: the segment begins at the lens.
 const SurfacePoint* shade(const SampleContext& sample, const WalkStep& step,
                           const SegmentSample& event, SegmentKey segment, bool by_lens,
                           Subpath& path)

@@ -75,7 +75,7 @@ template <ScatteringModel Model>
     return model.height(w);
 }
 
-/// Returns the local normal of that cosine.
+/// Returns the unit local normal to which `height` is the cosine.
 template <ScatteringModel Model>
 [[nodiscard]] Vec3 normal_of(const Model&) noexcept
 {

@@ -24,7 +24,7 @@ public:
     [[nodiscard]] bool transmits() const noexcept { return model_.transmits(); }
     [[nodiscard]] Rgb base_color() const noexcept { return model_.base_color(); }
 
-    /// Changes wo.
+    /// Changes wo, and computes these values again.
     void move_to(Vec3 wo) noexcept { from_ = model_.side(wo.z); }
 
 private:

@@ -15,9 +15,10 @@ struct CostModel {
     double shadow;   ///< shadow ray of a connection, with its BSDFs and weights
 };
 constexpr CostModel path_tracing{.sample = 20.0, .segment = 305.0, .shadow = 285.0};
-constexpr CostModel camera_path{.sample = 140.0, .segment = 345.0, .shadow = 310.0};
+constexpr CostModel camera_path{.sample = 60.0, .segment = 345.0, .shadow = 310.0};
 constexpr CostModel light_path{.sample = 20.0, .segment = 400.0, .shadow = 205.0};
-constexpr double connection = 200.0;         // its shadow ray
+constexpr double light_paths_of_sample = 80.0;  // to find those that it is connected to
+constexpr double connection = 200.0;            // its shadow ray
 constexpr double chosen_connection = 245.0;  // likewise, of a vertex that is not yet in the cache
 constexpr double estimate = 3.0;             // to choose connections, for each pair of vertices
 constexpr double shared_light_path = 150.0;  // to store it in memory
@@ -55,12 +56,15 @@ double sample_cost(const Candidate& candidate, const RenderStats& pilot, double 
     }
     const double light = cost(light_path, per(rays.light, pilot.paths.light),
                               per(rays.shadow_to_lens, pilot.paths.light));
+    if (candidate.connections == 0.0) {
+        return cost(camera_path, segments, next_event) + candidate.light_paths * light;
+    }
     const bool own = candidate.light_paths == candidate.connections && candidate.light_paths >= 1.0;
     const double pairs = segments * per(rays.light, pilot.paths.light);
     const double choice = candidate.connection_rays > 0.0 ? estimate * pairs
                           : own                           ? 0.0
                                                           : shared_choice;
-    return cost(camera_path, segments, next_event) +
+    return cost(camera_path, segments, next_event) + light_paths_of_sample +
            candidate.light_paths * (light + (own ? 0.0 : shared_light_path)) +
            candidate.connections * choice +
            (candidate.connection_rays > 0.0 ? chosen_connection : connection) * connection_rays;

@@ -2,6 +2,7 @@
 
 #include "geometry/flush_denormals.h"
 #include "integrator/bidirectional/bidirectional_integrator.h"
+#include "math/elementary.h"
 #include "pilot/cost_model.h"
 #include "pilot/errors/merged_paths.h"
 #include "pilot/errors/pilot_errors.h"
@@ -91,8 +92,9 @@ double mean_connection_rays(const Candidate& candidate, const PilotContributions
     return sum / static_cast<double>(contributions.grid.cells());
 }
 
-/// Returns the error, at least the smallest relMSE that is distinguishable from zero: smaller
-/// values are noise of the pilot, and images without error are best where they cost least.
+/// Returns the relMSE of an image by the candidate, at least the smallest that is distinguishable
+/// from zero. Smaller values are noise of the pilot, and images without error are best where they
+/// cost least.
 double estimate_error(const PilotResult& pilot, std::size_t candidate)
 {
     constexpr double least = 1e-4;
@@ -101,6 +103,19 @@ double estimate_error(const PilotResult& pilot, std::size_t candidate)
                                       ? pilot.visible_lights.by_both
                                       : pilot.visible_lights.by_hits;
     return std::max(least, pilot.errors[candidate] + visible_lights);
+}
+
+/// Returns the factor by which a candidate's error counts more than is predicted.
+double caution(const PilotResult& pilot, std::size_t candidate, double error)
+{
+    // The cube root: most renders show few of these paths, and long ones more.
+    const auto by_dots = static_cast<float>(1.0 + pilot.dots[candidate] / error);
+    const double factor = exp_exact(log_exact(by_dots) / 3.0f);
+    // What connections gain is often more than the pilot predicts.
+    constexpr double without_connections = 1.05;
+    const bool splats_alone =
+        candidates[candidate].light_paths > 0.0 && candidates[candidate].connections == 0.0;
+    return factor * (splats_alone ? without_connections : 1.0);
 }
 
 bool fits(const RenderOptions& options, const PilotResult& pilot)
@@ -169,6 +184,7 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
     PilotErrors errors = predict_errors(contributions, brightness);
     PilotResult result{.errors = errors.of_image,
                        .visible_lights = visible_light_errors(contributions, brightness, asked),
+                       .dots = errors.sure_dots,
                        .costs = {},
                        .merging_alone = share_of_merging_alone(contributions, brightness),
                        .cells = std::move(errors.of_cells),
@@ -199,7 +215,8 @@ RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
     std::optional<RenderOptions> best;
     double least = 0.0;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const double product = estimate_error(pilot, k) * pilot.costs[k];
+        const double error = estimate_error(pilot, k);
+        const double product = error * caution(pilot, k, error) * pilot.costs[k];
         RenderOptions options = with_candidate(asked, candidates[k]);
         if ((!best || product < least) && fits(options, pilot)) {
             best = std::move(options);

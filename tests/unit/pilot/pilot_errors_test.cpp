@@ -199,6 +199,11 @@ TEST_CASE("a path that a usual render hardly finds does not count, but many of t
     CHECK(of_one.of_cells.dots[0] > 10.0 * none[0]);
     CHECK(of_one.of_cells.dots[0] < many[0]);
     CHECK(prediction_with_glints(0).of_cells.dots[0] < 0.1 * none[0]);
+    // One may be chance, several are not.
+    CHECK(of_one.sure_dots[0] < 0.1 * of_one.of_cells.dots[0]);
+    const PilotErrors of_some = prediction_with_glints(20);
+    CHECK(of_some.sure_dots[0] > 0.5 * of_some.of_cells.dots[0]);
+    CHECK(of_some.of_cells.dots[0] > 10.0 * none[0]);
     // A usual render has three of these, in 20,000 pixels, but with too much light to be left out.
     CHECK(errors_with_glints(100)[0] > 10.0 * none[0]);
     // With connections they are like all others.

@@ -235,6 +235,11 @@ TEST_CASE("what costs more rays has a higher price", "[pilot]")
     CHECK(cost(0.0625, 0.25) < cost(0.0625, 1.0));
     CHECK(cost(0.0625, 1.0) < cost(0.25, 1.0));
     CHECK(cost(0.25, 1.0) < cost(1.0, 1.0));
+    // Without connections, light paths need not be kept, nor found again.
+    CHECK(cost(0.0625, 0.0) < cost(0.0625, 0.25));
+    const double quarter = cost(0.0625, 0.5) - cost(0.0625, 0.25);  // of a connection
+    CHECK(cost(0.0625, 0.25) - cost(0.0625, 0.0) - quarter == Approx(80.0 + 0.0625 * 150.0));
+    CHECK(cost(0.5, 0.0) - cost(0.25, 0.0) < cost(0.5, 0.25) - cost(0.25, 0.25));
     // Light paths of one's own need not be kept.
     CHECK(cost(1.0, 1.0) - cost(1.0, 0.25) < cost(0.5, 1.0) - cost(0.5, 0.25));
     // Connections that are chosen cost less than all, but more than as many light paths.
@@ -312,6 +317,38 @@ TEST_CASE("connections are chosen where that has the least product of error and 
     const RenderOptions best = with_best(pilot, small());
     CHECK(best.bidirectional.connections == 8.0);
     CHECK(best.bidirectional.connection_rays == 8.0);
+}
+
+TEST_CASE("light paths without connections are chosen where they are clearly better", "[pilot]")
+{
+    PilotResult pilot;
+    pilot.errors.fill(1.0);
+    pilot.costs.fill(10.0);
+    pilot.errors[index_of(0.0625, 1.0)] = 0.1;
+    pilot.errors[index_of(0.0625, 0.0)] = 0.098;
+    CHECK(with_best(pilot, small()).bidirectional.connections == 1.0);
+    pilot.errors[index_of(0.0625, 0.0)] = 0.09;
+    const RenderOptions best = with_best(pilot, small());
+    CHECK(best.integrator == IntegratorKind::bdpt);
+    CHECK(best.bidirectional.light_paths == 0.0625);
+    CHECK(best.bidirectional.connections == 0.0);
+}
+
+TEST_CASE("rare bright paths that a pilot is sure of count a little", "[pilot]")
+{
+    PilotResult pilot;
+    pilot.errors.fill(1.0);
+    pilot.costs.fill(10.0);
+    pilot.errors[0] = 0.15;
+    pilot.errors[index_of(0.0625, 1.0)] = 0.2;
+    const auto chosen = [&] { return with_best(pilot, small()).integrator; };
+    CHECK(chosen() == IntegratorKind::mis);
+    pilot.dots[0] = 0.15;  // errors of twice that count 1.26 times
+    CHECK(chosen() == IntegratorKind::mis);
+    pilot.dots[0] = 0.3;  // 1.44 times
+    CHECK(chosen() == IntegratorKind::bdpt);
+    pilot.dots[index_of(0.0625, 1.0)] = 0.4;
+    CHECK(chosen() == IntegratorKind::mis);
 }
 
 TEST_CASE("connections are not chosen where bodies scatter light", "[pilot][media]")

@@ -165,7 +165,9 @@ PilotErrors compute_errors(const PilotContributions& contributions,
         const double usual = all.of_paths[k].without_brightest(dots, light);
         errors.of_image[k] = usual + all.of_sums[k];
         errors.noise[k] = std::sqrt(all.squares[k]);
-        errors.of_cells.dots[k] = all.of_paths[k].without_brightest(0.0, 0.0) - usual;
+        const double dots_of_all = all.of_paths[k].without_brightest(0.0, 0.0) - usual;
+        errors.of_cells.dots[k] = dots_of_all;
+        errors.sure_dots[k] = std::max(0.0, dots_of_all - errors.noise[k]);
     }
     return errors;
 }

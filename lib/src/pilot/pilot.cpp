@@ -2,7 +2,6 @@
 
 #include "geometry/flush_denormals.h"
 #include "integrator/bidirectional/bidirectional_integrator.h"
-#include "math/elementary.h"
 #include "pilot/cost_model.h"
 #include "pilot/errors/merged_paths.h"
 #include "pilot/errors/pilot_errors.h"
@@ -11,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -108,14 +108,13 @@ double estimate_error(const PilotResult& pilot, std::size_t candidate)
 /// Returns the factor by which a candidate's error counts more than is predicted.
 double caution(const PilotResult& pilot, std::size_t candidate, double error)
 {
-    // The cube root: most renders show few of these paths, and long ones more.
-    const auto by_dots = static_cast<float>(1.0 + pilot.dots[candidate] / error);
-    const double factor = exp_exact(log_exact(by_dots) / 3.0f);
+    // The square root: usual renders show few of these paths, and long ones more.
+    const double by_dots = std::sqrt(1.0 + pilot.dots[candidate] / error);
     // What connections gain is often more than the pilot predicts.
     constexpr double without_connections = 1.05;
     const bool splats_alone =
         candidates[candidate].light_paths > 0.0 && candidates[candidate].connections == 0.0;
-    return factor * (splats_alone ? without_connections : 1.0);
+    return by_dots * (splats_alone ? without_connections : 1.0);
 }
 
 bool fits(const RenderOptions& options, const PilotResult& pilot)

@@ -21,7 +21,7 @@ struct PilotResult {
     /// relMSE of one sample per pixel, excluding directly visible light.
     PerCandidate<double> errors{};
     VisibleLightErrors visible_lights;  ///< errors of directly visible light
-    PerCandidate<double> dots{};        ///< relMSE of rare bright paths, which `errors` excludes
+    PerCandidate<double> dots{};        ///< `PilotErrors::sure_dots`, which `errors` excludes
     PerCandidate<double> costs{};       ///< cost of a sample [ns on the machine of the cost model]
     /// Fraction of the light that no candidate finds, in [0, 1].
     double merging_alone = 0.0;

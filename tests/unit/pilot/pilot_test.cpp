@@ -343,9 +343,9 @@ TEST_CASE("rare bright paths that a pilot is sure of count a little", "[pilot]")
     pilot.errors[index_of(0.0625, 1.0)] = 0.2;
     const auto chosen = [&] { return with_best(pilot, small()).integrator; };
     CHECK(chosen() == IntegratorKind::mis);
-    pilot.dots[0] = 0.15;  // errors of twice that count 1.26 times
+    pilot.dots[0] = 0.1;  // errors of 1.67 times that count 1.29 times
     CHECK(chosen() == IntegratorKind::mis);
-    pilot.dots[0] = 0.3;  // 1.44 times
+    pilot.dots[0] = 0.15;  // 1.41 times
     CHECK(chosen() == IntegratorKind::bdpt);
     pilot.dots[index_of(0.0625, 1.0)] = 0.4;
     CHECK(chosen() == IntegratorKind::mis);

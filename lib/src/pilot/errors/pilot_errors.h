@@ -27,7 +27,7 @@ struct CellErrors {
 struct PilotErrors {
     PerCandidate<double> of_image{};  ///< relMSE of one sample per pixel
     PerCandidate<double> noise{};     ///< standard error of that, as far as paths show it
-    /// relMSE of excluded rare bright paths, less one standard error: what the pilot is sure of.
+    /// relMSE of excluded rare bright paths as far as the pilot is sure of it.
     PerCandidate<double> sure_dots{};
     CellErrors of_cells;
 };

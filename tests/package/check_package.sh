@@ -223,8 +223,8 @@ use_add_subdirectory() {
   [[ ! -e $trap/caught ]] || fail "a program of the current folder was run"
 }
 
-# Builds a wheel like "pip wheel .", by the system's compiler, with warnings as errors and without LTO. Deletes the
-# sources before the wheel is tested, in an environment of its own.
+# Builds a wheel like "pip wheel .", by the system's compiler, with warnings as errors, without LTO and as a unity build,
+# which takes less time. Deletes the sources before the wheel is tested, in an environment of its own.
 make_wheel() {
   local folder=$WORK/wheel python name
   rm -rf "$folder"
@@ -240,7 +240,7 @@ make_wheel() {
   done
   TMPDIR=$folder/tmp CMAKE_BUILD_PARALLEL_LEVEL=2 CXX=c++ "${pip[@]}" wheel "$folder/source" --no-deps -w "$folder" \
     --config-settings=cmake.build-type=Debug --config-settings=cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O2 \
-    --config-settings=cmake.define.BDPT_WERROR=ON \
+    --config-settings=cmake.define.BDPT_WERROR=ON --config-settings=cmake.define.CMAKE_UNITY_BUILD=ON \
     --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER"
   rm -rf "$folder/source" "$folder/tmp"
   "${pip[@]}" uninstall -q -y scikit-build-core

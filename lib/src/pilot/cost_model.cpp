@@ -8,8 +8,8 @@ namespace bdpt {
 namespace {
 
 /// Cost factors fitted to the CPU time of 48 scenes x 8 candidates, up to one factor per scene
-/// (root mean square residual: 5 %); of that of a sample, the part that light paths in memory need
-/// is the difference in an image of background. Only their ratios matter [ns].
+/// (root mean square residual: 5 %), `light_paths_of_sample` to images of background. Only their
+/// ratios matter [ns].
 struct CostModel {
     double sample;
     double segment;  ///< segment of a walk
@@ -18,7 +18,7 @@ struct CostModel {
 constexpr CostModel path_tracing{.sample = 20.0, .segment = 305.0, .shadow = 285.0};
 constexpr CostModel camera_path{.sample = 60.0, .segment = 345.0, .shadow = 310.0};
 constexpr CostModel light_path{.sample = 20.0, .segment = 400.0, .shadow = 205.0};
-constexpr double light_paths_of_sample = 80.0;  // to find those in memory
+constexpr double light_paths_of_sample = 80.0;  // to find those that it connects to
 constexpr double connection = 200.0;            // its shadow ray
 constexpr double chosen_connection = 245.0;  // likewise, of a vertex that is not yet in the cache
 constexpr double estimate = 3.0;             // to choose connections, for each pair of vertices

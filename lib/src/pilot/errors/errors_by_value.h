@@ -7,7 +7,7 @@ namespace bdpt {
 
 /// Errors of a candidate's paths, by their value relative to the local brightness. The brightest
 /// paths can be so rare that a usual render shows them as dots in a few pixels, while their squared
-/// errors exceed those of all others. The choice of a candidate excludes them, up to a limit.
+/// errors exceed those of all others. The error of a candidate excludes them, up to a limit.
 class ErrorsByValue {
 public:
     /// Adds paths that a usual render finds `number` times, which bring `value` each, and whose

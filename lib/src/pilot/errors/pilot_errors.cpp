@@ -17,7 +17,7 @@
 namespace bdpt {
 namespace {
 
-// The brightest paths of a usual render do not count, up to these limits.
+// The error excludes the brightest paths of a usual render, up to these limits.
 constexpr double max_dots = 0.0003;           ///< number over that of the pixels
 constexpr double max_light_of_dots = 0.0025;  ///< light over that of the image
 

@@ -18,7 +18,7 @@ struct CellErrors {
     std::vector<double> scattering;
     /// relMSE of splats of light paths, mean of all pixels: rates do not change their number.
     PerCandidate<double> splats{};
-    /// relMSE of the rare bright paths that the choice of a candidate excludes: the pilot does not
+    /// relMSE of the rare bright paths that the error of the image excludes: the pilot does not
     /// know where a render finds them.
     PerCandidate<double> dots{};
 };

@@ -18,7 +18,7 @@ struct Candidate {
 /// All candidates. With fewer than 1/16 light paths, sharing them would show in correlated errors
 /// of neighbouring pixels. More than one makes caustics smoother, but takes time from the camera
 /// paths, whose brightest contributions, such as caustics seen in mirrors, are too rare for a pilot
-/// to notice. Without connections, light paths find caustics alone, and are cheap: none is stored.
+/// to notice. Without connections, light paths only splat, and are cheap, as none is stored.
 inline constexpr std::array candidates{
     Candidate{0.0, 0.0},         Candidate{0.0625, 0.0},       Candidate{0.0625, 0.25},
     Candidate{0.0625, 1.0},      Candidate{0.0625, 2.0},       Candidate{0.0625, 8.0, 4.0},

@@ -105,8 +105,8 @@ double estimate_error(const PilotResult& pilot, std::size_t candidate)
     return std::max(least, pilot.errors[candidate] + visible_lights);
 }
 
-/// Returns the factor by which a candidate's error counts more than is predicted.
-double caution(const PilotResult& pilot, std::size_t candidate, double error)
+/// Returns the factor by which the candidate's error is multiplied in the choice.
+double penalty(const PilotResult& pilot, std::size_t candidate, double error)
 {
     // The square root: usual renders show few of these paths, and long ones more.
     const double by_dots = std::sqrt(1.0 + pilot.dots[candidate] / error);
@@ -215,7 +215,7 @@ RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
     double least = 0.0;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const double error = estimate_error(pilot, k);
-        const double product = error * caution(pilot, k, error) * pilot.costs[k];
+        const double product = error * penalty(pilot, k, error) * pilot.costs[k];
         RenderOptions options = with_candidate(asked, candidates[k]);
         if ((!best || product < least) && fits(options, pilot)) {
             best = std::move(options);

@@ -98,6 +98,15 @@ double variance_of_samples(const Scene& scene, IntegratorKind integrator)
     return squares;
 }
 
+/// Returns predictions that are the same for all candidates.
+PilotResult equal_candidates()
+{
+    PilotResult pilot;
+    pilot.errors.fill(1.0);
+    pilot.costs.fill(10.0);
+    return pilot;
+}
+
 /// Mean over the pixels of variance over squared mean, times the number of samples.
 double measured_error(const Scene& scene, const Candidate& candidate)
 {
@@ -282,9 +291,7 @@ TEST_CASE("no more connections are chosen than there are", "[pilot]")
 
 TEST_CASE("of the best at equal cost, the one that fits into memory is taken", "[pilot]")
 {
-    PilotResult pilot;
-    pilot.errors.fill(1.0);
-    pilot.costs.fill(10.0);
+    PilotResult pilot = equal_candidates();
     const std::size_t few = index_of(0.0625, 1.0);
     const std::size_t own = index_of(1.0, 1.0);
     pilot.errors[few] = 0.1;
@@ -305,9 +312,7 @@ TEST_CASE("of the best at equal cost, the one that fits into memory is taken", "
 
 TEST_CASE("connections are chosen where that has the least product of error and cost", "[pilot]")
 {
-    PilotResult pilot;
-    pilot.errors.fill(1.0);
-    pilot.costs.fill(10.0);
+    PilotResult pilot = equal_candidates();
     const std::size_t all = index_of(0.0625, 1.0);
     const std::size_t chosen = index_of(0.0625, 8.0, 8.0);
     pilot.errors[all] = 0.1;
@@ -321,24 +326,21 @@ TEST_CASE("connections are chosen where that has the least product of error and 
 
 TEST_CASE("light paths without connections are chosen where they are clearly better", "[pilot]")
 {
-    PilotResult pilot;
-    pilot.errors.fill(1.0);
-    pilot.costs.fill(10.0);
+    const double light_paths = GENERATE(0.0625, 0.5);
+    PilotResult pilot = equal_candidates();
     pilot.errors[index_of(0.0625, 1.0)] = 0.1;
-    pilot.errors[index_of(0.0625, 0.0)] = 0.098;
+    pilot.errors[index_of(light_paths, 0.0)] = 0.098;
     CHECK(with_best(pilot, small()).bidirectional.connections == 1.0);
-    pilot.errors[index_of(0.0625, 0.0)] = 0.09;
+    pilot.errors[index_of(light_paths, 0.0)] = 0.09;
     const RenderOptions best = with_best(pilot, small());
     CHECK(best.integrator == IntegratorKind::bdpt);
-    CHECK(best.bidirectional.light_paths == 0.0625);
+    CHECK(best.bidirectional.light_paths == light_paths);
     CHECK(best.bidirectional.connections == 0.0);
 }
 
 TEST_CASE("rare bright paths that a pilot is sure of count a little", "[pilot]")
 {
-    PilotResult pilot;
-    pilot.errors.fill(1.0);
-    pilot.costs.fill(10.0);
+    PilotResult pilot = equal_candidates();
     pilot.errors[0] = 0.15;
     pilot.errors[index_of(0.0625, 1.0)] = 0.2;
     const auto chosen = [&] { return with_best(pilot, small()).integrator; };

@@ -21,9 +21,9 @@ namespace {
 constexpr double max_dots = 0.0003;           ///< number over that of the pixels
 constexpr double max_light_of_dots = 0.0025;  ///< light over that of the image
 
-/// Standard errors of a candidate's error that are left out of that of its brightest paths. More
-/// than one, so that a single path of the pilot is no evidence.
-constexpr double doubt = 1.25;
+/// The error of a candidate's brightest paths counts as far as it exceeds this many standard
+/// errors: more than one, so that a single path of the pilot is no evidence.
+constexpr double margin_of_dots = 1.25;
 
 /// Cost of a camera path that leaves the scene at once, over that of the cost model: such rays meet
 /// few boxes of the BVH.
@@ -171,7 +171,7 @@ PilotErrors compute_errors(const PilotContributions& contributions,
         errors.noise[k] = std::sqrt(all.squares[k]);
         const double dots_of_all = all.of_paths[k].without_brightest(0.0, 0.0) - usual;
         errors.of_cells.dots[k] = dots_of_all;
-        errors.sure_dots[k] = std::max(0.0, dots_of_all - doubt * errors.noise[k]);
+        errors.sure_dots[k] = std::max(0.0, dots_of_all - margin_of_dots * errors.noise[k]);
     }
     return errors;
 }

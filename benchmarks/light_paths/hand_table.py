@@ -4,7 +4,7 @@
 Renders each scene with mis and with all numbers of light paths and connections that auto chooses from. Prints the
 choice of auto, the product of its least time and relMSE over the least product of all, and the same with relMSE without
 the ten pixels of largest error. The noise column is one standard error of the first ratio, as a factor, by the
-jackknife over seeds; the least of nineteen noisy products is biased low. Times are those of rendering, without the
+jackknife over seeds; the least of 23 noisy products is biased low. Times are those of rendering, without the
 pilot. Errors are those of auto_table.py. Needs numpy."""
 
 import argparse
@@ -20,12 +20,9 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import numpy as np
 import seed_errors
+from candidates import read_candidates
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# For each number of light paths: connections, and connection rays.
-CONNECTIONS = {0.0625: ((0.25, 0), (1, 0), (2, 0), (8, 4), (8, 8), (8, 12), (16, 12)),
-               0.25: ((0.25, 0), (1, 0), (2, 0), (8, 4), (8, 8)),
-               0.5: ((0.25, 0), (1, 0), (8, 8)), 1: ((0.25, 0), (1, 0), (8, 8))}
 
 
 def render(bdpt, scene, arguments, image, *options):
@@ -49,8 +46,7 @@ def convert_settings(settings):
 
 def list_candidates():
     """Returns the options of all choices."""
-    each = [bdpt_options(n, c, rays) for n, numbers in CONNECTIONS.items() for c, rays in numbers]
-    return [("--integrator", "mis"), *each]
+    return [("--integrator", "mis"), *(bdpt_options(*numbers) for numbers in read_candidates()[1:])]
 
 
 def format_options(options):

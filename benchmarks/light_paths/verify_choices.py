@@ -11,9 +11,11 @@ import pathlib
 import subprocess
 import sys
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from candidates import read_candidates
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-CHOICES = [(n, c, rays) for n in (1 / 16, 1 / 4, 0.5, 1) for c, rays in ((0.25, 0), (1, 0), (8, 8))] + [
-    (1 / 16, 2, 0), (1 / 4, 2, 0), (1 / 16, 8, 4), (1 / 16, 8, 16), (1 / 4, 8, 4)]
 VERDICTS = {0: "passed", 10: "failed", 11: "inconclusive"}
 
 
@@ -27,7 +29,7 @@ def main():
     failed = False
     for scene in arguments.scenes or sorted((ROOT / "scenes").glob("*.gltf")):
         counts = collections.Counter()
-        for n, c, rays in CHOICES:
+        for n, c, rays in read_candidates()[1:]:
             done = subprocess.run(
                 [arguments.bdpt, "verify", scene, "--light-paths", str(n), "--connections", str(c), "--connection-rays",
                  str(rays), "--time", arguments.time, "--bias", arguments.bias], capture_output=True, text=True, check=False)

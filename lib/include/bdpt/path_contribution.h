@@ -36,6 +36,8 @@ struct PathContribution {
     /// Expected number of times that this connection is chosen; 1 for all paths but connections
     /// with `BidirectionalOptions::connection_rays`.
     float chance = 1.0f;
+    /// True if the path scatters within a body, such as wax or skin; provided where `shares` are.
+    bool scatters_in_body = false;
     /// Balance-heuristic weight of every strategy for this path, by s, computed from the
     /// definition: N_s p_s over the sum of all; 0 for strategies that cannot sample the path. Where
     /// paths merge, the sum includes merging, so the shares add up to less than one. They are

@@ -84,6 +84,7 @@ void ContributionSink::report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb 
              .unweighted = unweighted,
              .weight = found.weight,
              .chance = found.chance,
+             .scatters_in_body = weigher_ != nullptr && weigher_->scatters_in_body(),
              .shares = weigher_ != nullptr ? weigher_->shares() : std::span<const float>{}});
     }
 }

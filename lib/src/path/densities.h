@@ -28,6 +28,14 @@ struct LightDensities {
 /// light.
 [[nodiscard]] bool can_be_seen_directly(const Light& light, const Camera& camera);
 
+/// Returns `Media::mean_scatterings` at a scattering event; 1 on surfaces and in fog.
+[[nodiscard]] inline float mean_scatterings(const World& world, const PathVertex& vertex)
+{
+    return vertex.kind == VertexKind::medium
+               ? world.media().mean_scatterings(vertex.end.media.ahead)
+               : 1.0f;
+}
+
 /// Returns how many samples MIS weights count for a connection between two vertices, in (0, 1].
 ///
 /// A camera path and a light path that scatter n times in the same body have n^2 connections there,
@@ -38,12 +46,7 @@ struct LightDensities {
 [[nodiscard]] inline float connection_count(const World& world, const PathVertex& a,
                                             const PathVertex& b)
 {
-    const auto scatterings = [&world](const PathVertex& vertex) {
-        return vertex.kind == VertexKind::medium
-                   ? world.media().mean_scatterings(vertex.end.media.ahead)
-                   : 1.0f;
-    };
-    return 1.0f / (scatterings(a) * scatterings(b));
+    return 1.0f / (mean_scatterings(world, a) * mean_scatterings(world, b));
 }
 
 }  // namespace bdpt

@@ -155,6 +155,7 @@ void PathWeigher::gather_sample_counts(std::span<const PathVertex> light,
     const PathVertex& x0 = s > 0 ? light[0] : camera[size_ - 1];
     const Light& source = world_.lights()[*x0.light];
     sample_counts_[0] = source.is_delta() ? 0.0f : strategies_.count(0, n);
+    scatters_in_body_ = false;
     bool left = is_joinable(0);
     for (std::size_t i = 1; i < size_; ++i) {
         const bool right = is_joinable(i);
@@ -165,6 +166,7 @@ void PathWeigher::gather_sample_counts(std::span<const PathVertex> light,
         }
         const bool merges = right && i + 1 < size_ && vertex(i).kind == VertexKind::surface &&
                             strategies_.merges(from_light + 1, n - from_light);
+        scatters_in_body_ = scatters_in_body_ || mean_scatterings(world_, vertex(i)) > 1.0f;
         merge_weights_[i] = merges ? static_cast<float>(merge_weight_) * vertex(i).opacity : 0.0f;
         left = right;
     }

@@ -55,6 +55,9 @@ public:
     /// vertices, computed from the definition [Veach 1997, eq. 9.8]; the difference of their sum
     /// from one is the share of merging. Valid until the next path.
     [[nodiscard]] std::span<const float> shares();
+    /// Tests whether a vertex of the last path whose densities were gathered is a scattering event
+    /// in a body.
+    [[nodiscard]] bool scatters_in_body() const { return scatters_in_body_; }
 
     [[nodiscard]] NextEventSampling next_event_sampling() const
     {
@@ -83,6 +86,7 @@ private:
     std::optional<WeightSums> sums_;
     bool uses_sums_ = false;
     bool keeps_paths_ = false;
+    bool scatters_in_body_ = false;
     /// Densities of strategies, from which `shares_` is computed.
     std::vector<long double> densities_;
     std::vector<float> shares_;

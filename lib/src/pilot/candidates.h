@@ -16,9 +16,10 @@ struct Candidate {
 };
 
 /// All candidates. With fewer than 1/16 light paths, sharing them would show in correlated errors
-/// of neighbouring pixels. More than one makes caustics smoother, but takes time from the camera
-/// paths, whose brightest contributions, such as caustics seen in mirrors, are too rare for a pilot
-/// to notice. Without connections, light paths only splat, and are cheap, as none is stored.
+/// of neighbouring pixels. Without connections, light paths only splat, and are cheap, as none is
+/// stored. Only then more than one is worth its time, where light comes out of wax; caustics would
+/// be smoother, too, but that takes time from the camera paths, whose brightest contributions, such
+/// as caustics seen in mirrors, are too rare for a pilot to notice.
 inline constexpr std::array candidates{
     Candidate{0.0, 0.0},         Candidate{0.0625, 0.0},       Candidate{0.0625, 0.25},
     Candidate{0.0625, 1.0},      Candidate{0.0625, 2.0},       Candidate{0.0625, 8.0, 4.0},
@@ -26,7 +27,8 @@ inline constexpr std::array candidates{
     Candidate{0.25, 0.25},       Candidate{0.25, 1.0},         Candidate{0.25, 2.0},
     Candidate{0.25, 8.0, 4.0},   Candidate{0.25, 8.0, 8.0},    Candidate{0.5, 0.0},
     Candidate{0.5, 0.25},        Candidate{0.5, 1.0},          Candidate{0.5, 8.0, 8.0},
-    Candidate{1.0, 0.25},        Candidate{1.0, 1.0},          Candidate{1.0, 8.0, 8.0}};
+    Candidate{1.0, 0.25},        Candidate{1.0, 1.0},          Candidate{1.0, 8.0, 8.0},
+    Candidate{2.0, 0.0},         Candidate{4.0, 0.0}};
 
 template <typename T>
 using PerCandidate = std::array<T, candidates.size()>;

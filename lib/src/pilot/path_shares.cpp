@@ -41,9 +41,15 @@ PathShares::Group PathShares::find_group(int s, int t)
     return s <= 1 ? own : t <= 1 ? splats : connections;
 }
 
+PathShares::Kind PathShares::find_kind(const PathContribution& path)
+{
+    const std::size_t edges = path.shares.size() - 2;
+    return path.scatters_in_body ? in_body : edges < 2 ? seen : edges == 2 ? direct : indirect;
+}
+
 PathShares::PathShares(const PathContribution& path, Heuristic heuristic, double light_paths)
     : used_(find_group(path.strategy.s, path.strategy.t)),
-      edges_(static_cast<int>(path.shares.size()) - 2),
+      kind_(find_kind(path)),
       squares_(heuristic == Heuristic::power)
 {
     const PerGroup samples{1.0, light_paths, pilot_connections};

@@ -20,6 +20,9 @@ public:
     static constexpr int pilot_connections = 2;
     /// Its connection rays: so many that nearly all connections are made.
     static constexpr double pilot_rays = 4096.0;
+    /// Paths by how much Sobol points improve them; those of `seen` lights do not scatter.
+    enum Kind : std::size_t { direct, indirect, in_body, seen };
+    static constexpr std::size_t scattering_kinds = seen;
 
     /// The pilot weighted the path by the balance heuristic, and had `light_paths` per pixel of the
     /// image. `heuristic` is that of the candidates, balance or power.
@@ -30,7 +33,7 @@ public:
     /// only splats count.
     [[nodiscard]] double camera_mean() const { return camera_mean_; }
     [[nodiscard]] double splat_mean() const { return splat_mean_; }
-    [[nodiscard]] int edges() const { return edges_; }
+    [[nodiscard]] Kind kind() const { return kind_; }
     /// Returns the path's contribution to the mean of its pixel [nit].
     [[nodiscard]] double mean() const { return static_cast<double>(mean_); }
     /// Returns how often one light path per camera path, and one connection, finds such paths,
@@ -66,6 +69,7 @@ private:
     using PerGroup = std::array<double, groups>;
 
     [[nodiscard]] static Group find_group(int s, int t);
+    [[nodiscard]] static Kind find_kind(const PathContribution& path);
     /// Applies the heuristic's function to a share.
     [[nodiscard]] double raise(double share) const { return squares_ ? share * share : share; }
     /// Returns the sums of raise(N a) over all strategies.
@@ -79,7 +83,7 @@ private:
     /// paths; with more light paths it is smaller in proportion.
     double choice_share_;
     Group used_;
-    int edges_;
+    Kind kind_;
     bool squares_;
     PerGroup shares_{};   ///< sums of a
     PerGroup raised_{};   ///< sums of raise(a)

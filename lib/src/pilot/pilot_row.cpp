@@ -8,8 +8,6 @@
 namespace bdpt {
 namespace {
 
-constexpr int direct_edges = 2;
-
 PilotLamp seen_lamp(const PathContribution& path, const PathShares& shares, std::size_t cell)
 {
     const auto value = static_cast<double>(luminance(path.unweighted));
@@ -32,8 +30,7 @@ void PilotRow::render(const Integrator& integrator, const PilotGrid& grid, Heuri
     cells_.resize(static_cast<std::size_t>(grid.columns()));
     PilotCell* cell = nullptr;
     std::size_t cell_index = 0;
-    CandidateMoments direct;
-    CandidateMoments indirect;
+    std::array<CandidateMoments, PathShares::scattering_kinds> moments;
     const std::function<void(const PathContribution&)> observer =
         [&](const PathContribution& path) {
             const PathShares shares(path, heuristic, light_paths);
@@ -46,9 +43,9 @@ void PilotRow::render(const Integrator& integrator, const PilotGrid& grid, Heuri
             cell->mean += shares.camera_mean() / samples_of_cell;
             if (path.merged) {
                 merged_.push_back({.cell = cell_index, .shares = shares});
-            } else if (shares.edges() >= direct_edges) {
+            } else if (shares.kind() != PathShares::seen) {
                 joined_.push_back({.cell = cell_index, .shares = shares});
-                (shares.edges() == direct_edges ? direct : indirect).add(path, shares);
+                moments[shares.kind()].add(path, shares);
             }
         };
     StrategyFilm no_strategies(PixelRect{}, {});
@@ -56,14 +53,14 @@ void PilotRow::render(const Integrator& integrator, const PilotGrid& grid, Heuri
     for (int column = 0; column < grid.columns(); ++column) {
         cell = &cells_[static_cast<std::size_t>(column)];
         cell_index = grid.index(column, row);
-        direct = {};
-        indirect = {};
+        moments = {};
         const RenderStats stats = integrator.render_tile(grid.pixel(column, row),
                                                          {.begin = index, .end = index + 1}, films);
         stats_ += stats;
         cell->stats += stats;
-        cell->direct.add(direct);
-        cell->indirect.add(indirect);
+        for (std::size_t kind = 0; kind < PathShares::scattering_kinds; ++kind) {
+            cell->sums[kind].add(moments[kind]);
+        }
     }
 }
 

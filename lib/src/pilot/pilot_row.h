@@ -3,16 +3,16 @@
 #include "pilot/candidate_moments.h"
 #include "pilot/pilot_splats.h"
 
+#include <array>
 #include <vector>
 
 namespace bdpt {
 
 /// Contributions of the camera paths in the pixel of a cell.
 struct PilotCell {
-    double mean = 0.0;         ///< mean of the paths that they find well [nit]
-    VarianceOfSamples direct;  ///< of paths of two edges
-    VarianceOfSamples indirect;
-    RenderStats stats;  ///< work of its samples
+    double mean = 0.0;  ///< mean of the paths that they find well [nit]
+    std::array<VarianceOfSamples, PathShares::scattering_kinds> sums;  ///< of paths of each kind
+    RenderStats stats;                                                 ///< work of its samples
 };
 
 /// A point on a light seen through the lens (s = t = 1).

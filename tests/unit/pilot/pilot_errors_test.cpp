@@ -27,7 +27,8 @@ PathContribution path_of(Strategy strategy, const std::vector<float>& shares)
 /// other sample find nothing.
 class TwoLights final : public Integrator {
 public:
-    explicit TwoLights(int edges) : edges_(edges), shares_(static_cast<std::size_t>(edges) + 2)
+    explicit TwoLights(int edges, bool in_body = false)
+        : edges_(edges), in_body_(in_body), shares_(static_cast<std::size_t>(edges) + 2)
     {
         shares_[1] = 1.0f;
     }
@@ -35,13 +36,16 @@ public:
                             const Films& films) const override
     {
         for (int i = 0; i < 2 && samples.begin == 0; ++i) {
-            films.on_path(path_of({.s = 1, .t = edges_}, shares_));
+            PathContribution path = path_of({.s = 1, .t = edges_}, shares_);
+            path.scatters_in_body = in_body_;
+            films.on_path(path);
         }
         return {};
     }
 
 private:
     int edges_;
+    bool in_body_;
     std::vector<float> shares_;
 };
 
@@ -110,10 +114,13 @@ std::size_t one_light_path()
     return static_cast<std::size_t>(found - candidates.begin());
 }
 
-/// Returns what is added to the error for the noise of choosing connections.
-double of_choice(const PilotErrors& errors, std::size_t candidate)
+/// Returns what is added to the error for the noise of choosing connections, or of more than one
+/// light path.
+double of_prediction(const PilotErrors& errors, std::size_t candidate)
 {
-    return candidates[candidate].connection_rays > 0.0 ? 2.0 * errors.noise[candidate] : 0.0;
+    return candidates[candidate].connection_rays > 0.0 ? 2.0 * errors.noise_with_dots[candidate]
+           : candidates[candidate].light_paths > 1.0   ? errors.noise[candidate]
+                                                       : 0.0;
 }
 
 PerCandidate<double> errors_with_glints(int count)
@@ -123,13 +130,16 @@ PerCandidate<double> errors_with_glints(int count)
 
 }  // namespace
 
-TEST_CASE("of the variance of sums a part is left, of direct light another than of the rest",
-          "[pilot]")
+TEST_CASE(
+    "of the variance of sums a part is left, of direct light another than of the rest, and "
+    "all of light in bodies",
+    "[pilot]")
 {
     const bool direct = GENERATE(true, false);
-    CAPTURE(direct);
+    const bool in_body = GENERATE(true, false);
+    CAPTURE(direct, in_body);
     const PilotContributions contributions =
-        contributions_of(TwoLights(direct ? 2 : 3), PilotGrid(1, 1));
+        contributions_of(TwoLights(direct ? 2 : 3, in_body), PilotGrid(1, 1));
     const PilotBrightness brightness(contributions);
     const double scale = brightness.scale(0);
     REQUIRE(contributions.rows[0].joined().size() == 2);
@@ -137,14 +147,16 @@ TEST_CASE("of the variance of sums a part is left, of direct light another than 
         remaining_errors(contributions.rows[0].joined()[0].shares, scale);
     // Sums of 2 L and of 0: the products of different paths of a sample are 2 L^2 and 0.
     const double variance_of_sums = static_cast<double>(radiance * radiance);
-    const double left = direct ? left_of_direct_sums : left_of_indirect_sums;
+    const double left = left_of_sums[in_body  ? PathShares::in_body
+                                     : direct ? PathShares::direct
+                                              : PathShares::indirect];
     const double of_sums = left * scale * variance_of_sums;
     const double unseen = 0.2 * (of_one_path.sum(one_light_path()) + of_sums);
     const PilotErrors errors = predict_errors(contributions, brightness);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        CHECK(errors.of_image[k] - unseen - of_choice(errors, k) ==
+        CHECK(errors.of_image[k] - unseen - of_prediction(errors, k) ==
               Approx(of_one_path.sum(k) + of_sums));
-        CHECK(errors.noise[k] == Approx(of_one_path.sum(k) / std::sqrt(2.0)));
+        CHECK(errors.noise_with_dots[k] == Approx(of_one_path.sum(k) / std::sqrt(2.0)));
         // The only cell is the image.
         CHECK(errors.of_cells.camera[0][k] == Approx(of_one_path.camera[k] + of_sums));
         CHECK(errors.of_cells.splats[k] == Approx(of_one_path.splats[k]));
@@ -155,7 +167,7 @@ TEST_CASE("errors of cells are apart from those of splats, which rates do not ch
 {
     const PilotContributions contributions = contributions_of(SplattedLight(), PilotGrid(200, 100));
     const PilotErrors errors = predict_errors(contributions, PilotBrightness(contributions));
-    const double unseen = 2.0 * errors.noise[one_light_path()];
+    const double unseen = 2.0 * errors.noise_with_dots[one_light_path()];
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         CAPTURE(k);
         double camera = 0.0;
@@ -163,7 +175,7 @@ TEST_CASE("errors of cells are apart from those of splats, which rates do not ch
             camera += cell[k] / static_cast<double>(errors.of_cells.camera.size());
         }
         CHECK((errors.of_cells.splats[k] > 0.0) == (candidates[k].light_paths > 0.0));
-        CHECK(errors.of_image[k] - unseen - of_choice(errors, k) ==
+        CHECK(errors.of_image[k] - unseen - of_prediction(errors, k) ==
               Approx(camera + errors.of_cells.splats[k]).margin(1e-5));
     }
 }
@@ -174,7 +186,8 @@ TEST_CASE("rare paths are expected where the error of the paths found is noisy",
     const auto unseen = [](PilotGrid grid) {
         const PilotContributions contributions = contributions_of(TwoLights(3), grid);
         const PilotBrightness brightness(contributions);
-        const double left = left_of_indirect_sums * static_cast<double>(radiance * radiance);
+        const double left =
+            left_of_sums[PathShares::indirect] * static_cast<double>(radiance * radiance);
         const double scale = brightness.scale(0);
         const RemainingErrors of_one_path =
             remaining_errors(contributions.rows[0].joined()[0].shares, scale);
@@ -184,6 +197,28 @@ TEST_CASE("rare paths are expected where the error of the paths found is noisy",
     CHECK(unseen(PilotGrid(1, 1)) == Approx(0.2).epsilon(0.001));
     CHECK(unseen(PilotGrid(800, 800)) < 0.05);
     CHECK(unseen(PilotGrid(800, 800)) > 0.0);
+}
+
+TEST_CASE(
+    "in bodies that scatter light, the variance of camera paths is that of independent samples",
+    "[pilot][media]")
+{
+    std::vector<float> shares{0.0f, 0.2f, 0.3f, 0.5f, 0.0f};  // own, connection, splat
+    PathContribution contribution = path_of({.s = 2, .t = 2}, shares);
+    const PathShares outside(contribution, Heuristic::power, 1.0);
+    contribution.scatters_in_body = true;
+    const PathShares inside(contribution, Heuristic::power, 1.0);
+    constexpr double scale = 0.01;
+    const PathShares::SecondMoments moments = inside.second_moments();
+    const RemainingErrors in_body = remaining_errors(inside, scale);
+    const RemainingErrors elsewhere = remaining_errors(outside, scale);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        if (candidates[k].connection_rays == 0.0) {
+            CHECK(in_body.camera[k] == Approx(scale * (moments.own[k] + moments.connections[k])));
+        }
+        CHECK(elsewhere.camera[k] < 0.5 * in_body.camera[k]);
+        CHECK(elsewhere.splats[k] == in_body.splats[k]);
+    }
 }
 
 TEST_CASE("a path that a usual render hardly finds does not count, but many of them do", "[pilot]")
@@ -198,6 +233,7 @@ TEST_CASE("a path that a usual render hardly finds does not count, but many of t
     const PilotErrors of_one = prediction_with_glints(1);
     CHECK(of_one.of_cells.dots[0] > 10.0 * none[0]);
     CHECK(of_one.of_cells.dots[0] < many[0]);
+    CHECK(of_one.noise_with_dots[0] > 10.0 * of_one.noise[0]);
     CHECK(prediction_with_glints(0).of_cells.dots[0] < 0.1 * none[0]);
     // One may be chance, several are not.
     CHECK(of_one.sure_dots[0] == 0.0);

@@ -338,6 +338,23 @@ TEST_CASE("light paths without connections are chosen where they are clearly bet
     CHECK(best.bidirectional.connections == 0.0);
 }
 
+TEST_CASE("more than one light path is chosen without connections alone", "[pilot]")
+{
+    for (const Candidate& candidate : candidates) {
+        CHECK((candidate.light_paths <= 1.0 || candidate.connections == 0.0));
+    }
+    const double light_paths = GENERATE(2.0, 4.0);
+    PilotResult pilot = equal_candidates();
+    pilot.errors[index_of(0.0625, 1.0)] = 0.1;
+    pilot.errors[index_of(light_paths, 0.0)] = 0.101;
+    CHECK(with_best(pilot, small()).bidirectional.connections == 1.0);
+    pilot.errors[index_of(light_paths, 0.0)] = 0.099;
+    const RenderOptions best = with_best(pilot, small());
+    CHECK(best.integrator == IntegratorKind::bdpt);
+    CHECK(best.bidirectional.light_paths == light_paths);
+    CHECK(best.bidirectional.connections == 0.0);
+}
+
 TEST_CASE("rare bright paths that a pilot is sure of count a little", "[pilot]")
 {
     PilotResult pilot = equal_candidates();

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace bdpt::path_contribution_test {
@@ -44,6 +45,20 @@ CameraDesc lens()
     camera.lens_radius = 0.3f;
     camera.focus_distance = 3.0f;
     return camera;
+}
+
+/// A room with a body of milky glass, or of glass that absorbs what the milk would scatter.
+Scene room_with_body(bool milky)
+{
+    test::SceneBuilder builder;
+    builder.walls(test::lambertian(Rgb(0.7f)), test::lambertian(Rgb(0.6f)));
+    builder.ceiling(test::lambertian(Rgb(0.7f))).lamp(0.9f, 0.5f, Rgb(5.0f));
+    MaterialDesc body = test::glass(0.3f);
+    body.attenuation_color = Rgb(0.3f);
+    body.attenuation_distance = 0.3f;
+    body.volume_scatter.color = Rgb(milky ? 0.9f : 0.0f);
+    builder.sphere({0.0f, -0.3f, 0.0f}, 0.6f, body, 16);
+    return Scene(std::move(builder.desc));
 }
 
 constexpr auto all_integrators = {IntegratorKind::bdpt, IntegratorKind::pt, IntegratorKind::mis,
@@ -121,6 +136,31 @@ TEST_CASE("shares of all strategies sum to one and are those behind the weight",
             }
         }
     }
+}
+
+TEST_CASE("paths are known to scatter in a body: they bring what a body without scattering lacks",
+          "[paths][media]")
+{
+    const auto integrator = GENERATE(IntegratorKind::bdpt, IntegratorKind::lt);
+    CAPTURE(static_cast<int>(integrator));
+    RenderOptions what = options(integrator);
+    what.sampling.samples.end = 512;
+    what.transport.max_depth = 8;
+    const auto light = [&](bool milky, bool in_body) {
+        double sum = 0.0;
+        RenderControl control;
+        control.on_path = [&](const PathContribution& path) {
+            REQUIRE((milky || !path.scatters_in_body));
+            if (path.scatters_in_body == in_body) {
+                sum += static_cast<double>(path.weight * path.unweighted.g);
+            }
+        };
+        (void)render(room_with_body(milky), test::room_camera(), what, control);
+        return sum;
+    };
+    const double elsewhere = light(true, false);
+    CHECK(elsewhere == Approx(light(false, false)).epsilon(0.02));
+    CHECK(light(true, true) > 0.05 * elsewhere);
 }
 
 TEST_CASE("path tracers tell strategies with at most one vertex from the light", "[paths]")

@@ -4,11 +4,21 @@
 #include <cmath>
 
 namespace bdpt {
+namespace {
+
+void accumulate(ErrorsByValue::Sums& to, const ErrorsByValue::Sums& sums, double factor = 1.0)
+{
+    to.errors += factor * sums.errors;
+    to.squares += factor * sums.squares;
+}
+
+}  // namespace
 
 void ErrorsByValue::add(double value, double number, double error) noexcept
 {
+    const Sums sums{.errors = error, .squares = error * error};
     if (!(number > 0.0)) {
-        never_found_ += error;
+        accumulate(never_found_, sums);
         return;
     }
     const int last = static_cast<int>(octaves_.size()) - 1;
@@ -17,7 +27,7 @@ void ErrorsByValue::add(double value, double number, double error) noexcept
     Octave& octave = octaves_[static_cast<std::size_t>(exponent - least_exponent)];
     octave.number += number;
     octave.light += number * value;
-    octave.error += error;
+    accumulate(octave.sums, sums);
 }
 
 void ErrorsByValue::add(const ErrorsByValue& other) noexcept
@@ -25,14 +35,14 @@ void ErrorsByValue::add(const ErrorsByValue& other) noexcept
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
         octaves_[i].number += other.octaves_[i].number;
         octaves_[i].light += other.octaves_[i].light;
-        octaves_[i].error += other.octaves_[i].error;
+        accumulate(octaves_[i].sums, other.octaves_[i].sums);
     }
-    never_found_ += other.never_found_;
+    accumulate(never_found_, other.never_found_);
 }
 
-double ErrorsByValue::without_brightest(double number, double light) const noexcept
+ErrorsByValue::Sums ErrorsByValue::without_brightest(double number, double light) const noexcept
 {
-    double sum = never_found_;
+    Sums result = never_found_;
     double excluded = 1.0;  // fraction of the octave
     for (std::size_t i = octaves_.size(); i-- > 0;) {
         const Octave& octave = octaves_[i];
@@ -44,9 +54,9 @@ double ErrorsByValue::without_brightest(double number, double light) const noexc
             excluded < 1.0 ? 0.0 : std::min({1.0, number / octave.number, light / octave.light});
         number -= excluded * octave.number;
         light -= excluded * octave.light;
-        sum += (1.0 - excluded) * octave.error;
+        accumulate(result, octave.sums, 1.0 - excluded);
     }
-    return sum;
+    return result;
 }
 
 }  // namespace bdpt

@@ -32,7 +32,6 @@ constexpr double cost_of_background = 0.5;
 /// Errors of a part of a pilot's contributions.
 struct PartOfErrors {
     PerCandidate<ErrorsByValue> of_paths{};
-    PerCandidate<double> squares{};  ///< of the errors of single paths
     PerCandidate<double> of_sums{};  ///< of the products of different paths of a sample
     PerCandidate<double> of_splats{};
 
@@ -46,7 +45,6 @@ struct PartOfErrors {
             const double error = errors.sum(k) / paths;
             of_paths[k].add(relative / numbers[k], usual_samples * pixels / paths * numbers[k],
                             error);
-            squares[k] += error * error;
             of_splats[k] += errors.splats[k] / paths;
         }
         return errors;
@@ -55,7 +53,6 @@ struct PartOfErrors {
     {
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             of_paths[k].add(other.of_paths[k]);
-            squares[k] += other.squares[k];
             of_sums[k] += other.of_sums[k];
             of_splats[k] += other.of_splats[k];
         }
@@ -93,9 +90,10 @@ PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
         const PilotCell& cell = row.cells()[i];
         const double scale = brightness.scale(first_cell + i);
         for (std::size_t k = 0; k < candidates.size(); ++k) {
-            const double error =
-                scale * (left_of_direct_sums * cell.direct.variance(k, samples) +
-                         left_of_indirect_sums * cell.indirect.variance(k, samples));
+            double error = 0.0;
+            for (std::size_t kind = 0; kind < PathShares::scattering_kinds; ++kind) {
+                error += scale * left_of_sums[kind] * cell.sums[kind].variance(k, samples);
+            }
             errors.of_sums[k] += error / cells;
             of_cells.camera[first_cell + i][k] += error;
             of_cells.costs[first_cell + i][k] =
@@ -166,12 +164,15 @@ PilotErrors compute_errors(const PilotContributions& contributions,
     const double dots = max_dots * grid.pixels();
     const double light = max_light_of_dots * usual_samples * grid.pixels();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const double usual = all.of_paths[k].without_brightest(dots, light);
-        errors.of_image[k] = usual + all.of_sums[k];
-        errors.noise[k] = std::sqrt(all.squares[k]);
-        const double dots_of_all = all.of_paths[k].without_brightest(0.0, 0.0) - usual;
+        const ErrorsByValue::Sums usual = all.of_paths[k].without_brightest(dots, light);
+        const ErrorsByValue::Sums with_dots = all.of_paths[k].without_brightest(0.0, 0.0);
+        errors.of_image[k] = usual.errors + all.of_sums[k];
+        errors.noise[k] = std::sqrt(usual.squares);
+        errors.noise_with_dots[k] = std::sqrt(with_dots.squares);
+        const double dots_of_all = with_dots.errors - usual.errors;
         errors.of_cells.dots[k] = dots_of_all;
-        errors.sure_dots[k] = std::max(0.0, dots_of_all - margin_of_dots * errors.noise[k]);
+        errors.sure_dots[k] =
+            std::max(0.0, dots_of_all - margin_of_dots * errors.noise_with_dots[k]);
     }
     return errors;
 }
@@ -184,19 +185,22 @@ void add_unseen(PilotErrors& errors)
     constexpr double most = 0.2;  // fraction of the error with one light path per camera path
     const auto found = std::find(candidates.begin(), candidates.end(), Candidate{1.0, 1.0});
     const auto one = static_cast<std::size_t>(found - candidates.begin());
-    const double unseen = std::min(most * errors.of_image[one], 2.0 * errors.noise[one]);
+    const double unseen = std::min(most * errors.of_image[one], 2.0 * errors.noise_with_dots[one]);
     for (double& error : errors.of_image) {
         error += unseen;
     }
 }
 
-/// The noise of choosing connections is predicted less well where BSDFs are glossy: those
-/// candidates are chosen for a gain that exceeds the noise of the prediction.
-void add_noise_of_choice(PilotErrors& errors)
+/// Two kinds of candidates are chosen only for a gain that exceeds the noise of the prediction. The
+/// noise of choosing connections is predicted less well where BSDFs are glossy. More than one light
+/// path takes time from camera paths, whose rarest contributions no pilot finds.
+void add_noise_of_prediction(PilotErrors& errors)
 {
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         if (candidates[k].connection_rays > 0.0) {
-            errors.of_image[k] += 2.0 * errors.noise[k];
+            errors.of_image[k] += 2.0 * errors.noise_with_dots[k];
+        } else if (candidates[k].light_paths > 1.0) {
+            errors.of_image[k] += errors.noise[k];
         }
     }
 }
@@ -208,7 +212,7 @@ PilotErrors predict_errors(const PilotContributions& contributions,
 {
     PilotErrors errors = compute_errors(contributions, brightness);
     add_unseen(errors);
-    add_noise_of_choice(errors);
+    add_noise_of_prediction(errors);
     return errors;
 }
 

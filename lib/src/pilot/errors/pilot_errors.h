@@ -25,8 +25,9 @@ struct CellErrors {
 
 /// Errors excluding directly visible light.
 struct PilotErrors {
-    PerCandidate<double> of_image{};  ///< relMSE of one sample per pixel
-    PerCandidate<double> noise{};     ///< standard error of that, as far as paths show it
+    PerCandidate<double> of_image{};         ///< relMSE of one sample per pixel
+    PerCandidate<double> noise{};            ///< standard error of that, as far as paths show it
+    PerCandidate<double> noise_with_dots{};  ///< likewise with the rare bright paths
     /// relMSE of excluded rare bright paths as far as the pilot is sure of it.
     PerCandidate<double> sure_dots{};
     CellErrors of_cells;

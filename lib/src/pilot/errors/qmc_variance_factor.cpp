@@ -10,7 +10,8 @@ namespace {
 
 // Sobol points leave a fraction of the variance of independent samples, as measured in the
 // project's scenes with 32 samples: a small one for direct light, a larger one for the rest; splats
-// do not benefit.
+// do not benefit, nor do paths in bodies that scatter light: their integrands have too many
+// dimensions and peaks.
 constexpr double left_of_direct = 0.25;
 constexpr double left_of_connections = 0.3;
 constexpr double left_of_choice = 0.3;  // of what the choice of connections adds
@@ -18,8 +19,14 @@ constexpr double left_of_choice = 0.3;  // of what the choice of connections add
 /// Returns the remaining fraction for paths that camera paths find alone: 1 for rare paths, as a
 /// single sample is not stratified. `value` is the path's contribution relative to the local
 /// brightness: at most one in that many samples finds one.
-double left_of_own(double value)
+double left_of_own(const PathShares& shares, double value)
 {
+    if (shares.kind() == PathShares::in_body) {
+        return 1.0;
+    }
+    if (shares.kind() == PathShares::direct) {
+        return left_of_direct;
+    }
     constexpr double least = 0.3;
     constexpr double rare = 4.0;
     return least + (1.0 - least) * value / (value + rare);
@@ -41,22 +48,20 @@ PerCandidate<double> left_by_more_connections()
 
 RemainingErrors remaining_errors(const PathShares& shares, double scale)
 {
-    constexpr int direct_edges = 2;
     RemainingErrors result;
-    if (shares.edges() < direct_edges) {
+    if (shares.kind() == PathShares::seen) {
         return result;  // directly visible light is accounted for separately
     }
-    const bool direct = shares.edges() == direct_edges;
     const double per_brightness = std::sqrt(scale);
     const PathShares::SecondMoments moments = shares.second_moments();
     const PerCandidate<double> values = shares.own_values();
     static const PerCandidate<double> of_connections = left_by_more_connections();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const double own = direct ? left_of_direct : left_of_own(values[k] * per_brightness);
-        result.camera[k] =
-            scale * (own * moments.own[k] +
-                     left_of_connections * of_connections[k] * moments.connections[k] +
-                     left_of_choice * moments.choice[k]);
+        const double own = left_of_own(shares, values[k] * per_brightness);
+        const double connections =
+            shares.kind() == PathShares::in_body ? 1.0 : left_of_connections * of_connections[k];
+        result.camera[k] = scale * (own * moments.own[k] + connections * moments.connections[k] +
+                                    left_of_choice * moments.choice[k]);
         result.splats[k] = scale * moments.splats[k];
     }
     return result;

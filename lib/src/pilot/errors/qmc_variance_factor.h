@@ -2,6 +2,7 @@
 
 #include "pilot/path_shares.h"
 
+#include <array>
 #include <cstddef>
 
 namespace bdpt {
@@ -20,8 +21,7 @@ struct RemainingErrors {
 /// `scale` is the factor of squared errors in relMSE [1/nit^2].
 [[nodiscard]] RemainingErrors remaining_errors(const PathShares& shares, double scale);
 
-/// Remaining fractions of the variances of sums.
-inline constexpr double left_of_direct_sums = 0.25;
-inline constexpr double left_of_indirect_sums = 0.4;
+/// Remaining fractions of the variances of sums of paths of each kind.
+inline constexpr std::array<double, PathShares::scattering_kinds> left_of_sums{0.25, 0.4, 1.0};
 
 }  // namespace bdpt

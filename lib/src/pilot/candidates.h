@@ -17,9 +17,9 @@ struct Candidate {
 
 /// All candidates. With fewer than 1/16 light paths, sharing them would show in correlated errors
 /// of neighbouring pixels. Without connections, light paths only splat, and are cheap, as none is
-/// stored. Only then more than one is worth its time, where light comes out of wax; caustics would
-/// be smoother, too, but that takes time from the camera paths, whose brightest contributions, such
-/// as caustics seen in mirrors, are too rare for a pilot to notice.
+/// stored. More than one is worth its time only without connections, where light comes out of wax.
+/// Caustics would be smoother, too, but light paths take time from camera paths, whose brightest
+/// contributions, such as caustics seen in mirrors, are too rare for a pilot to notice.
 inline constexpr std::array candidates{
     Candidate{0.0, 0.0},         Candidate{0.0625, 0.0},       Candidate{0.0625, 0.25},
     Candidate{0.0625, 1.0},      Candidate{0.0625, 2.0},       Candidate{0.0625, 8.0, 4.0},

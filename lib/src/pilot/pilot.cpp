@@ -110,13 +110,12 @@ double penalty(const PilotResult& pilot, std::size_t candidate, double error)
 {
     // The square root: usual renders show few of these paths, and long ones more.
     const double by_dots = std::sqrt(1.0 + pilot.dots[candidate] / error);
-    // What connections gain is often more than the pilot predicts, though not where more than one
-    // light path would be worth its time.
-    constexpr double without_connections = 1.05;
+    // What connections gain is often more than the pilot predicts. Candidates with more than one
+    // light path have a margin of their own: see `predict_errors`.
+    constexpr double margin_of_connections = 1.05;
     const Candidate& numbers = candidates[candidate];
-    const bool few_splats =
-        numbers.light_paths > 0.0 && numbers.light_paths <= 1.0 && numbers.connections == 0.0;
-    return by_dots * (few_splats ? without_connections : 1.0);
+    const bool splats_alone = numbers.light_paths > 0.0 && numbers.connections == 0.0;
+    return by_dots * (splats_alone && numbers.light_paths <= 1.0 ? margin_of_connections : 1.0);
 }
 
 bool fits(const RenderOptions& options, const PilotResult& pilot)

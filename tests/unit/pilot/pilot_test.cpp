@@ -326,33 +326,30 @@ TEST_CASE("connections are chosen where that has the least product of error and 
 
 TEST_CASE("light paths without connections are chosen where they are clearly better", "[pilot]")
 {
-    const double light_paths = GENERATE(0.0625, 0.5);
+    struct Case {
+        double light_paths;
+        double not_enough;  // error where one with connections has 0.1
+        double better;
+    };
+    // Up to one light path has to be better by 5 %; more have that margin in their error.
+    const auto [light_paths, not_enough, better] = GENERATE(values<Case>(
+        {{0.0625, 0.098, 0.09}, {0.5, 0.098, 0.09}, {2.0, 0.101, 0.099}, {4.0, 0.101, 0.099}}));
     PilotResult pilot = equal_candidates();
     pilot.errors[index_of(0.0625, 1.0)] = 0.1;
-    pilot.errors[index_of(light_paths, 0.0)] = 0.098;
+    pilot.errors[index_of(light_paths, 0.0)] = not_enough;
     CHECK(with_best(pilot, small()).bidirectional.connections == 1.0);
-    pilot.errors[index_of(light_paths, 0.0)] = 0.09;
+    pilot.errors[index_of(light_paths, 0.0)] = better;
     const RenderOptions best = with_best(pilot, small());
     CHECK(best.integrator == IntegratorKind::bdpt);
     CHECK(best.bidirectional.light_paths == light_paths);
     CHECK(best.bidirectional.connections == 0.0);
 }
 
-TEST_CASE("more than one light path is chosen without connections alone", "[pilot]")
+TEST_CASE("more than one light path is a candidate without connections alone", "[pilot]")
 {
     for (const Candidate& candidate : candidates) {
         CHECK((candidate.light_paths <= 1.0 || candidate.connections == 0.0));
     }
-    const double light_paths = GENERATE(2.0, 4.0);
-    PilotResult pilot = equal_candidates();
-    pilot.errors[index_of(0.0625, 1.0)] = 0.1;
-    pilot.errors[index_of(light_paths, 0.0)] = 0.101;
-    CHECK(with_best(pilot, small()).bidirectional.connections == 1.0);
-    pilot.errors[index_of(light_paths, 0.0)] = 0.099;
-    const RenderOptions best = with_best(pilot, small());
-    CHECK(best.integrator == IntegratorKind::bdpt);
-    CHECK(best.bidirectional.light_paths == light_paths);
-    CHECK(best.bidirectional.connections == 0.0);
 }
 
 TEST_CASE("rare bright paths that a pilot is sure of count a little", "[pilot]")

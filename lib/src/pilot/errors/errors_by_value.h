@@ -10,6 +10,7 @@ namespace bdpt {
 /// errors exceed those of all others. The error of a candidate excludes them, up to a limit.
 class ErrorsByValue {
 public:
+    /// Sums over paths.
     struct Sums {
         double errors = 0.0;
         double squares = 0.0;  ///< of the errors of single paths

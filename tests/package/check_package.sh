@@ -240,6 +240,7 @@ make_wheel() {
   done
   TMPDIR=$folder/tmp CMAKE_BUILD_PARALLEL_LEVEL=2 CXX=c++ "${pip[@]}" wheel "$folder/source" --no-deps -w "$folder" \
     --config-settings=cmake.build-type=Debug --config-settings=cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O2 \
+    --config-settings=cmake.define.BDPT_COMMAND_OPTIMIZATION=-O1 \
     --config-settings=cmake.define.BDPT_WERROR=ON --config-settings=cmake.define.CMAKE_UNITY_BUILD=ON \
     --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER"
   rm -rf "$folder/source" "$folder/tmp"

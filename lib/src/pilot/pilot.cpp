@@ -187,6 +187,7 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
                        .dots = errors.sure_dots,
                        .costs = {},
                        .merging_alone = share_of_merging_alone(contributions, brightness),
+                       .light_is_rare = errors.light_is_rare,
                        .cells = std::move(errors.of_cells),
                        .stats = {}};
     if (world.media().any_body_scatters()) {
@@ -236,7 +237,7 @@ std::shared_ptr<const SampleRates> best_rates(const PilotResult& pilot, const Re
         numbers.connection_rays = chosen.bidirectional.connection_rays;
     }
     const auto found = std::find(candidates.begin(), candidates.end(), numbers);
-    return found == candidates.end()
+    return found == candidates.end() || pilot.light_is_rare
                ? nullptr
                : choose_rates(PilotGrid(chosen.film.width, chosen.film.height), pilot.cells,
                               static_cast<std::size_t>(found - candidates.begin()));

@@ -25,8 +25,9 @@ struct PilotResult {
     PerCandidate<double> costs{};       ///< cost of a sample [ns on the machine of the cost model]
     /// Fraction of the light that no candidate finds, in [0, 1].
     double merging_alone = 0.0;
-    CellErrors cells;   ///< errors of parts of the image
-    RenderStats stats;  ///< work of the pilot itself
+    bool light_is_rare = false;  ///< `PilotBrightness::light_is_rare`
+    CellErrors cells;            ///< errors of parts of the image
+    RenderStats stats;           ///< work of the pilot itself
 };
 
 /// Renders a few samples all over the whole image with light paths of their own, and predicts error
@@ -44,7 +45,7 @@ struct PilotResult {
 [[nodiscard]] RenderOptions with_best(const PilotResult& pilot, const RenderOptions& options);
 
 /// Returns rates of samples for the options that with_best() returned; null if they gain too
-/// little.
+/// little, or if light is so rare that the pilot does not know errors of parts of the image.
 [[nodiscard]] std::shared_ptr<const SampleRates> best_rates(const PilotResult& pilot,
                                                             const RenderOptions& chosen);
 

@@ -1,62 +1,120 @@
 #include "pilot/pilot_brightness.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
 namespace bdpt {
 namespace {
 
-constexpr int reach = 1;  // on every side [cells]
-constexpr int around = (2 * reach + 1) * (2 * reach + 1);
+/// Light is rare while the brightness of more than this fraction of the lit cells depends on fewer
+/// paths than that, by its variance. In usual scenes it is less than a twentieth.
+constexpr double rare_fraction = 0.25;
+constexpr double fewest_paths = 1.5;
 
-/// Returns the means over the cells around each; beyond the edge of the image the last row or
-/// column is repeated.
-std::vector<double> averaged(const PilotGrid& grid, const std::vector<double>& values)
+/// Returns the index of a row or column, or of its mirror image beyond the edge.
+int mirrored(int index, int size)
 {
-    std::vector<double> result;
-    result.reserve(values.size());
+    const int period = 2 * size;
+    const int within = (index % period + period) % period;
+    return within < size ? within : period - 1 - within;
+}
+
+/// Returns the means over squares around each cell, which extend over `reach` cells on every side.
+std::vector<double> averaged(const PilotGrid& grid, const std::vector<double>& values, int reach)
+{
+    std::vector<double> of_rows(values.size());
+    std::vector<double> result(values.size());
+    const int side = 2 * reach + 1;
     for (int row = 0; row < grid.rows(); ++row) {
         for (int column = 0; column < grid.columns(); ++column) {
             double sum = 0.0;
-            for (int i = 0; i < around; ++i) {
-                const int x =
-                    std::clamp(column + i % (2 * reach + 1) - reach, 0, grid.columns() - 1);
-                const int y = std::clamp(row + i / (2 * reach + 1) - reach, 0, grid.rows() - 1);
-                sum += values[grid.index(x, y)];
+            for (int i = -reach; i <= reach; ++i) {
+                sum += values[grid.index(mirrored(column + i, grid.columns()), row)];
             }
-            result.push_back(sum / around);
+            of_rows[grid.index(column, row)] = sum / side;
+        }
+    }
+    for (int row = 0; row < grid.rows(); ++row) {
+        for (int column = 0; column < grid.columns(); ++column) {
+            double sum = 0.0;
+            for (int i = -reach; i <= reach; ++i) {
+                sum += of_rows[grid.index(column, mirrored(row + i, grid.rows()))];
+            }
+            result[grid.index(column, row)] = sum / side;
         }
     }
     return result;
 }
 
+/// Brightness by camera paths and by splats, and the variance of the sum of both.
+struct CellBrightness {
+    std::vector<double> camera;
+    std::vector<double> splats;
+    std::vector<double> variances;
+
+    [[nodiscard]] CellBrightness around(const PilotGrid& grid, int reach) const
+    {
+        CellBrightness result{.camera = averaged(grid, camera, reach),
+                              .splats = averaged(grid, splats, reach),
+                              .variances = averaged(grid, variances, reach)};
+        const int side = 2 * reach + 1;
+        for (double& variance : result.variances) {
+            variance /= side * side;
+        }
+        return result;
+    }
+    [[nodiscard]] bool light_is_rare() const
+    {
+        double lit = 0.0;
+        double by_few = 0.0;
+        for (std::size_t i = 0; i < camera.size(); ++i) {
+            const double mean = camera[i] + splats[i];
+            lit += mean > 0.0 ? 1.0 : 0.0;
+            by_few += mean * mean < fewest_paths * variances[i] ? 1.0 : 0.0;
+        }
+        return by_few > rare_fraction * lit;
+    }
+};
+
 }  // namespace
 
 PilotBrightness::PilotBrightness(const PilotContributions& contributions)
-    : share_of_splat_(static_cast<double>(contributions.grid.cells()) /
-                      (contributions.splatted_pixels() * around))
 {
     const PilotGrid& grid = contributions.grid;
-    std::vector<double> camera;
-    camera.reserve(grid.cells());
-    std::vector<double> splats(grid.cells());
+    const double share_of_splat =
+        static_cast<double>(grid.cells()) / contributions.splatted_pixels();
+    CellBrightness cells{
+        .camera = {}, .splats = std::vector<double>(grid.cells()), .variances = {}};
     for (const PilotRow& row : contributions.rows) {
         for (const PilotCell& cell : row.cells()) {
-            camera.push_back(cell.mean);
+            cells.camera.push_back(cell.mean());
+            cells.variances.push_back(cell.variance());
         }
         for (const PilotLamp& lamp : row.lamps()) {
-            splats[lamp.cell] += lamp.mean / PilotRow::samples_of_cell;
+            cells.splats[lamp.cell] += lamp.mean / PilotRow::samples_of_cell;
         }
     }
     for (const PilotSplats& part : contributions.parts) {
         for (const PilotContribution& splat : part.contributions()) {
-            splats[splat.cell] += splat.shares.splat_mean() * share_of_splat_ * around;
+            const double value = splat.shares.splat_mean() * share_of_splat;
+            cells.splats[splat.cell] += value;
+            cells.variances[splat.cell] += value * value;
         }
     }
     for (std::size_t i = 0; i < grid.cells(); ++i) {
-        average_ += (camera[i] + splats[i]) / static_cast<double>(grid.cells());
+        average_ += (cells.camera[i] + cells.splats[i]) / static_cast<double>(grid.cells());
     }
-    camera_ = averaged(grid, camera);
-    splats_ = averaged(grid, splats);
+    int reach = 1;
+    CellBrightness around = cells.around(grid, reach);
+    light_is_rare_ = around.light_is_rare();
+    while (around.light_is_rare() && 2 * reach + 1 < std::max(grid.columns(), grid.rows())) {
+        reach *= 2;
+        around = cells.around(grid, reach);
+    }
+    camera_ = std::move(around.camera);
+    splats_ = std::move(around.splats);
+    share_of_splat_ = share_of_splat / ((2 * reach + 1) * (2 * reach + 1));
 }
 
 double PilotBrightness::compute_scale(std::size_t cell, double less) const

@@ -8,7 +8,9 @@ namespace bdpt {
 
 /// Brightness of the image in each cell and its neighbourhood, estimated from a pilot's
 /// contributions: errors are relative to it. A single cell has too few samples: if they happened to
-/// be dark, errors of splats would be overestimated by far.
+/// be dark, errors of splats would be overestimated by far. The neighbourhood has 3 x 3 cells, more
+/// where light is rare in the whole image: relative to a brightness that is its own, each path
+/// would have the same error, whatever it brings.
 class PilotBrightness {
 public:
     explicit PilotBrightness(const PilotContributions& contributions);
@@ -25,6 +27,9 @@ public:
     /// Returns the mean of the image, excluding light that only merging finds [nit].
     [[nodiscard]] double average() const { return average_; }
 
+    /// Whether light is so rare in the whole image that most of it is known by single paths.
+    [[nodiscard]] bool light_is_rare() const { return light_is_rare_; }
+
 private:
     [[nodiscard]] double compute_scale(std::size_t cell, double less) const;
 
@@ -32,6 +37,7 @@ private:
     std::vector<double> splats_;  ///< from splats [nit]
     double share_of_splat_;       ///< fraction of one splat in `splats_`
     double average_ = 0.0;        ///< mean of the image [nit]
+    bool light_is_rare_ = false;
 };
 
 }  // namespace bdpt

@@ -40,7 +40,7 @@ void PilotRow::render(const Integrator& integrator, const PilotGrid& grid, Heuri
                 }
                 return;
             }
-            cell->mean += shares.camera_mean() / samples_of_cell;
+            cell->values[static_cast<std::size_t>(index)] += shares.camera_mean();
             if (path.merged) {
                 merged_.push_back({.cell = cell_index, .shares = shares});
             } else if (shares.kind() != PathShares::seen) {

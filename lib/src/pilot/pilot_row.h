@@ -10,7 +10,19 @@ namespace bdpt {
 
 /// Contributions of the camera paths in the pixel of a cell.
 struct PilotCell {
-    double mean = 0.0;  ///< mean of the paths that they find well [nit]
+    /// Minimum number of samples from which the square of a mean can be estimated.
+    static constexpr int samples = 2;
+
+    /// Returns the mean of the paths that they find well [nit].
+    [[nodiscard]] double mean() const { return 0.5 * (values[0] + values[1]); }
+    /// Returns an estimate of the variance of that mean [nit^2].
+    [[nodiscard]] double variance() const
+    {
+        const double difference = values[0] - values[1];
+        return 0.25 * difference * difference;
+    }
+
+    std::array<double, samples> values{};  ///< of the paths that each sample finds well [nit]
     std::array<VarianceOfSamples, PathShares::scattering_kinds> sums;  ///< of paths of each kind
     RenderStats stats;                                                 ///< work of its samples
 };
@@ -29,8 +41,7 @@ struct PilotLamp {
 /// The cells of one row of a pilot's grid.
 class PilotRow {
 public:
-    /// Minimum number of samples from which the square of a mean can be estimated.
-    static constexpr int samples_of_cell = 2;
+    static constexpr int samples_of_cell = PilotCell::samples;
 
     /// Adds sample `index` of every cell. `integrator` connects each camera path to
     /// `PathShares::pilot_connections` of its traced light paths, of which there are `light_paths`

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <vector>
@@ -73,6 +74,58 @@ PilotContributions contributions_of(Lamp lamp)
     return contributions;
 }
 
+/// Camera paths find the same light in all cells, in both samples; or, in one of 25 cells, 25 times
+/// as much in both, or 50 times as much in one of them.
+class RareLight final : public Integrator {
+public:
+    enum class Found { everywhere, in_few_cells, in_few_samples };
+    explicit RareLight(Found found) : found_(found) {}
+
+    RenderStats render_tile(const Tile& tile, SampleRange samples,
+                            const Films& films) const override
+    {
+        const bool here = tile.x_begin % 5 == 0 && tile.y_begin % 5 == 0;
+        const float value = found_ == Found::everywhere     ? radiance
+                            : !here                         ? 0.0f
+                            : found_ == Found::in_few_cells ? 25.0f * radiance
+                            : samples.begin == 0            ? 50.0f * radiance
+                                                            : 0.0f;
+        if (value > 0.0f) {
+            films.on_path({.strategy = {.s = 1, .t = 3},
+                           .merged = false,
+                           .light_path = 0,
+                           .raster = Vec2(0.5f),
+                           .unweighted = Rgb(value),
+                           .weight = 1.0f,
+                           .shares = shares_});
+        }
+        return {};
+    }
+
+private:
+    Found found_;
+    std::array<float, 5> shares_{0.0f, 1.0f, 0.0f, 0.0f, 0.0f};
+};
+
+PilotContributions contributions_of(RareLight light)
+{
+    // At most 512 pixels have a cell each.
+    constexpr int columns = 25;
+    constexpr int rows = 20;
+    PilotContributions contributions{.grid = PilotGrid(columns, rows),
+                                     .light_paths = 1.0,
+                                     .rows = std::vector<PilotRow>(rows),
+                                     .parts = {}};
+    REQUIRE(contributions.grid.cells() == columns * rows);
+    for (int index = 0; index < PilotRow::samples_of_cell; ++index) {
+        for (int row = 0; row < rows; ++row) {
+            contributions.rows[static_cast<std::size_t>(row)].render(
+                light, contributions.grid, Heuristic::power, row, index, contributions.light_paths);
+        }
+    }
+    return contributions;
+}
+
 }  // namespace
 
 TEST_CASE("errors of a pilot are relative to the brightness of the cells around", "[pilot]")
@@ -100,6 +153,26 @@ TEST_CASE("a splat does not count for its own place", "[pilot]")
     REQUIRE(splats.size() == PilotRow::samples_of_cell);
     const double others = 1.0 - 1.0 / PilotRow::samples_of_cell;
     CHECK(brightness.scale(splats.front()) == Approx(1.0 / (others * others + floor_of_squares)));
+}
+
+TEST_CASE("brightness that few paths know is averaged over more cells", "[pilot]")
+{
+    using Found = RareLight::Found;
+    const auto found = GENERATE(Found::everywhere, Found::in_few_cells, Found::in_few_samples);
+    CAPTURE(static_cast<int>(found));
+    const PilotContributions contributions = contributions_of(RareLight(found));
+    const PilotBrightness brightness(contributions);
+    CHECK(brightness.average() == Approx(static_cast<double>(radiance)));
+    CHECK(brightness.light_is_rare() == (found == Found::in_few_samples));
+    const auto mean_at = [&](int column, int row) {
+        return 1.0 / std::sqrt(brightness.scale(contributions.grid.index(column, row)));
+    };
+    constexpr int lit = 10;  // and so is its row; two cells from there it is dark
+    if (found == Found::in_few_cells) {
+        CHECK(mean_at(lit, lit) > 10.0 * mean_at(lit + 2, lit + 2));
+    } else {
+        CHECK(mean_at(lit, lit) < 2.0 * mean_at(lit + 2, lit + 2));
+    }
 }
 
 }  // namespace bdpt::test::pilot_brightness_test

@@ -86,6 +86,22 @@ private:
     std::vector<float> by_connections_{0.0f, 1e-4f, 0.9999f, 0.0f, 0.0f};
 };
 
+/// One of some camera paths finds a light by next-event estimation.
+class RareLight final : public Integrator {
+public:
+    RenderStats render_tile(const Tile& tile, SampleRange samples,
+                            const Films& films) const override
+    {
+        if (samples.begin == 0 && tile.x_begin % 5 == 0 && tile.y_begin % 5 == 0) {
+            films.on_path(path_of({.s = 1, .t = 3}, shares_));
+        }
+        return {};
+    }
+
+private:
+    std::vector<float> shares_{0.0f, 1.0f, 0.0f, 0.0f, 0.0f};
+};
+
 PilotContributions contributions_of(const Integrator& lights, PilotGrid grid)
 {
     PilotContributions contributions{
@@ -197,6 +213,25 @@ TEST_CASE("rare paths are expected where the error of the paths found is noisy",
     CHECK(unseen(PilotGrid(1, 1)) == Approx(0.2).epsilon(0.001));
     CHECK(unseen(PilotGrid(800, 800)) < 0.05);
     CHECK(unseen(PilotGrid(800, 800)) > 0.0);
+}
+
+TEST_CASE("where light is rare in the whole image, nothing is added for noise of the prediction",
+          "[pilot]")
+{
+    const PilotContributions contributions = contributions_of(RareLight(), PilotGrid(25, 20));
+    const PilotBrightness brightness(contributions);
+    const PilotErrors errors = predict_errors(contributions, brightness);
+    CHECK(errors.light_is_rare);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        CAPTURE(k);
+        double camera = 0.0;
+        for (const PerCandidate<double>& cell : errors.of_cells.camera) {
+            camera += cell[k] / static_cast<double>(errors.of_cells.camera.size());
+        }
+        const double of_light_paths = candidates[k].light_paths > 1.0 ? errors.noise[k] : 0.0;
+        CHECK(errors.of_image[k] == Approx(camera - errors.of_cells.dots[k] + of_light_paths));
+    }
+    CHECK_FALSE(prediction_with_glints(20).light_is_rare);
 }
 
 TEST_CASE(

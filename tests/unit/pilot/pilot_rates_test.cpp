@@ -1,6 +1,7 @@
 #include "pilot/pilot_rates.h"
 
 #include "catch.hpp"
+#include "pilot/pilot.h"
 
 #include <cstddef>
 #include <memory>
@@ -63,6 +64,23 @@ TEST_CASE("an image of even noise has no rates", "[pilot]")
         cell[used] = std::exponential_distribution<double>(1.0)(engine);
     }
     CHECK(rates_of(noisy) == nullptr);
+}
+
+TEST_CASE("no cell takes more samples where light is so rare that its error is chance", "[pilot]")
+{
+    PilotResult pilot;
+    pilot.cells = equal_cells();
+    multiply_right(pilot.cells.camera, 30.0);
+    RenderOptions options;
+    options.film.width = grid().width();
+    options.film.height = grid().height();
+    options.integrator = IntegratorKind::bdpt;
+    options.bidirectional.light_paths = candidates[used].light_paths;
+    options.bidirectional.connections = candidates[used].connections;
+    options.bidirectional.connection_rays = candidates[used].connection_rays;
+    CHECK(best_rates(pilot, options) != nullptr);
+    pilot.light_is_rare = true;
+    CHECK(best_rates(pilot, options) == nullptr);
 }
 
 TEST_CASE("noisy cells take more samples", "[pilot]")

@@ -191,15 +191,23 @@ void add_unseen(PilotErrors& errors)
     }
 }
 
-/// Two kinds of candidates are chosen only for a gain that exceeds the noise of the prediction. The
-/// noise of choosing connections is predicted less well where BSDFs are glossy. More than one light
-/// path takes time from camera paths, whose rarest contributions no pilot finds.
-void add_noise_of_prediction(PilotErrors& errors)
+/// Candidates that choose connections are taken only for a gain that exceeds the noise of the
+/// prediction, as the noise of the choice is predicted less well where BSDFs are glossy.
+void add_noise_of_choice(PilotErrors& errors)
 {
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         if (candidates[k].connection_rays > 0.0) {
             errors.of_image[k] += 2.0 * errors.noise_with_dots[k];
-        } else if (candidates[k].light_paths > 1.0) {
+        }
+    }
+}
+
+/// So are those with more than one light path: they take time from camera paths, whose rarest
+/// contributions no pilot finds.
+void add_noise_of_light_paths(PilotErrors& errors)
+{
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        if (candidates[k].light_paths > 1.0) {
             errors.of_image[k] += errors.noise[k];
         }
     }
@@ -211,8 +219,14 @@ PilotErrors predict_errors(const PilotContributions& contributions,
                            const PilotBrightness& brightness)
 {
     PilotErrors errors = compute_errors(contributions, brightness);
-    add_unseen(errors);
-    add_noise_of_prediction(errors);
+    errors.light_is_rare = brightness.light_is_rare();
+    // Where light is rare in the whole image, rare paths are no exceptions, and the noise of the
+    // prediction is nearly the same for all candidates.
+    if (!errors.light_is_rare) {
+        add_unseen(errors);
+        add_noise_of_choice(errors);
+    }
+    add_noise_of_light_paths(errors);
     return errors;
 }
 

@@ -31,6 +31,7 @@ struct PilotErrors {
     /// relMSE of excluded rare bright paths as far as the pilot is sure of it.
     PerCandidate<double> sure_dots{};
     CellErrors of_cells;
+    bool light_is_rare = false;  ///< `PilotBrightness::light_is_rare`
 };
 
 /// Predicts errors of renders.

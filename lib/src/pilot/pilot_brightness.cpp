@@ -7,9 +7,10 @@
 namespace bdpt {
 namespace {
 
-/// Light is rare while the brightness of more than this fraction of the lit cells depends on fewer
-/// paths than that, by its variance. In usual scenes it is less than a twentieth.
+/// Light is rare if more than this fraction of the lit cells has its brightness from fewer than
+/// `fewest_paths` paths. In usual scenes less than a twentieth has.
 constexpr double rare_fraction = 0.25;
+/// Square of the brightness over its variance: N paths of equal light, found by chance, have N.
 constexpr double fewest_paths = 1.5;
 
 /// Returns the index of a row or column, or of its mirror image beyond the edge.
@@ -20,31 +21,36 @@ int mirrored(int index, int size)
     return within < size ? within : period - 1 - within;
 }
 
-/// Returns the means over squares around each cell, which extend over `reach` cells on every side.
-std::vector<double> averaged(const PilotGrid& grid, const std::vector<double>& values, int reach)
+/// Returns the means of `reach` cells on either side of each, and of itself. `neighbour` returns
+/// the index of the cell that is `i` cells from a column and row.
+template <typename Neighbour>
+std::vector<double> averaged_along(const PilotGrid& grid, const std::vector<double>& values,
+                                   int reach, const Neighbour& neighbour)
 {
-    std::vector<double> of_rows(values.size());
-    std::vector<double> result(values.size());
-    const int side = 2 * reach + 1;
+    std::vector<double> result;
+    result.reserve(values.size());
     for (int row = 0; row < grid.rows(); ++row) {
         for (int column = 0; column < grid.columns(); ++column) {
             double sum = 0.0;
             for (int i = -reach; i <= reach; ++i) {
-                sum += values[grid.index(mirrored(column + i, grid.columns()), row)];
+                sum += values[neighbour(column, row, i)];
             }
-            of_rows[grid.index(column, row)] = sum / side;
-        }
-    }
-    for (int row = 0; row < grid.rows(); ++row) {
-        for (int column = 0; column < grid.columns(); ++column) {
-            double sum = 0.0;
-            for (int i = -reach; i <= reach; ++i) {
-                sum += of_rows[grid.index(column, mirrored(row + i, grid.rows()))];
-            }
-            result[grid.index(column, row)] = sum / side;
+            result.push_back(sum / (2 * reach + 1));
         }
     }
     return result;
+}
+
+/// Returns the means over squares around each cell, which extend over `reach` cells on every side.
+std::vector<double> averaged(const PilotGrid& grid, const std::vector<double>& values, int reach)
+{
+    const std::vector<double> along_rows =
+        averaged_along(grid, values, reach, [&](int column, int row, int i) {
+            return grid.index(mirrored(column + i, grid.columns()), row);
+        });
+    return averaged_along(grid, along_rows, reach, [&](int column, int row, int i) {
+        return grid.index(column, mirrored(row + i, grid.rows()));
+    });
 }
 
 /// Brightness by camera paths and by splats, and the variance of the sum of both.
@@ -53,6 +59,7 @@ struct CellBrightness {
     std::vector<double> splats;
     std::vector<double> variances;
 
+    /// Returns means over squares around each cell, and the variances of these means.
     [[nodiscard]] CellBrightness around(const PilotGrid& grid, int reach) const
     {
         CellBrightness result{.camera = averaged(grid, camera, reach),
@@ -108,7 +115,8 @@ PilotBrightness::PilotBrightness(const PilotContributions& contributions)
     int reach = 1;
     CellBrightness around = cells.around(grid, reach);
     light_is_rare_ = around.light_is_rare();
-    while (around.light_is_rare() && 2 * reach + 1 < std::max(grid.columns(), grid.rows())) {
+    for (bool rare = light_is_rare_; rare && 2 * reach + 1 < std::max(grid.columns(), grid.rows());
+         rare = around.light_is_rare()) {
         reach *= 2;
         around = cells.around(grid, reach);
     }

@@ -27,7 +27,8 @@ public:
     /// Returns the mean of the image, excluding light that only merging finds [nit].
     [[nodiscard]] double average() const { return average_; }
 
-    /// Whether light is so rare in the whole image that most of it is known by single paths.
+    /// Returns whether light is so rare in the whole image that much of it, cell by cell, comes
+    /// from a single path of the pilot.
     [[nodiscard]] bool light_is_rare() const { return light_is_rare_; }
 
 private:
@@ -37,7 +38,7 @@ private:
     std::vector<double> splats_;  ///< from splats [nit]
     double share_of_splat_;       ///< fraction of one splat in `splats_`
     double average_ = 0.0;        ///< mean of the image [nit]
-    bool light_is_rare_ = false;
+    bool light_is_rare_ = false;  ///< in squares of 3 x 3 cells
 };
 
 }  // namespace bdpt

@@ -41,6 +41,7 @@ struct PilotLamp {
 /// The cells of one row of a pilot's grid.
 class PilotRow {
 public:
+    /// Number of samples in each cell.
     static constexpr int samples_of_cell = PilotCell::samples;
 
     /// Adds sample `index` of every cell. `integrator` connects each camera path to

@@ -57,18 +57,19 @@ private:
     std::array<float, 5> shares_{};
 };
 
-PilotContributions contributions_of(Lamp lamp)
+PilotContributions contributions_of(Integrator&& lights, PilotGrid grid = {side, side})
 {
-    PilotContributions contributions{.grid = PilotGrid(side, side),
-                                     .light_paths = 1.0,
-                                     .rows = std::vector<PilotRow>(side),
-                                     .parts = std::vector<PilotSplats>(1)};
+    PilotContributions contributions{
+        .grid = grid,
+        .light_paths = 1.0,
+        .rows = std::vector<PilotRow>(static_cast<std::size_t>(grid.rows())),
+        .parts = std::vector<PilotSplats>(1)};
     for (int index = 0; index < PilotRow::samples_of_cell; ++index) {
-        contributions.parts[0].trace(lamp, 0, index, contributions.grid, Heuristic::power,
+        contributions.parts[0].trace(lights, 0, index, grid, Heuristic::power,
                                      contributions.light_paths);
-        for (int row = 0; row < side; ++row) {
+        for (int row = 0; row < grid.rows(); ++row) {
             contributions.rows[static_cast<std::size_t>(row)].render(
-                lamp, contributions.grid, Heuristic::power, row, index, contributions.light_paths);
+                lights, grid, Heuristic::power, row, index, contributions.light_paths);
         }
     }
     return contributions;
@@ -107,25 +108,6 @@ private:
     std::array<float, 5> shares_{0.0f, 1.0f, 0.0f, 0.0f, 0.0f};
 };
 
-PilotContributions contributions_of(RareLight light)
-{
-    // At most 512 pixels have a cell each.
-    constexpr int columns = 25;
-    constexpr int rows = 20;
-    PilotContributions contributions{.grid = PilotGrid(columns, rows),
-                                     .light_paths = 1.0,
-                                     .rows = std::vector<PilotRow>(rows),
-                                     .parts = {}};
-    REQUIRE(contributions.grid.cells() == columns * rows);
-    for (int index = 0; index < PilotRow::samples_of_cell; ++index) {
-        for (int row = 0; row < rows; ++row) {
-            contributions.rows[static_cast<std::size_t>(row)].render(
-                light, contributions.grid, Heuristic::power, row, index, contributions.light_paths);
-        }
-    }
-    return contributions;
-}
-
 }  // namespace
 
 TEST_CASE("errors of a pilot are relative to the brightness of the cells around", "[pilot]")
@@ -160,14 +142,16 @@ TEST_CASE("brightness that few paths know is averaged over more cells", "[pilot]
     using Found = RareLight::Found;
     const auto found = GENERATE(Found::everywhere, Found::in_few_cells, Found::in_few_samples);
     CAPTURE(static_cast<int>(found));
-    const PilotContributions contributions = contributions_of(RareLight(found));
+    const PilotContributions contributions = contributions_of(RareLight(found), {25, 20});
+    REQUIRE(contributions.grid.cells() == 500);  // one for each of so few pixels
     const PilotBrightness brightness(contributions);
     CHECK(brightness.average() == Approx(static_cast<double>(radiance)));
     CHECK(brightness.light_is_rare() == (found == Found::in_few_samples));
     const auto mean_at = [&](int column, int row) {
         return 1.0 / std::sqrt(brightness.scale(contributions.grid.index(column, row)));
     };
-    constexpr int lit = 10;  // and so is its row; two cells from there it is dark
+    constexpr int lit =
+        10;  // column and row of a lit cell; the cell two columns and rows on is dark
     if (found == Found::in_few_cells) {
         CHECK(mean_at(lit, lit) > 10.0 * mean_at(lit + 2, lit + 2));
     } else {

@@ -202,8 +202,9 @@ void add_noise_of_choice(PilotErrors& errors)
     }
 }
 
-/// So are those with more than one light path: they take time from camera paths, whose rarest
-/// contributions no pilot finds.
+/// Candidates with more than one light path are taken only for a gain of at least one standard
+/// error of the prediction: they take time from camera paths, whose rarest contributions no pilot
+/// finds.
 void add_noise_of_light_paths(PilotErrors& errors)
 {
     for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -220,8 +221,8 @@ PilotErrors predict_errors(const PilotContributions& contributions,
 {
     PilotErrors errors = compute_errors(contributions, brightness);
     errors.light_is_rare = brightness.light_is_rare();
-    // Where light is rare in the whole image, rare paths are no exceptions, and the noise of the
-    // prediction is nearly the same for all candidates.
+    // Where light is rare in the whole image, the pilot's errors consist of rare paths already, and
+    // the noise of the prediction is nearly the same for all candidates.
     if (!errors.light_is_rare) {
         add_unseen(errors);
         add_noise_of_choice(errors);

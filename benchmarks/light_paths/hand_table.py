@@ -25,9 +25,9 @@ from candidates import read_candidates
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-def render(bdpt, scene, arguments, image, *options):
-    """Renders the scene; returns the content of `--stats`."""
-    told = subprocess.run([bdpt, "render", scene, "--size", f"{arguments.side}x{arguments.side}", "-o", image, "--quiet",
+def render(scene, arguments, image, *options):
+    """Renders a scene, a file and options for it; returns the content of `--stats`."""
+    told = subprocess.run([arguments.bdpt, "render", *scene, "--size", arguments.size, "-o", image, "--quiet",
                            "--threads", "1", "--stats", "-", *options], check=True, capture_output=True, text=True)
     return json.loads(told.stdout)
 
@@ -67,39 +67,57 @@ def estimate_noise(seconds, images, chosen, best):
     return seed_errors.noise(len(seconds[0]), ratio)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("bdpt", type=pathlib.Path)
-    parser.add_argument("scenes", nargs="*", type=pathlib.Path, metavar="SCENE", help="default: all of scenes/")
-    parser.add_argument("--side", type=int, default=256, help="pixels a side (256)")
-    parser.add_argument("--spp", type=int, default=32, help="samples per pixel (32)")
-    parser.add_argument("--seeds", type=int, default=4, help="renders with each choice (4)")
-    arguments = parser.parse_intermixed_args()
-    print(f"{'scene':26} {'auto chose':16} {'best by hand':16} {'over it':>8} {'no dots':>8} {'noise':>6}")
-    ratios = []
+def compare_choices(name, scene, arguments):
+    """Renders a scene with all choices and prints its row; returns the product of the choice of auto over the least."""
+    all_choices = list_candidates()
+    seconds, images = ([[] for _ in all_choices] for _ in range(2))
     with tempfile.TemporaryDirectory() as folder:
         image = pathlib.Path(folder) / "image.exr"
-        for scene in arguments.scenes or sorted((ROOT / "scenes").glob("*.gltf")):
-            told = render(arguments.bdpt, scene, arguments, image, "--integrator", "auto", "--spp", "1")
-            choice = convert_settings(told["settings"])
-            all_choices = list_candidates()
-            seconds, images = ([[] for _ in all_choices] for _ in range(2))
-            for seed in range(1, arguments.seeds + 1):
-                for i, options in enumerate(all_choices):
-                    told = render(arguments.bdpt, scene, arguments, image, "--spp", str(arguments.spp), "--seed",
-                                  str(seed), *options)
-                    seconds[i].append(told["seconds"]["render"])
-                    images[i].append(seed_errors.pixels(image))
-            images = [np.stack(each) for each in images]
-            every = list(range(arguments.seeds))
-            chosen = all_choices.index(choice)
-            found = compute_products(seconds, images, every, 0)
-            dotless = compute_products(seconds, images, every, seed_errors.DOTS)
-            best = int(np.argmin(found))
-            ratios.append(found[chosen] / found[best])
-            print(f"{scene.stem:26} {format_options(choice):16} {format_options(all_choices[best]):16} {ratios[-1]:8.2f} "
-                  f"{dotless[chosen] / dotless.min():8.2f} {estimate_noise(seconds, images, chosen, best):6.2f}", flush=True)
-    print(f"{'geometric mean':26} {'':16} {'':16} {math.exp(statistics.fmean(math.log(r) for r in ratios)):8.2f}")
+        told = render(scene, arguments, image, "--integrator", "auto", "--spp", "1")
+        chosen = all_choices.index(convert_settings(told["settings"]))
+        for seed in range(1, arguments.seeds + 1):
+            for i, options in enumerate(all_choices):
+                told = render(scene, arguments, image, "--spp", str(arguments.spp), "--seed", str(seed), *options)
+                seconds[i].append(told["seconds"]["render"])
+                images[i].append(seed_errors.pixels(image))
+    images = [np.stack(each) for each in images]
+    every = list(range(arguments.seeds))
+    found = compute_products(seconds, images, every, 0)
+    dotless = compute_products(seconds, images, every, seed_errors.DOTS)
+    best = int(np.argmin(found))
+    noise = f"{estimate_noise(seconds, images, chosen, best):6.2f}" if arguments.seeds > 2 else f"{'':6}"
+    if arguments.all:
+        for options, product, without in zip(all_choices, found, dotless):
+            print(f"  {format_options(options):41} {product / found[best]:8.2f} {without / dotless.min():8.2f}")
+    print(f"{name:26} {format_options(all_choices[chosen]):16} {format_options(all_choices[best]):16} "
+          f"{found[chosen] / found[best]:8.2f} {dotless[chosen] / dotless.min():8.2f} "
+          f"{noise}", flush=True)
+    return found[chosen] / found[best]
+
+
+def compare_scenes(scenes, arguments):
+    """Prints a table of named scenes."""
+    print(f"{'scene':26} {'auto chose':16} {'best by hand':16} {'over it':>8} {'no dots':>8} {'noise':>6}", flush=True)
+    ratios = [compare_choices(name, scene, arguments) for name, scene in scenes]
+    print(f"{'geometric mean':26} {'':16} {'':16} {math.exp(statistics.fmean(map(math.log, ratios))):8.2f}")
+
+
+def make_parser(description, size, spp):
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bdpt", type=pathlib.Path)
+    parser.add_argument("--size", default=size, help=f"of the image ({size})")
+    parser.add_argument("--spp", type=int, default=spp, help=f"samples per pixel ({spp})")
+    parser.add_argument("--seeds", type=int, default=4, help="renders with each choice (4); the noise column needs three")
+    parser.add_argument("--all", action="store_true", help="also print the products of all choices")
+    return parser
+
+
+def main():
+    parser = make_parser(__doc__, "256x256", 32)
+    parser.add_argument("scenes", nargs="*", type=pathlib.Path, metavar="SCENE", help="default: all of scenes/")
+    arguments = parser.parse_intermixed_args()
+    scenes = arguments.scenes or sorted((ROOT / "scenes").glob("*.gltf"))
+    compare_scenes([(scene.stem, (scene,)) for scene in scenes], arguments)
     return 0
 
 

@@ -62,7 +62,7 @@ def render(way, scene, image, arguments, *options):
     program, sep, own = way.partition(":")
     program, own = (program, own) if sep else (arguments.bdpt, way)
     before = child_seconds()
-    subprocess.run([program, "render", scene[0], *shlex.split(scene[1]), "--size", arguments.size, "--max-depth",
+    subprocess.run([program, "render", *scene, "--size", arguments.size, "--max-depth",
                     str(arguments.max_depth), "-o", image, "--quiet", "--threads", "1", *shlex.split(own), *options],
                    check=True)
     return child_seconds() - before
@@ -116,13 +116,20 @@ def main():
     return 0
 
 
-def measure_all(arguments, made, products):
+def find_scenes(models, made):
+    """Yields name, file and list of options of each scene that is in the folder of models, of made scenes, or in
+    scenes/."""
     for name, file, options in SCENES:
-        path = next((p for p in (arguments.models / file, made / file, ROOT / "scenes" / file) if p.exists()), None)
-        if path is None or not re.search(arguments.only, name):
+        path = next((p for p in (models / file, made / file, ROOT / "scenes" / file) if p.exists()), None)
+        if path is not None:
+            yield name, path, shlex.split(options.format(hdr=models / "hdr"))
+
+
+def measure_all(arguments, made, products):
+    for name, path, options in find_scenes(arguments.models, made):
+        if not re.search(arguments.only, name):
             continue
-        scene = (path, options.format(hdr=arguments.models / "hdr"))
-        seconds, images, reference = measure(scene, arguments)
+        seconds, images, reference = measure((path, *options), arguments)
         errors = [compute_trimmed_error(each, reference) for each in images]
         times = [min(each) for each in seconds]
         row = ""

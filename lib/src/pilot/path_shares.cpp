@@ -26,9 +26,6 @@ constexpr Factors numbers(int power)
     }
     return factors;
 }
-/// Assumed share of a connection in the choice among those to the pilot's light paths, for paths
-/// that no connection found: fitted to renders of the project's scenes.
-constexpr double usual_choice_share = 0.2;
 
 constexpr Factors first = numbers(1);
 constexpr Factors second = numbers(2);
@@ -56,9 +53,9 @@ PathShares::PathShares(const PathContribution& path, Heuristic heuristic, double
     const float found = path.shares[static_cast<std::size_t>(path.strategy.s)];
     used_share_ = static_cast<double>(found) / samples[used_];
     mean_ = luminance(path.unweighted) * (path.merged ? path.weight : found);
-    choice_share_ = used_ == connections && !path.merged
-                        ? static_cast<double>(path.chance) / pilot_rays
-                        : usual_choice_share;
+    if (used_ == connections && !path.merged) {
+        choice_share_ = static_cast<double>(path.chance) / pilot_rays;
+    }
     const int vertices = static_cast<int>(path.shares.size()) - 1;
     float of_light = 0.0f;
     for (int s = 0; s <= vertices; ++s) {
@@ -144,7 +141,7 @@ PathShares::SecondMoments PathShares::second_moments() const
         // Chosen with a chance below 1, a contribution is divided by it.
         const double chance = candidates[k].connection_rays * choice_share_ * pilot_connections /
                               std::max(1.0, candidates[k].connections);
-        const bool rare = candidates[k].connection_rays > 0.0 && chance < 1.0;
+        const bool rare = chance > 0.0 && chance < 1.0;
         result.choice[k] = rare ? result.connections[k] * (1.0 / chance - 1.0) : 0.0;
     }
     return result;

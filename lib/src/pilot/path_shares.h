@@ -56,12 +56,16 @@ public:
         PerCandidate<double> own;          ///< s <= 1; infinite if the candidate has no such path
         PerCandidate<double> splats;       ///< t <= 1
         PerCandidate<double> connections;  ///< s, t >= 2, if all connections are made
-        PerCandidate<double> choice;       ///< what is added if the candidate chooses among them
+        /// What is added if the candidate chooses among them; 0 if no connection found the path.
+        PerCandidate<double> choice;
     };
     [[nodiscard]] SecondMoments second_moments() const;
     /// Returns the contribution of the candidate's strategies with s <= 1 when they find such a
     /// path: their part of the second moment over that of the mean [nit].
     [[nodiscard]] PerCandidate<double> own_values() const;
+    /// Returns whether a connection found the path, so that the pilot knows how often candidates
+    /// would choose it.
+    [[nodiscard]] bool choice_is_known() const { return choice_share_ > 0.0; }
 
 private:
     /// Strategies with the same number of samples: s <= 1; s >= 2 and t <= 1; s, t >= 2.
@@ -80,8 +84,8 @@ private:
     float splat_mean_ = 0.0f;
     double used_share_;
     /// Share of the connection that found the path in the choice among those to the pilot's light
-    /// paths; with more light paths it is smaller in proportion.
-    double choice_share_;
+    /// paths; with more light paths it is smaller in proportion. 0 if no connection found it.
+    double choice_share_ = 0.0;
     Group used_;
     Kind kind_;
     bool squares_;

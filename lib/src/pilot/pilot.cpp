@@ -110,13 +110,53 @@ double penalty(const PilotResult& pilot, std::size_t candidate, double error)
 {
     // The square root: usual renders show few of these paths, and long ones more.
     const double by_dots = std::sqrt(1.0 + pilot.dots[candidate] / error);
-    // What connections gain is often more than the pilot predicts. Candidates with more than one
-    // light path have a margin of their own: see `predict_errors`.
+    // What connections gain is often more than the pilot predicts.
     constexpr double margin_of_connections = 1.05;
     const Candidate& numbers = candidates[candidate];
     const bool splats_alone = numbers.light_paths > 0.0 && numbers.connections == 0.0;
     return by_dots * (splats_alone && numbers.light_paths <= 1.0 ? margin_of_connections : 1.0);
 }
+
+/// Returns whether the candidate is taken only for a gain that exceeds the noise of the prediction:
+/// the choice of connections is predicted less well than all of them, and more light paths take
+/// time from camera paths, whose rarest contributions no pilot finds.
+bool needs_sure_gain(const Candidate& candidate)
+{
+    return candidate.connection_rays > 0.0 || candidate.light_paths > 1.0;
+}
+
+/// A candidate's product of error and cost, by which it is judged.
+class Product {
+public:
+    Product(const PilotResult& pilot, std::size_t candidate)
+        : candidate_(candidate), covariances_(&pilot.covariances)
+    {
+        const double error = estimate_error(pilot, candidate);
+        per_error_ = penalty(pilot, candidate, error) * pilot.costs[candidate];
+        value_ = error * per_error_;
+    }
+
+    [[nodiscard]] std::size_t candidate() const { return candidate_; }
+    [[nodiscard]] bool operator<(const Product& other) const { return value_ < other.value_; }
+    /// Returns whether this product is less than another by more than two standard errors of the
+    /// difference.
+    [[nodiscard]] bool surely_less(const Product& other) const
+    {
+        const std::size_t a = candidate_;
+        const std::size_t b = other.candidate_;
+        const PerCandidate<PerCandidate<double>>& covariances = *covariances_;
+        const double variance = per_error_ * per_error_ * covariances[a][a] -
+                                2.0 * per_error_ * other.per_error_ * covariances[a][b] +
+                                other.per_error_ * other.per_error_ * covariances[b][b];
+        return value_ + 2.0 * std::sqrt(std::max(0.0, variance)) < other.value_;
+    }
+
+private:
+    std::size_t candidate_;
+    const PerCandidate<PerCandidate<double>>* covariances_;
+    double per_error_ = 0.0;
+    double value_ = 0.0;
+};
 
 bool fits(const RenderOptions& options, const PilotResult& pilot)
 {
@@ -183,6 +223,7 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
     const PilotBrightness brightness(contributions);
     PilotErrors errors = predict_errors(contributions, brightness);
     PilotResult result{.errors = errors.of_image,
+                       .covariances = errors.covariances,
                        .visible_lights = visible_light_errors(contributions, brightness, asked),
                        .dots = errors.sure_dots,
                        .costs = {},
@@ -213,18 +254,23 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
 
 RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
 {
-    std::optional<RenderOptions> best;
-    double least = 0.0;
+    std::optional<Product> usual;  // the least of those that need no sure gain
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const double error = estimate_error(pilot, k);
-        const double product = error * penalty(pilot, k, error) * pilot.costs[k];
-        RenderOptions options = with_candidate(asked, candidates[k]);
-        if ((!best || product < least) && fits(options, pilot)) {
-            best = std::move(options);
-            least = product;
+        const Product product(pilot, k);
+        if (!needs_sure_gain(candidates[k]) && (!usual || product < *usual) &&
+            fits(with_candidate(asked, candidates[k]), pilot)) {
+            usual = product;
         }
     }
-    return *best;
+    Product best = *usual;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const Product product(pilot, k);
+        if (needs_sure_gain(candidates[k]) && product < best && product.surely_less(*usual) &&
+            fits(with_candidate(asked, candidates[k]), pilot)) {
+            best = product;
+        }
+    }
+    return with_candidate(asked, candidates[best.candidate()]);
 }
 
 std::shared_ptr<const SampleRates> best_rates(const PilotResult& pilot, const RenderOptions& chosen)

@@ -20,9 +20,10 @@ class World;
 struct PilotResult {
     /// relMSE of one sample per pixel, excluding directly visible light.
     PerCandidate<double> errors{};
-    VisibleLightErrors visible_lights;  ///< errors of directly visible light
-    PerCandidate<double> dots{};        ///< `PilotErrors::sure_dots`, which `errors` excludes
-    PerCandidate<double> costs{};       ///< cost of a sample [ns on the machine of the cost model]
+    PerCandidate<PerCandidate<double>> covariances{};  ///< `PilotErrors::covariances`
+    VisibleLightErrors visible_lights;                 ///< errors of directly visible light
+    PerCandidate<double> dots{};   ///< `PilotErrors::sure_dots`, which `errors` excludes
+    PerCandidate<double> costs{};  ///< cost of a sample [ns on the machine of the cost model]
     /// Fraction of the light that no candidate finds, in [0, 1].
     double merging_alone = 0.0;
     bool light_is_rare = false;  ///< `PilotBrightness::light_is_rare`
@@ -41,7 +42,8 @@ struct PilotResult {
                                     const std::stop_token& abandon = {});
 
 /// Returns `options` with the integrator and the numbers that have the smallest error at equal cost
-/// in `pilot`, among those that fit into `light_path_memory`.
+/// in `pilot`, among those that fit into `light_path_memory`. Chosen connections, and more than one
+/// light path, are taken only for a gain that exceeds the noise of the prediction.
 [[nodiscard]] RenderOptions with_best(const PilotResult& pilot, const RenderOptions& options);
 
 /// Returns rates of samples for the options that with_best() returned; null if they gain too

@@ -250,12 +250,17 @@ TEST_CASE("connections that are chosen rarely vary more", "[pilot]")
     for (const double choice : sure.choice) {
         CHECK(choice == 0.0);
     }
-    // A path that was found otherwise stands for usual connections.
-    const auto other = PathShares(path_of(0), Heuristic::power, pilot_light_paths).second_moments();
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const double rays = candidates[k].connection_rays;
-        CHECK((other.choice[k] > 0.0) == (rays > 0.0 && rays < 20.0));
+    CHECK(PathShares(path, Heuristic::power, pilot_light_paths).choice_is_known());
+    // Of paths that were found otherwise, the choice is not known.
+    const PathShares other(path_of(0), Heuristic::power, pilot_light_paths);
+    CHECK_FALSE(other.choice_is_known());
+    const auto unknown = other.second_moments();
+    for (const double choice : unknown.choice) {
+        CHECK(choice == 0.0);
     }
+    PathContribution merged = path_of(2);
+    merged.merged = true;
+    CHECK_FALSE(PathShares(merged, Heuristic::power, pilot_light_paths).choice_is_known());
 }
 
 }  // namespace bdpt::test::path_shares_test

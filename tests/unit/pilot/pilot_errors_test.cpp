@@ -1,6 +1,7 @@
 #include "pilot/errors/pilot_errors.h"
 
 #include "catch.hpp"
+#include "pilot/errors/choice_noise.h"
 #include "pilot/errors/qmc_variance_factor.h"
 
 #include <algorithm>
@@ -86,6 +87,26 @@ private:
     std::vector<float> by_connections_{0.0f, 1e-4f, 0.9999f, 0.0f, 0.0f};
 };
 
+/// Each camera path finds two lights by connections: one that is chosen with a small chance, and
+/// one that always is. It also finds one by next-event estimation, which connections find as often.
+class ConnectedLights final : public Integrator {
+public:
+    static constexpr double small_chance = 0.05;  // of one connection, by one ray
+    RenderStats render_tile(const Tile& /*tile*/, SampleRange /*samples*/,
+                            const Films& films) const override
+    {
+        PathContribution path = path_of({.s = 2, .t = 2}, shares_);
+        films.on_path(path);
+        path.chance *= static_cast<float>(small_chance);
+        films.on_path(path);
+        films.on_path(path_of({.s = 1, .t = 3}, shares_));
+        return {};
+    }
+
+private:
+    std::vector<float> shares_{0.0f, 0.5f, 0.5f, 0.0f, 0.0f};
+};
+
 /// One of some camera paths finds a light by next-event estimation.
 class RareLight final : public Integrator {
 public:
@@ -130,14 +151,15 @@ std::size_t one_light_path()
     return static_cast<std::size_t>(found - candidates.begin());
 }
 
-/// Returns what is added to the error for the noise of choosing connections, or of more than one
-/// light path.
-double of_prediction(const PilotErrors& errors, std::size_t candidate)
+/// Returns the standard error of the prediction.
+double noise_of(const PilotErrors& errors, std::size_t candidate)
 {
-    return candidates[candidate].connection_rays > 0.0 ? 2.0 * errors.noise_with_dots[candidate]
-           : candidates[candidate].light_paths > 1.0   ? errors.noise[candidate]
-                                                       : 0.0;
+    return std::sqrt(errors.covariances[candidate][candidate]);
 }
+
+/// What the choice of connections adds for paths that no connection found, of which these have
+/// none.
+constexpr PerCandidate<double> no_choice{};
 
 PerCandidate<double> errors_with_glints(int count)
 {
@@ -160,7 +182,7 @@ TEST_CASE(
     const double scale = brightness.scale(0);
     REQUIRE(contributions.rows[0].joined().size() == 2);
     const RemainingErrors of_one_path =
-        remaining_errors(contributions.rows[0].joined()[0].shares, scale);
+        remaining_errors(contributions.rows[0].joined()[0].shares, scale, no_choice);
     // Sums of 2 L and of 0: the products of different paths of a sample are 2 L^2 and 0.
     const double variance_of_sums = static_cast<double>(radiance * radiance);
     const double left = left_of_sums[in_body  ? PathShares::in_body
@@ -170,9 +192,11 @@ TEST_CASE(
     const double unseen = 0.2 * (of_one_path.sum(one_light_path()) + of_sums);
     const PilotErrors errors = predict_errors(contributions, brightness);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        CHECK(errors.of_image[k] - unseen - of_prediction(errors, k) ==
-              Approx(of_one_path.sum(k) + of_sums));
-        CHECK(errors.noise_with_dots[k] == Approx(of_one_path.sum(k) / std::sqrt(2.0)));
+        CHECK(errors.of_image[k] - unseen == Approx(of_one_path.sum(k) + of_sums));
+        for (std::size_t j = 0; j < candidates.size(); ++j) {
+            CHECK(errors.covariances[k][j] ==
+                  Approx(of_one_path.sum(k) * of_one_path.sum(j) / 2.0));
+        }
         // The only cell is the image.
         CHECK(errors.of_cells.camera[0][k] == Approx(of_one_path.camera[k] + of_sums));
         CHECK(errors.of_cells.splats[k] == Approx(of_one_path.splats[k]));
@@ -183,7 +207,7 @@ TEST_CASE("errors of cells are apart from those of splats, which rates do not ch
 {
     const PilotContributions contributions = contributions_of(SplattedLight(), PilotGrid(200, 100));
     const PilotErrors errors = predict_errors(contributions, PilotBrightness(contributions));
-    const double unseen = 2.0 * errors.noise_with_dots[one_light_path()];
+    const double unseen = 2.0 * noise_of(errors, one_light_path());
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         CAPTURE(k);
         double camera = 0.0;
@@ -191,7 +215,7 @@ TEST_CASE("errors of cells are apart from those of splats, which rates do not ch
             camera += cell[k] / static_cast<double>(errors.of_cells.camera.size());
         }
         CHECK((errors.of_cells.splats[k] > 0.0) == (candidates[k].light_paths > 0.0));
-        CHECK(errors.of_image[k] - unseen - of_prediction(errors, k) ==
+        CHECK(errors.of_image[k] - unseen ==
               Approx(camera + errors.of_cells.splats[k]).margin(1e-5));
     }
 }
@@ -206,7 +230,7 @@ TEST_CASE("rare paths are expected where the error of the paths found is noisy",
             left_of_sums[PathShares::indirect] * static_cast<double>(radiance * radiance);
         const double scale = brightness.scale(0);
         const RemainingErrors of_one_path =
-            remaining_errors(contributions.rows[0].joined()[0].shares, scale);
+            remaining_errors(contributions.rows[0].joined()[0].shares, scale, no_choice);
         const double found = of_one_path.sum(one_light_path()) + left * scale;
         return predict_errors(contributions, brightness).of_image[one_light_path()] / found - 1.0;
     };
@@ -228,10 +252,35 @@ TEST_CASE("where light is rare in the whole image, nothing is added for noise of
         for (const PerCandidate<double>& cell : errors.of_cells.camera) {
             camera += cell[k] / static_cast<double>(errors.of_cells.camera.size());
         }
-        const double of_light_paths = candidates[k].light_paths > 1.0 ? errors.noise[k] : 0.0;
-        CHECK(errors.of_image[k] == Approx(camera - errors.of_cells.dots[k] + of_light_paths));
+        CHECK(errors.of_image[k] == Approx(camera - errors.of_cells.dots[k]));
     }
     CHECK_FALSE(prediction_with_glints(20).light_is_rare);
+}
+
+TEST_CASE("what the choice of connections adds is measured where connections find paths", "[pilot]")
+{
+    const PilotContributions contributions = contributions_of(ConnectedLights(), PilotGrid(8, 8));
+    const PilotBrightness brightness(contributions);
+    const PerCandidate<double> choice = measure_choice(contributions, brightness);
+    const std::vector<PilotContribution>& joined = contributions.rows[0].joined();
+    REQUIRE(joined.size() >= 3);
+    const double scale = brightness.scale(joined[2].cell);
+    REQUIRE_FALSE(joined[2].shares.choice_is_known());
+    const RemainingErrors with_choice = remaining_errors(joined[2].shares, scale, choice);
+    const RemainingErrors without = remaining_errors(joined[2].shares, scale, no_choice);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const Candidate& numbers = candidates[k];
+        CAPTURE(numbers.light_paths, numbers.connections, numbers.connection_rays);
+        const double chance = ConnectedLights::small_chance * numbers.connection_rays *
+                              PathShares::pilot_connections / std::max(1.0, numbers.connections);
+        const bool chooses = numbers.connection_rays > 0.0;
+        // One of two equal connections is chosen so rarely.
+        CHECK(choice[k] == Approx(chooses ? 0.5 * (1.0 / chance - 1.0) : 0.0));
+        CHECK((with_choice.camera[k] > without.camera[k]) == chooses);
+        // Of paths that a connection found, the own chance counts.
+        CHECK(remaining_errors(joined[0].shares, scale, choice).camera[k] ==
+              remaining_errors(joined[0].shares, scale, no_choice).camera[k]);
+    }
 }
 
 TEST_CASE(
@@ -245,8 +294,8 @@ TEST_CASE(
     const PathShares inside(contribution, Heuristic::power, 1.0);
     constexpr double scale = 0.01;
     const PathShares::SecondMoments moments = inside.second_moments();
-    const RemainingErrors in_body = remaining_errors(inside, scale);
-    const RemainingErrors elsewhere = remaining_errors(outside, scale);
+    const RemainingErrors in_body = remaining_errors(inside, scale, no_choice);
+    const RemainingErrors elsewhere = remaining_errors(outside, scale, no_choice);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         if (candidates[k].connection_rays == 0.0) {
             CHECK(in_body.camera[k] == Approx(scale * (moments.own[k] + moments.connections[k])));
@@ -268,7 +317,7 @@ TEST_CASE("a path that a usual render hardly finds does not count, but many of t
     const PilotErrors of_one = prediction_with_glints(1);
     CHECK(of_one.of_cells.dots[0] > 10.0 * none[0]);
     CHECK(of_one.of_cells.dots[0] < many[0]);
-    CHECK(of_one.noise_with_dots[0] > 10.0 * of_one.noise[0]);
+    CHECK(noise_of(of_one, 0) > 10.0 * noise_of(prediction_with_glints(0), 0));
     CHECK(prediction_with_glints(0).of_cells.dots[0] < 0.1 * none[0]);
     // One may be chance, several are not.
     CHECK(of_one.sure_dots[0] == 0.0);

@@ -324,6 +324,39 @@ TEST_CASE("connections are chosen where that has the least product of error and 
     CHECK(best.bidirectional.connection_rays == 8.0);
 }
 
+TEST_CASE("some candidates are taken only for a gain that exceeds the noise of the prediction",
+          "[pilot]")
+{
+    const std::size_t usual = index_of(0.0625, 1.0);
+    const std::size_t other = GENERATE_COPY(index_of(0.0625, 8.0, 8.0), index_of(2.0, 0.0));
+    PilotResult pilot = equal_candidates();
+    pilot.errors[usual] = 0.1;
+    pilot.errors[other] = 0.09;
+    const auto takes_other = [&] {
+        return with_best(pilot, small()).bidirectional.connections != candidates[usual].connections;
+    };
+    CHECK(takes_other());
+    // The gain is 0.01, the standard error of either prediction 0.006, that of the difference is
+    // smaller where they are correlated.
+    constexpr double variance = 0.006 * 0.006;
+    pilot.covariances[usual][usual] = variance;
+    pilot.covariances[other][other] = variance;
+    CHECK_FALSE(takes_other());
+    pilot.covariances[usual][other] = 0.7 * variance;
+    pilot.covariances[other][usual] = 0.7 * variance;
+    CHECK(takes_other());
+    // Costs multiply both: that of the other candidate alone makes the difference less certain.
+    pilot.errors[other] = 0.03;
+    pilot.covariances[usual][other] = variance;
+    pilot.covariances[other][usual] = variance;
+    CHECK(takes_other());
+    pilot.costs[other] *= 3.0;
+    CHECK_FALSE(takes_other());
+    // Others need no sure gain.
+    pilot.errors[index_of(0.25, 1.0)] = 0.099;
+    CHECK(with_best(pilot, small()).bidirectional.light_paths == 0.25);
+}
+
 TEST_CASE("light paths without connections are chosen where they are clearly better", "[pilot]")
 {
     struct Case {
@@ -331,7 +364,7 @@ TEST_CASE("light paths without connections are chosen where they are clearly bet
         double not_enough;  // error where one with connections has 0.1
         double better;
     };
-    // Up to one light path has to be better by 5 %; more have that margin in their error.
+    // Up to one light path has to be better by 5 %; more by the noise of the prediction.
     const auto [light_paths, not_enough, better] = GENERATE(values<Case>(
         {{0.0625, 0.098, 0.09}, {0.5, 0.098, 0.09}, {2.0, 0.101, 0.099}, {4.0, 0.101, 0.099}}));
     PilotResult pilot = equal_candidates();

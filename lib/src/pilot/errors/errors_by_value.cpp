@@ -4,21 +4,10 @@
 #include <cmath>
 
 namespace bdpt {
-namespace {
-
-void accumulate(ErrorsByValue::Sums& to, const ErrorsByValue::Sums& sums, double factor = 1.0)
-{
-    to.errors += factor * sums.errors;
-    to.squares += factor * sums.squares;
-}
-
-}  // namespace
-
 void ErrorsByValue::add(double value, double number, double error) noexcept
 {
-    const Sums sums{.errors = error, .squares = error * error};
     if (!(number > 0.0)) {
-        accumulate(never_found_, sums);
+        never_found_ += error;
         return;
     }
     const int last = static_cast<int>(octaves_.size()) - 1;
@@ -27,7 +16,7 @@ void ErrorsByValue::add(double value, double number, double error) noexcept
     Octave& octave = octaves_[static_cast<std::size_t>(exponent - least_exponent)];
     octave.number += number;
     octave.light += number * value;
-    accumulate(octave.sums, sums);
+    octave.errors += error;
 }
 
 void ErrorsByValue::add(const ErrorsByValue& other) noexcept
@@ -35,14 +24,14 @@ void ErrorsByValue::add(const ErrorsByValue& other) noexcept
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
         octaves_[i].number += other.octaves_[i].number;
         octaves_[i].light += other.octaves_[i].light;
-        accumulate(octaves_[i].sums, other.octaves_[i].sums);
+        octaves_[i].errors += other.octaves_[i].errors;
     }
-    accumulate(never_found_, other.never_found_);
+    never_found_ += other.never_found_;
 }
 
-ErrorsByValue::Sums ErrorsByValue::without_brightest(double number, double light) const noexcept
+double ErrorsByValue::without_brightest(double number, double light) const noexcept
 {
-    Sums result = never_found_;
+    double errors = never_found_;
     double excluded = 1.0;  // fraction of the octave
     for (std::size_t i = octaves_.size(); i-- > 0;) {
         const Octave& octave = octaves_[i];
@@ -54,9 +43,9 @@ ErrorsByValue::Sums ErrorsByValue::without_brightest(double number, double light
             excluded < 1.0 ? 0.0 : std::min({1.0, number / octave.number, light / octave.light});
         number -= excluded * octave.number;
         light -= excluded * octave.light;
-        accumulate(result, octave.sums, 1.0 - excluded);
+        errors += (1.0 - excluded) * octave.errors;
     }
-    return result;
+    return errors;
 }
 
 }  // namespace bdpt

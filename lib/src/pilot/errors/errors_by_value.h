@@ -10,33 +10,27 @@ namespace bdpt {
 /// errors exceed those of all others. The error of a candidate excludes them, up to a limit.
 class ErrorsByValue {
 public:
-    /// Sums over paths.
-    struct Sums {
-        double errors = 0.0;
-        double squares = 0.0;  ///< of the errors of single paths
-    };
-
     /// Adds paths that a usual render finds `number` times, which bring `value` each, and whose
     /// relMSE is `error`. If `number` is 0, the candidate cannot find them, and `error` always
     /// counts.
     void add(double value, double number, double error) noexcept;
     void add(const ErrorsByValue& other) noexcept;
 
-    /// Returns the sums of all errors but those of the brightest paths: at most `number`, whose
+    /// Returns the sum of all errors but those of the brightest paths: at most `number`, whose
     /// values add up to at most `light`.
-    [[nodiscard]] Sums without_brightest(double number, double light) const noexcept;
+    [[nodiscard]] double without_brightest(double number, double light) const noexcept;
 
 private:
     /// Paths whose values have the same power of two.
     struct Octave {
         double number = 0.0;
         double light = 0.0;
-        Sums sums;
+        double errors = 0.0;
     };
     static constexpr int least_exponent = -16;
 
     std::array<Octave, 64> octaves_{};
-    Sums never_found_;
+    double never_found_ = 0.0;  ///< sum of errors
 };
 
 }  // namespace bdpt

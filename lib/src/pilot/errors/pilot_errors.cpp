@@ -2,6 +2,7 @@
 
 #include "geometry/flush_denormals.h"
 #include "pilot/cost_model.h"
+#include "pilot/errors/choice_noise.h"
 #include "pilot/errors/errors_by_value.h"
 #include "pilot/errors/merged_paths.h"
 #include "pilot/errors/qmc_variance_factor.h"
@@ -29,23 +30,36 @@ constexpr double margin_of_dots = 1.25;
 /// few boxes of the BVH.
 constexpr double cost_of_background = 0.5;
 
+void add_scaled(PerCandidate<double>& to, const PerCandidate<double>& errors, double factor)
+{
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        to[k] += errors[k] * factor;
+    }
+}
+
 /// Errors of a part of a pilot's contributions.
 struct PartOfErrors {
     PerCandidate<ErrorsByValue> of_paths{};
     PerCandidate<double> of_sums{};  ///< of the products of different paths of a sample
     PerCandidate<double> of_splats{};
+    PerCandidate<PerCandidate<double>> covariances{};
 
     /// Adds the path, one of the pilot's `paths` per image of `pixels` pixels. Returns its errors.
-    RemainingErrors add(const PathShares& path, double scale, double pixels, double paths)
+    RemainingErrors add(const PathShares& path, double scale, const PerCandidate<double>& choice,
+                        double pixels, double paths)
     {
-        const RemainingErrors errors = remaining_errors(path, scale);
+        const RemainingErrors errors = remaining_errors(path, scale, choice);
         const PerCandidate<double> numbers = path.numbers();
         const double relative = path.mean() * std::sqrt(scale);
+        PerCandidate<double> of_path;
         for (std::size_t k = 0; k < candidates.size(); ++k) {
-            const double error = errors.sum(k) / paths;
+            of_path[k] = errors.sum(k) / paths;
             of_paths[k].add(relative / numbers[k], usual_samples * pixels / paths * numbers[k],
-                            error);
+                            of_path[k]);
             of_splats[k] += errors.splats[k] / paths;
+        }
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            add_scaled(covariances[k], of_path, of_path[k]);
         }
         return errors;
     }
@@ -55,6 +69,7 @@ struct PartOfErrors {
             of_paths[k].add(other.of_paths[k]);
             of_sums[k] += other.of_sums[k];
             of_splats[k] += other.of_splats[k];
+            add_scaled(covariances[k], other.covariances[k], 1.0);
         }
     }
 };
@@ -65,25 +80,19 @@ struct CellError {
     PerCandidate<double> camera;
 };
 
-void add(PerCandidate<double>& to, const PerCandidate<double>& errors, double factor)
-{
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        to[k] += errors[k] * factor;
-    }
-}
-
 /// Returns the errors of a row of the grid, and writes those of its cells.
 PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
                             const PilotContributions& contributions,
-                            const PilotBrightness& brightness, CellErrors& of_cells)
+                            const PilotBrightness& brightness, const PerCandidate<double>& choice,
+                            CellErrors& of_cells)
 {
     constexpr int samples = PilotRow::samples_of_cell;
     PartOfErrors errors;
     for (const PilotContribution& path : row.joined()) {
         const RemainingErrors of_path =
-            errors.add(path.shares, brightness.scale(path.cell), contributions.grid.pixels(),
-                       contributions.camera_paths());
-        add(of_cells.camera[path.cell], of_path.camera, 1.0 / samples);
+            errors.add(path.shares, brightness.scale(path.cell), choice,
+                       contributions.grid.pixels(), contributions.camera_paths());
+        add_scaled(of_cells.camera[path.cell], of_path.camera, 1.0 / samples);
     }
     const auto cells = static_cast<double>(contributions.grid.cells());
     for (std::size_t i = 0; i < row.cells().size(); ++i) {
@@ -113,12 +122,13 @@ PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
 /// Returns the errors of splats, and adds those of cells to `of_cells`: what a splat says about
 /// camera paths that are rare there.
 PartOfErrors compute_errors(const PilotSplats& part, const PilotContributions& contributions,
-                            const PilotBrightness& brightness, std::vector<CellError>& of_cells)
+                            const PilotBrightness& brightness, const PerCandidate<double>& choice,
+                            std::vector<CellError>& of_cells)
 {
     PartOfErrors errors;
     for (const PilotContribution& splat : part.contributions()) {
         const RemainingErrors of_splat =
-            errors.add(splat.shares, brightness.scale(splat), contributions.grid.pixels(),
+            errors.add(splat.shares, brightness.scale(splat), choice, contributions.grid.pixels(),
                        contributions.splatted_pixels());
         of_cells.push_back({.cell = splat.cell, .camera = of_splat.camera});
     }
@@ -134,45 +144,45 @@ PilotErrors compute_errors(const PilotContributions& contributions,
     CellErrors of_cells{.camera = std::vector<PerCandidate<double>>(grid.cells()),
                         .costs = std::vector<PerCandidate<double>>(grid.cells()),
                         .scattering = std::vector<double>(grid.cells())};
+    const PerCandidate<double> choice = measure_choice(contributions, brightness);
     std::vector<PartOfErrors> parts(rows + contributions.parts.size());
     std::vector<std::vector<CellError>> of_splats(contributions.parts.size());
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
         const FlushDenormals flush;
         parts[i] = i < rows
                        ? compute_errors(contributions.rows[i], grid.index(0, static_cast<int>(i)),
-                                        contributions, brightness, of_cells)
+                                        contributions, brightness, choice, of_cells)
                        : compute_errors(contributions.parts[i - rows], contributions, brightness,
-                                        of_splats[i - rows]);
+                                        choice, of_splats[i - rows]);
     });
     PartOfErrors all;
     const auto cells = static_cast<double>(grid.cells());
     for (const PilotContribution* path : findable_merged_paths(contributions, brightness)) {
-        const RemainingErrors of_path = all.add(path->shares, brightness.scale(path->cell),
+        const RemainingErrors of_path = all.add(path->shares, brightness.scale(path->cell), choice,
                                                 grid.pixels(), contributions.camera_paths());
-        add(of_cells.camera[path->cell], of_path.camera, cells / contributions.camera_paths());
+        add_scaled(of_cells.camera[path->cell], of_path.camera,
+                   cells / contributions.camera_paths());
     }
     for (const PartOfErrors& part : parts) {
         all.add(part);
     }
     for (const std::vector<CellError>& part : of_splats) {
         for (const CellError& error : part) {
-            add(of_cells.camera[error.cell], error.camera, cells / contributions.splatted_pixels());
+            add_scaled(of_cells.camera[error.cell], error.camera,
+                       cells / contributions.splatted_pixels());
         }
     }
     of_cells.splats = all.of_splats;
-    PilotErrors errors{.of_cells = std::move(of_cells)};
+    PilotErrors errors{.covariances = all.covariances, .of_cells = std::move(of_cells)};
     const double dots = max_dots * grid.pixels();
     const double light = max_light_of_dots * usual_samples * grid.pixels();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const ErrorsByValue::Sums usual = all.of_paths[k].without_brightest(dots, light);
-        const ErrorsByValue::Sums with_dots = all.of_paths[k].without_brightest(0.0, 0.0);
-        errors.of_image[k] = usual.errors + all.of_sums[k];
-        errors.noise[k] = std::sqrt(usual.squares);
-        errors.noise_with_dots[k] = std::sqrt(with_dots.squares);
-        const double dots_of_all = with_dots.errors - usual.errors;
+        const double usual = all.of_paths[k].without_brightest(dots, light);
+        const double dots_of_all = all.of_paths[k].without_brightest(0.0, 0.0) - usual;
+        errors.of_image[k] = usual + all.of_sums[k];
         errors.of_cells.dots[k] = dots_of_all;
         errors.sure_dots[k] =
-            std::max(0.0, dots_of_all - margin_of_dots * errors.noise_with_dots[k]);
+            std::max(0.0, dots_of_all - margin_of_dots * std::sqrt(all.covariances[k][k]));
     }
     return errors;
 }
@@ -185,32 +195,10 @@ void add_unseen(PilotErrors& errors)
     constexpr double most = 0.2;  // fraction of the error with one light path per camera path
     const auto found = std::find(candidates.begin(), candidates.end(), Candidate{1.0, 1.0});
     const auto one = static_cast<std::size_t>(found - candidates.begin());
-    const double unseen = std::min(most * errors.of_image[one], 2.0 * errors.noise_with_dots[one]);
+    const double unseen =
+        std::min(most * errors.of_image[one], 2.0 * std::sqrt(errors.covariances[one][one]));
     for (double& error : errors.of_image) {
         error += unseen;
-    }
-}
-
-/// Candidates that choose connections are taken only for a gain that exceeds the noise of the
-/// prediction, as the noise of the choice is predicted less well where BSDFs are glossy.
-void add_noise_of_choice(PilotErrors& errors)
-{
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        if (candidates[k].connection_rays > 0.0) {
-            errors.of_image[k] += 2.0 * errors.noise_with_dots[k];
-        }
-    }
-}
-
-/// Candidates with more than one light path are taken only for a gain of at least one standard
-/// error of the prediction: they take time from camera paths, whose rarest contributions no pilot
-/// finds.
-void add_noise_of_light_paths(PilotErrors& errors)
-{
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        if (candidates[k].light_paths > 1.0) {
-            errors.of_image[k] += errors.noise[k];
-        }
     }
 }
 
@@ -221,13 +209,10 @@ PilotErrors predict_errors(const PilotContributions& contributions,
 {
     PilotErrors errors = compute_errors(contributions, brightness);
     errors.light_is_rare = brightness.light_is_rare();
-    // Where light is rare in the whole image, the pilot's errors consist of rare paths already, and
-    // the noise of the prediction is nearly the same for all candidates.
+    // Where light is rare in the whole image, the pilot's errors consist of rare paths already.
     if (!errors.light_is_rare) {
         add_unseen(errors);
-        add_noise_of_choice(errors);
     }
-    add_noise_of_light_paths(errors);
     return errors;
 }
 

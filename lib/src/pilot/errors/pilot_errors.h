@@ -25,9 +25,10 @@ struct CellErrors {
 
 /// Errors excluding directly visible light.
 struct PilotErrors {
-    PerCandidate<double> of_image{};         ///< relMSE of one sample per pixel
-    PerCandidate<double> noise{};            ///< standard error of that, as far as paths show it
-    PerCandidate<double> noise_with_dots{};  ///< likewise with the rare bright paths
+    PerCandidate<double> of_image{};  ///< relMSE of one sample per pixel
+    /// Covariances of the predictions for two candidates, as far as the paths show them, with the
+    /// rare bright ones: the same paths predict both errors.
+    PerCandidate<PerCandidate<double>> covariances{};
     /// relMSE of excluded rare bright paths as far as the pilot is sure of it.
     PerCandidate<double> sure_dots{};
     CellErrors of_cells;

@@ -14,7 +14,7 @@ namespace {
 // dimensions and peaks.
 constexpr double left_of_direct = 0.25;
 constexpr double left_of_connections = 0.3;
-constexpr double left_of_choice = 0.3;  // of what the choice of connections adds
+constexpr double left_of_choice = 0.2;  // of what the choice of connections adds
 
 /// Returns the remaining fraction for paths that camera paths find alone: 1 for rare paths, as a
 /// single sample is not stratified. `value` is the path's contribution relative to the local
@@ -46,7 +46,8 @@ PerCandidate<double> left_by_more_connections()
 
 }  // namespace
 
-RemainingErrors remaining_errors(const PathShares& shares, double scale)
+RemainingErrors remaining_errors(const PathShares& shares, double scale,
+                                 const PerCandidate<double>& choice)
 {
     RemainingErrors result;
     if (shares.kind() == PathShares::seen) {
@@ -60,8 +61,10 @@ RemainingErrors remaining_errors(const PathShares& shares, double scale)
         const double own = left_of_own(shares, values[k] * per_brightness);
         const double connections =
             shares.kind() == PathShares::in_body ? 1.0 : left_of_connections * of_connections[k];
+        const double of_choice =
+            shares.choice_is_known() ? moments.choice[k] : choice[k] * moments.connections[k];
         result.camera[k] = scale * (own * moments.own[k] + connections * moments.connections[k] +
-                                    left_of_choice * moments.choice[k]);
+                                    left_of_choice * of_choice);
         result.splats[k] = scale * moments.splats[k];
     }
     return result;

@@ -18,8 +18,10 @@ struct RemainingErrors {
     }
 };
 
-/// `scale` is the factor of squared errors in relMSE [1/nit^2].
-[[nodiscard]] RemainingErrors remaining_errors(const PathShares& shares, double scale);
+/// `scale` is the factor of squared errors in relMSE [1/nit^2]. `choice` is what the choice of
+/// connections adds for paths that no connection found: see `measure_choice`.
+[[nodiscard]] RemainingErrors remaining_errors(const PathShares& shares, double scale,
+                                               const PerCandidate<double>& choice);
 
 /// Remaining fractions of the variances of sums of paths of each kind.
 inline constexpr std::array<double, PathShares::scattering_kinds> left_of_sums{0.25, 0.4, 1.0};

@@ -4,7 +4,6 @@
 The scenes and the folder MODELS are those of real_scenes.py, the columns those of hand_table.py. Needs numpy."""
 
 import pathlib
-import re
 import sys
 import tempfile
 
@@ -24,8 +23,7 @@ def main():
         mixed_light_scenes.write(made)
         hand_table.compare_scenes(
             [(name, (path, *options, "--max-depth", "8"))
-             for name, path, options in real_scenes.find_scenes(arguments.models, pathlib.Path(made))
-             if re.search(arguments.only, name)], arguments)
+             for name, path, options in real_scenes.find_scenes(arguments, pathlib.Path(made))], arguments)
     return 0
 
 

@@ -116,19 +116,18 @@ def main():
     return 0
 
 
-def find_scenes(models, made):
-    """Yields name, file and list of options of each scene that is in the folder of models, of made scenes, or in
-    scenes/."""
+def find_scenes(arguments, made):
+    """Yields name, file and list of options of each scene of --only that is in the folder of models, of made scenes, or
+    in scenes/."""
+    models = arguments.models
     for name, file, options in SCENES:
         path = next((p for p in (models / file, made / file, ROOT / "scenes" / file) if p.exists()), None)
-        if path is not None:
+        if path is not None and re.search(arguments.only, name):
             yield name, path, shlex.split(options.format(hdr=models / "hdr"))
 
 
 def measure_all(arguments, made, products):
-    for name, path, options in find_scenes(arguments.models, made):
-        if not re.search(arguments.only, name):
-            continue
+    for name, path, options in find_scenes(arguments, made):
         seconds, images, reference = measure((path, *options), arguments)
         errors = [compute_trimmed_error(each, reference) for each in images]
         times = [min(each) for each in seconds]

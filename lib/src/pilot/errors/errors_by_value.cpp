@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace bdpt {
+
 void ErrorsByValue::add(double value, double number, double error) noexcept
 {
     if (!(number > 0.0)) {

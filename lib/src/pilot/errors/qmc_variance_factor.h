@@ -18,8 +18,8 @@ struct RemainingErrors {
     }
 };
 
-/// `scale` is the factor of squared errors in relMSE [1/nit^2]. `choice` is what the choice of
-/// connections adds for paths that no connection found: see `measure_choice`.
+/// `scale` is the factor of squared errors in relMSE [1/nit^2]. `choice` is the ratio of
+/// `measure_choice`, which is used for paths that no connection found.
 [[nodiscard]] RemainingErrors remaining_errors(const PathShares& shares, double scale,
                                                const PerCandidate<double>& choice);
 

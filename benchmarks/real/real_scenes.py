@@ -6,11 +6,14 @@ ShaderBall_materialx, hdr/...). Renders those that are present, each under the e
 scenes of mixed_light_scenes.py and of scenes/. A way is a list of additional options of `bdpt render`, for example
 `--way "--integrator mis"`; `PROGRAM: OPTIONS` runs another program than --bdpt. Prints for each scene and way: squared
 relative error without the worst 0.1 % of pixels, CPU time of one thread without loading, and their product, each over
-that of the first way. Errors come from the spread between seeds. They are relative to an independent reference, because
+that of the first way; below that, for every way, CPU time of a camera path, seconds from the start to the end of the
+first sample, and peak memory. Errors come from the spread between seeds. They are relative to an independent reference, because
 a way's own noise in the divisor would favour the noisier way. Ways take turns. Needs numpy."""
 
 import argparse
+import json
 import math
+import os
 import pathlib
 import re
 import resource
@@ -57,19 +60,38 @@ def child_seconds():
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
 
 
-def render(way, scene, image, arguments, *options):
-    """Renders the scene; returns CPU seconds."""
+def render_command(way, scene, image, arguments, *options):
     program, sep, own = way.partition(":")
     program, own = (program, own) if sep else (arguments.bdpt, way)
+    return [program, "render", *scene, "--size", arguments.size, "--max-depth", str(arguments.max_depth), "-o", image,
+            "--quiet", "--threads", "1", *shlex.split(own), *options]
+
+
+def render(way, scene, image, arguments, *options):
+    """Renders the scene; returns CPU seconds."""
     before = child_seconds()
-    subprocess.run([program, "render", *scene, "--size", arguments.size, "--max-depth",
-                    str(arguments.max_depth), "-o", image, "--quiet", "--threads", "1", *shlex.split(own), *options],
-                   check=True)
+    subprocess.run(render_command(way, scene, image, arguments, *options), check=True)
     return child_seconds() - before
 
 
+def measure_start(way, scene, image, arguments):
+    """Renders the scene; returns seconds from the start to the end of the first sample, and peak memory in MiB."""
+    command = render_command(way, scene, image, arguments, "--spp", str(arguments.spp), "--stats", "-")
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        told = process.stdout.read()
+        _, status, usage = os.wait4(process.pid, 0)  # getrusage() has the peak of all children
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        raise subprocess.CalledProcessError(process.returncode, command)
+    stats = json.loads(told)
+    seconds = stats["seconds"]
+    first = sum(seconds.get(step, 0) for step in ("load", "build", "choose")) + seconds["render"] / stats["samples"]
+    return first, usage.ru_maxrss / 1024
+
+
 def measure(scene, arguments):
-    """Returns for each way the CPU seconds of each seed, without loading, and the images; and the reference."""
+    """Returns for each way the CPU seconds of each seed, without loading, the images, and the result of
+    measure_start(); and the reference."""
     seconds, images = ([[] for _ in arguments.way] for _ in range(2))
     with tempfile.TemporaryDirectory() as folder:
         image = pathlib.Path(folder) / "image.exr"
@@ -83,7 +105,8 @@ def measure(scene, arguments):
                 time = render(way, scene, image, arguments, "--spp", str(arguments.spp), "--seed", str(seed))
                 seconds[k].append(max(time - load, 1e-6))
                 images[k].append(seed_errors.pixels(image))
-    return seconds, [np.stack(each) for each in images], reference
+        starts = [measure_start(way, scene, image, arguments) for way in arguments.way]
+    return seconds, [np.stack(each) for each in images], starts, reference
 
 
 def compute_trimmed_error(images, reference):
@@ -128,7 +151,7 @@ def find_scenes(arguments, made):
 
 def measure_all(arguments, made, products):
     for name, path, options in find_scenes(arguments, made):
-        seconds, images, reference = measure((path, *options), arguments)
+        seconds, images, starts, reference = measure((path, *options), arguments)
         errors = [compute_trimmed_error(each, reference) for each in images]
         times = [min(each) for each in seconds]
         row = ""
@@ -137,7 +160,10 @@ def measure_all(arguments, made, products):
             products[k - 1].append(error * time)
             row += f"{error:8.3f}{time:7.2f}{error * time:9.3f}"
         means = " ".join(f"{each.mean() / reference.mean():.4f}" for each in images)
-        print(f"{name:26}{row}   {means}", flush=True)
+        print(f"{name:26}{row}   {means}")
+        paths = reference.shape[0] * reference.shape[1] * arguments.spp
+        print(f"{'':26}" + ";".join(f"{time / paths * 1e6:7.2f} us {first:6.2f} s {memory:5.0f} MiB"
+                                     for time, (first, memory) in zip(times, starts)), flush=True)
 
 
 if __name__ == "__main__":

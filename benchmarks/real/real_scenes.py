@@ -7,8 +7,8 @@ scenes of mixed_light_scenes.py and of scenes/. A way is a list of additional op
 `--way "--integrator mis"`; `PROGRAM: OPTIONS` runs another program than --bdpt. Prints for each scene and way: squared
 relative error without the worst 0.1 % of pixels, CPU time of one thread without loading, and their product, each over
 that of the first way; below that, for every way, CPU time of a camera path, seconds from the start to the end of the
-first sample, and peak memory. Errors come from the spread between seeds. They are relative to an independent reference, because
-a way's own noise in the divisor would favour the noisier way. Ways take turns. Needs numpy."""
+first sample, and peak memory. Errors come from the spread between seeds. They are relative to an independent reference,
+because a way's own noise in the divisor would favour the noisier way. Ways take turns. Needs numpy."""
 
 import argparse
 import json
@@ -79,7 +79,7 @@ def measure_start(way, scene, image, arguments):
     command = render_command(way, scene, image, arguments, "--spp", str(arguments.spp), "--stats", "-")
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         told = process.stdout.read()
-        _, status, usage = os.wait4(process.pid, 0)  # getrusage() has the peak of all children
+        _, status, usage = os.wait4(process.pid, 0)  # getrusage() gives the peak of all children
         process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
         raise subprocess.CalledProcessError(process.returncode, command)
@@ -90,8 +90,8 @@ def measure_start(way, scene, image, arguments):
 
 
 def measure(scene, arguments):
-    """Returns for each way the CPU seconds of each seed, without loading, the images, and the result of
-    measure_start(); and the reference."""
+    """Returns lists with an entry for each way: CPU seconds of each seed without loading, images, results of
+    measure_start(). Returns the reference, too."""
     seconds, images = ([[] for _ in arguments.way] for _ in range(2))
     with tempfile.TemporaryDirectory() as folder:
         image = pathlib.Path(folder) / "image.exr"

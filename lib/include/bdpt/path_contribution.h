@@ -33,8 +33,8 @@ struct PathContribution {
     /// Contribution if this were the only strategy, divided by its number of samples [nit].
     Rgb unweighted{0.0f};
     float weight = 1.0f;  ///< MIS weight
-    /// Expected number of times that this connection is chosen; 1 for all paths but connections
-    /// with `BidirectionalOptions::connection_rays`.
+    /// Expected number of times that this connection or merge is chosen; 1 for all paths but
+    /// connections with `BidirectionalOptions::connection_rays` and merges with `max_merges`.
     float chance = 1.0f;
     /// True if the path scatters within a body, such as wax or skin; provided where `shares` are.
     bool scatters_in_body = false;

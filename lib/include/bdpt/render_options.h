@@ -164,7 +164,7 @@ struct TransportOptions {
 /// Subpaths and strategies of bdpt, lt and vcm; `automatic` chooses light_paths and connections
 /// itself. Ranges: light_paths [0, 4096] (lt, vcm: above 0), connections [0, 4096] (0 without light
 /// paths), max_camera_depth and max_light_depth from 0, strategy_depth [0, 4096], merge_radius [0,
-/// 1], merge_alpha (0, 1].
+/// 1], merge_alpha (0, 1], max_merges from 0.
 struct BidirectionalOptions {
     /// Light paths traced per camera path; may be fractional.
     double light_paths = 1.0;
@@ -189,6 +189,9 @@ struct BidirectionalOptions {
     /// vcm: sample index i merges within merge_radius * (i + 1)^((merge_alpha - 1) / 2). Below 1
     /// the bias vanishes in the limit; smaller values reduce bias sooner, and noise later.
     double merge_alpha = 0.75;
+    /// vcm: if above 0, a camera vertex merges with at most this many light vertices: where more
+    /// are near, some are chosen at random, and stand for all.
+    int max_merges = 0;
     /// Maximum memory of the shared light paths of one sample index [bytes], estimated from their
     /// usual length.
     std::uint64_t light_path_memory = 4'000'000'000;

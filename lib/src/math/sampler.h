@@ -61,7 +61,8 @@ public:
     /// the lens may pass, in their order.
     static constexpr std::uint32_t first_crossing = 2;
 
-    /// The vertex of `SampleUse::light_walk` whose number chooses the connections of a camera path.
+    /// The vertex of `SampleUse::light_walk` whose number chooses the connections of a camera path,
+    /// and its merges.
     static constexpr std::uint32_t choice_of_connections = 0;
 
     /// The vertex of `SampleUse::next_event` whose number decides whether a point on a light is

@@ -16,7 +16,7 @@ namespace bdpt {
 struct Contribution {
     Rgb unweighted{0.0f};
     float weight = 1.0f;     ///< MIS weight
-    float chance = 1.0f;     ///< expected number of times that the connection is chosen
+    float chance = 1.0f;     ///< expected number of times that the connection or merge is chosen
     bool dispersed = false;  ///< true if a vertex of the path disperses
     Vec2 raster{0.0f};       ///< position on the film, for t <= 1
 };

@@ -130,6 +130,8 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
                   o.bidirectional.merge_alpha = alpha;
               }).find("merge_alpha is ") == 0);
     }
+    CHECK(vcm_refusal([](auto& o) { o.bidirectional.max_merges = -1; }).find("max_merges is -1") ==
+          0);
     CHECK(vcm_refusal([](auto& o) { o.bidirectional.light_paths = 0.0; }) ==
           "light_paths is 0, but vcm needs light paths");
     for (const Heuristic heuristic : {Heuristic::cutoff, Heuristic::maximum, Heuristic::uniform}) {

@@ -1,6 +1,7 @@
 // Vertex connection and merging: what is promised of it, but for the means (tests/statistical).
 
 #include "catch.hpp"
+#include "math/rgb.h"
 #include "moving_scenes.h"
 #include "path/merging.h"
 #include "purity.h"
@@ -94,7 +95,8 @@ TEST_CASE("merged images are the same for any threads, tiles, parts and crops", 
 {
     const Scene scene = room();
     RenderOptions o = options();
-    o.bidirectional.light_paths = GENERATE(0.5, 1.0);
+    std::tie(o.bidirectional.light_paths, o.bidirectional.max_merges) =
+        GENERATE(std::pair(0.5, 0), std::pair(1.0, 0), std::pair(1.0, 3));
     o.system.threads = 1;
     const RenderResult whole = image_of(scene, o);
     CHECK(whole.film.defects().invalid == 0);
@@ -189,6 +191,7 @@ TEST_CASE("vcm tells all paths, and which of them it has merged", "[vcm]")
     const Scene scene = room();
     RenderOptions o = options();
     o.transport.heuristic = Heuristic::balance;
+    o.bidirectional.max_merges = GENERATE(0, 3);
     o.system.threads = 1;
     double sum = 0.0;
     int merged = 0;
@@ -216,6 +219,44 @@ TEST_CASE("vcm tells all paths, and which of them it has merged", "[vcm]")
         expected += static_cast<double>(c.r + c.g + c.b);
     }
     CHECK(sum / static_cast<double>(film.sample_count()) == Approx(expected).epsilon(1e-3));
+}
+
+TEST_CASE("where merges are limited, those that are chosen stand for all", "[vcm]")
+{
+    const Scene scene = room();
+    RenderOptions o = options();
+    o.film.width = 64;
+    o.film.height = 48;
+    o.bidirectional.merge_radius = 0.1;
+    struct Merges {
+        double number = 0.0;
+        double chances = 0.0;  ///< sum of 1 / chance
+        double light = 0.0;    ///< sum of what they bring
+    };
+    const auto merges_with = [&](int limit) {
+        Merges merges;
+        o.bidirectional.max_merges = limit;
+        o.system.threads = 1;
+        RenderControl control;
+        control.on_path = [&](const PathContribution& path) {
+            if (path.merged) {
+                merges.number += 1.0;
+                merges.chances += 1.0 / static_cast<double>(path.chance);
+                merges.light += static_cast<double>(path.weight * luminance(path.unweighted));
+            }
+        };
+        static_cast<void>(render(scene, room_camera(), o, control));
+        return merges;
+    };
+    const Merges all = merges_with(0);
+    const Merges limited = merges_with(4);
+    const Merges unlimited = merges_with(1'000'000);
+    CHECK(all.chances == all.number);
+    CHECK(unlimited.number == all.number);
+    CHECK(unlimited.light == all.light);
+    CHECK(limited.number < 0.5 * all.number);
+    CHECK(limited.chances == Approx(all.number).epsilon(0.02));
+    CHECK(limited.light == Approx(all.light).epsilon(0.02));
 }
 
 TEST_CASE("scenes without light have nothing to merge with", "[vcm]")

@@ -233,6 +233,9 @@ inline constexpr auto fields<BidirectionalOptions> = all_fields(
                  .value = "A",
                  .help = "Alpha of the merging radius (vcm), above 0 and up to 1: sample i uses "
                          "the initial radius times i^((A - 1) / 2)"}},
+    OptionField{"max_merges",
+                &BidirectionalOptions::max_merges,
+                {.range = {0, std::numeric_limits<int>::max()}}},
     OptionField{
         "light_path_memory", &BidirectionalOptions::light_path_memory, {.role = OptionRole::limit}},
     OptionField{"max_camera_depth",

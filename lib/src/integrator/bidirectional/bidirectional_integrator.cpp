@@ -216,20 +216,43 @@ void BidirectionalIntegrator::trace_light_path(SampleContext& sample, Scratch& s
     scratch.joiner.join_light_path(sample, scratch.light_path);
 }
 
+double BidirectionalIntegrator::chance_of_merges(Vec3 p) const
+{
+    const int most = options_.bidirectional.max_merges;
+    if (most == 0) {
+        return 1.0;
+    }
+    int near = 0;
+    grid_.for_each_near(p, [&](std::span<const PathVertex>) { ++near; });
+    return near > most ? static_cast<double>(most) / near : 1.0;
+}
+
 void BidirectionalIntegrator::merge_paths(const SampleContext& sample, Scratch& scratch) const
 {
     scratch.sink.begin_merges();
+    const double choice =
+        sample.sampler.ordered_1d(SampleUse::light_walk, Sampler::choice_of_connections);
     for (int t = 2; t <= scratch.camera_path.size(); ++t) {
         const auto camera = scratch.camera_path.first(t);
         if (!can_merge(camera.back())) {
             continue;
         }
+        const double chance = chance_of_merges(camera.back().end.p);
+        double at = chance < 1.0 ? choice : 0.0;
         grid_.for_each_near(camera.back().end.p, [&](std::span<const PathVertex> light) {
+            // Systematic sampling: steps of equal length, of which each integer ends a choice.
+            at += chance;
+            if (at < 1.0) {
+                return;
+            }
+            at -= 1.0;
             const auto s = static_cast<int>(light.size());
             if (!strategies_.merges(s, t)) {
                 return;
             }
-            if (const auto found = merge(sample, light, camera, merging_, scratch.weigher)) {
+            if (auto found = merge(sample, light, camera, merging_, scratch.weigher)) {
+                found->chance = static_cast<float>(chance);
+                found->unweighted *= 1.0f / found->chance;
                 scratch.sink.add(sample, {.s = s, .t = t}, *found, merging_.light_paths);
                 sample.enter(Phase::connect);
             }

@@ -39,6 +39,8 @@ private:
     void trace_light_path(SampleContext& sample, Scratch& scratch) const;
     void add_sample(int x, int y, const ScheduledSample& scheduled, PhaseClock* clock,
                     Scratch& scratch) const;
+    /// Returns the chance by which each light vertex near `p` is chosen to merge there.
+    [[nodiscard]] double chance_of_merges(Vec3 p) const;
     void merge_paths(const SampleContext& sample, Scratch& scratch) const;
 
     const World& world_;

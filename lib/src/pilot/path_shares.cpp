@@ -52,7 +52,7 @@ PathShares::PathShares(const PathContribution& path, Heuristic heuristic, double
     const PerGroup samples{1.0, light_paths, pilot_connections};
     const float found = path.shares[static_cast<std::size_t>(path.strategy.s)];
     used_share_ = static_cast<double>(found) / samples[used_];
-    mean_ = luminance(path.unweighted) * (path.merged ? path.weight : found);
+    mean_ = luminance(path.unweighted) * (path.merged ? path.chance * path.weight : found);
     if (used_ == connections && !path.merged) {
         choice_share_ = static_cast<double>(path.chance) / pilot_rays;
     }

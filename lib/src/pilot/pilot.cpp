@@ -46,6 +46,7 @@ RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
     options.bidirectional.visible_light_samples = 1.0;
     options.bidirectional.merge_radius = 0.005;
     options.bidirectional.merge_alpha = 1.0;
+    options.bidirectional.max_merges = 32;  // usual scenes rarely have more
     // One light path per connection of camera paths, if memory allows that.
     options.bidirectional.light_paths =
         PathShares::pilot_connections * static_cast<double>(grid.cells()) / grid.pixels();

@@ -1,8 +1,10 @@
 #include "pilot/pilot_row.h"
 
 #include "math/rgb.h"
+#include "pilot/kept_paths.h"
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 namespace bdpt {
@@ -40,9 +42,10 @@ void PilotRow::render(const Integrator& integrator, const PilotGrid& grid, Heuri
                 }
                 return;
             }
-            cell->values[static_cast<std::size_t>(index)] += shares.camera_mean();
+            const double number = path.merged ? 1.0 / static_cast<double>(path.chance) : 1.0;
+            cell->values[static_cast<std::size_t>(index)] += number * shares.camera_mean();
             if (path.merged) {
-                merged_.push_back({.cell = cell_index, .shares = shares});
+                merged_.push_back({.cell = cell_index, .shares = shares, .number = number});
             } else if (shares.kind() != PathShares::seen) {
                 joined_.push_back({.cell = cell_index, .shares = shares});
                 moments[shares.kind()].add(path, shares);
@@ -54,6 +57,8 @@ void PilotRow::render(const Integrator& integrator, const PilotGrid& grid, Heuri
         cell = &cells_[static_cast<std::size_t>(column)];
         cell_index = grid.index(column, row);
         moments = {};
+        const std::size_t joined_before = joined_.size();
+        const std::size_t merged_before = merged_.size();
         const RenderStats stats = integrator.render_tile(grid.pixel(column, row),
                                                          {.begin = index, .end = index + 1}, films);
         stats_ += stats;
@@ -61,6 +66,10 @@ void PilotRow::render(const Integrator& integrator, const PilotGrid& grid, Heuri
         for (std::size_t kind = 0; kind < PathShares::scattering_kinds; ++kind) {
             cell->sums[kind].add(moments[kind]);
         }
+        const std::uint64_t random =
+            cell_index * std::uint64_t{samples_of_cell} + static_cast<std::uint64_t>(index);
+        keep_some(joined_, joined_before, random);
+        keep_some(merged_, merged_before, ~random);
     }
 }
 

@@ -53,7 +53,7 @@ public:
     [[nodiscard]] const std::vector<PilotCell>& cells() const { return cells_; }
     /// Returns paths of two edges and more.
     [[nodiscard]] const std::vector<PilotContribution>& joined() const { return joined_; }
-    /// Returns paths that were found by merging.
+    /// Returns paths that were found by merging; where there are many, some stand for all.
     [[nodiscard]] const std::vector<PilotContribution>& merged() const { return merged_; }
     [[nodiscard]] const std::vector<PilotLamp>& lamps() const { return lamps_; }
     [[nodiscard]] const RenderStats& stats() const { return stats_; }

@@ -14,6 +14,7 @@ namespace bdpt {
 struct PilotContribution {
     std::size_t cell;
     PathShares shares;
+    double number = 1.0;  ///< of found paths for which it stands, at least 1
 };
 
 /// Splats of a part of a pilot's light paths. They cover the whole image, while the camera paths of

@@ -2,11 +2,13 @@
 
 #include "catch.hpp"
 #include "pilot/errors/choice_noise.h"
+#include "pilot/errors/merged_paths.h"
 #include "pilot/errors/qmc_variance_factor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace bdpt::test::pilot_errors_test {
@@ -105,6 +107,61 @@ public:
 
 private:
     std::vector<float> shares_{0.0f, 0.5f, 0.5f, 0.0f, 0.0f};
+};
+
+/// One sample's camera paths find a number of lights by connections that are chosen with a small
+/// chance, those of the other one by a connection that always is.
+class ManyConnections final : public Integrator {
+public:
+    explicit ManyConnections(int count) : count_(count) {}
+    RenderStats render_tile(const Tile& /*tile*/, SampleRange samples,
+                            const Films& films) const override
+    {
+        PathContribution path = path_of({.s = 2, .t = 2}, shares_);
+        if (samples.begin == 1) {
+            films.on_path(path);
+            return {};
+        }
+        path.chance *= static_cast<float>(ConnectedLights::small_chance);
+        for (int i = 0; i < count_; ++i) {
+            films.on_path(path);
+        }
+        return {};
+    }
+
+private:
+    int count_;
+    std::vector<float> shares_{0.0f, 0.5f, 0.5f, 0.0f, 0.0f};
+};
+
+/// Each camera path merges with equal light paths, of which each found one stands for several.
+/// `share` is the share of s = 0 in each; if it is 0, only merging finds that light, and each
+/// camera path finds another one by next-event estimation.
+class EqualMerges final : public Integrator {
+public:
+    EqualMerges(int found, double chance, float share = 0.001f)
+        : found_(found), chance_(chance), shares_{share, 0.0f, 0.0f, 0.0f, 0.0f}
+    {}
+    RenderStats render_tile(const Tile& /*tile*/, SampleRange /*samples*/,
+                            const Films& films) const override
+    {
+        for (int i = 0; i < found_; ++i) {
+            PathContribution path = path_of({.s = 2, .t = 3}, shares_);
+            path.merged = true;
+            path.chance = static_cast<float>(chance_);
+            path.unweighted *= 1.0f / path.chance;
+            films.on_path(path);
+        }
+        if (shares_[0] == 0.0f) {
+            films.on_path(path_of({.s = 1, .t = 3}, {0.0f, 1.0f, 0.0f, 0.0f, 0.0f}));
+        }
+        return {};
+    }
+
+private:
+    int found_;
+    double chance_;
+    std::vector<float> shares_;
 };
 
 /// One of some camera paths finds a light by next-event estimation.
@@ -220,6 +277,60 @@ TEST_CASE("errors of cells are apart from those of splats, which rates do not ch
     }
 }
 
+TEST_CASE("a merged path counts like all those for which it stands", "[pilot]")
+{
+    struct Prediction {
+        double brightness;
+        double error;  ///< without what is added for rare paths
+        PilotErrors errors;
+    };
+    const auto predicted = [](int found, double chance) {
+        const PilotContributions contributions =
+            contributions_of(EqualMerges(found, chance), PilotGrid(40, 40));
+        const PilotBrightness brightness(contributions);
+        const PilotErrors errors = predict_errors(contributions, brightness);
+        return Prediction{.brightness = brightness.average(),
+                          .error = errors.of_image[0] - 2.0 * noise_of(errors, one_light_path()),
+                          .errors = errors};
+    };
+    // Of 64 some are kept; of 4 all are, and each stands for twice as many.
+    const Prediction all = predicted(64, 1.0);
+    CHECK(all.error > 0.0);
+    for (const auto& [some, number] :
+         {std::pair(predicted(4, 0.0625), 2.0), std::pair(predicted(32, 0.5), 1.0)}) {
+        CHECK(some.brightness == Approx(all.brightness));
+        CHECK(some.error == Approx(all.error).epsilon(1e-3));  // but for the first few paths
+        CHECK(some.errors.of_cells.camera[3][0] == Approx(all.errors.of_cells.camera[3][0]));
+        CHECK(some.errors.covariances[0][0] ==
+              Approx(number * all.errors.covariances[0][0]).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("merged paths can be found if so many are that some stand for", "[pilot]")
+{
+    const auto findable = [](double chance) {
+        const PilotContributions contributions =
+            contributions_of(EqualMerges(8, chance), PilotGrid(1, 1));
+        return findable_merged_paths(contributions, PilotBrightness(contributions)).size();
+    };
+    // A usual render has 64 paths in the pixel, each merge stands for a thousandth of one.
+    CHECK(findable(1.0) == 0);
+    CHECK(findable(0.125) > 0);
+}
+
+TEST_CASE("light that merging alone finds is that of all paths for which the found ones stand",
+          "[pilot]")
+{
+    const auto share = [](int found, double chance) {
+        const PilotContributions contributions =
+            contributions_of(EqualMerges(found, chance, 0.0f), PilotGrid(4, 4));
+        return share_of_merging_alone(contributions, PilotBrightness(contributions));
+    };
+    // Beside one path that next-event estimation finds.
+    CHECK(share(16, 1.0) == Approx(16.0 / 17.0));
+    CHECK(share(4, 0.25) == Approx(16.0 / 17.0));
+}
+
 TEST_CASE("rare paths are expected where the error of the paths found is noisy", "[pilot]")
 {
     // Of many equal paths the error is certain; of few it is not. Then a fifth is added.
@@ -280,6 +391,23 @@ TEST_CASE("what the choice of connections adds is measured where connections fin
         // Of paths that a connection found, the own chance counts.
         CHECK(remaining_errors(joined[0].shares, scale, choice).camera[k] ==
               remaining_errors(joined[0].shares, scale, no_choice).camera[k]);
+    }
+}
+
+TEST_CASE("connections count for all those for which they stand", "[pilot]")
+{
+    constexpr int count = 32;
+    const PilotContributions contributions =
+        contributions_of(ManyConnections(count), PilotGrid(8, 8));
+    REQUIRE(contributions.rows[0].joined().size() < 8 * (count + 1) / 2);
+    const PerCandidate<double> choice =
+        measure_choice(contributions, PilotBrightness(contributions));
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double chance = ConnectedLights::small_chance * candidates[k].connection_rays *
+                              PathShares::pilot_connections /
+                              std::max(1.0, candidates[k].connections);
+        CHECK(choice[k] ==
+              Approx(chance > 0.0 ? count / (count + 1.0) * (1.0 / chance - 1.0) : 0.0));
     }
 }
 

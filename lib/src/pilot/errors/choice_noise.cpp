@@ -15,7 +15,7 @@ PerCandidate<double> measure_choice(const PilotContributions& contributions,
                 continue;
             }
             const PathShares::SecondMoments moments = path.shares.second_moments();
-            const double scale = brightness.scale(path.cell);
+            const double scale = brightness.scale(path.cell) * path.number;
             for (std::size_t k = 0; k < candidates.size(); ++k) {
                 of_choice[k] += scale * moments.choice[k];
                 of_connections[k] += scale * moments.connections[k];

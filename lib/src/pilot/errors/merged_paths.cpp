@@ -26,7 +26,7 @@ std::vector<MergedPath> brightest_first(const PilotContributions& contributions,
                 const double relative = std::sqrt(brightness.scale(path.cell));
                 merged.push_back({.path = &path,
                                   .value = relative * path.shares.mean() / found,
-                                  .number = renders * found});
+                                  .number = renders * found * path.number});
             }
         }
     }
@@ -58,7 +58,7 @@ double share_of_merging_alone(const PilotContributions& contributions,
     double merged = 0.0;
     for (const PilotRow& row : contributions.rows) {
         for (const PilotContribution& path : row.merged()) {
-            merged += path.shares.found_by_one() > 0.0 ? 0.0 : path.shares.mean();
+            merged += path.shares.found_by_one() > 0.0 ? 0.0 : path.shares.mean() * path.number;
         }
     }
     merged /= contributions.camera_paths();

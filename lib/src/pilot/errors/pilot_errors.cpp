@@ -91,8 +91,8 @@ PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
     for (const PilotContribution& path : row.joined()) {
         const RemainingErrors of_path =
             errors.add(path.shares, brightness.scale(path.cell), choice,
-                       contributions.grid.pixels(), contributions.camera_paths());
-        add_scaled(of_cells.camera[path.cell], of_path.camera, 1.0 / samples);
+                       contributions.grid.pixels(), contributions.camera_paths() / path.number);
+        add_scaled(of_cells.camera[path.cell], of_path.camera, path.number / samples);
     }
     const auto cells = static_cast<double>(contributions.grid.cells());
     for (std::size_t i = 0; i < row.cells().size(); ++i) {
@@ -158,10 +158,10 @@ PilotErrors compute_errors(const PilotContributions& contributions,
     PartOfErrors all;
     const auto cells = static_cast<double>(grid.cells());
     for (const PilotContribution* path : findable_merged_paths(contributions, brightness)) {
-        const RemainingErrors of_path = all.add(path->shares, brightness.scale(path->cell), choice,
-                                                grid.pixels(), contributions.camera_paths());
-        add_scaled(of_cells.camera[path->cell], of_path.camera,
-                   cells / contributions.camera_paths());
+        const double paths = contributions.camera_paths() / path->number;
+        const RemainingErrors of_path =
+            all.add(path->shares, brightness.scale(path->cell), choice, grid.pixels(), paths);
+        add_scaled(of_cells.camera[path->cell], of_path.camera, cells / paths);
     }
     for (const PartOfErrors& part : parts) {
         all.add(part);

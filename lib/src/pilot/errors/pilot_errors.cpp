@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -77,7 +78,7 @@ struct PartOfErrors {
 /// Errors that a path adds to a cell.
 struct CellError {
     std::size_t cell;
-    PerCandidate<double> camera;
+    PerCandidate<double> camera{};
 };
 
 /// Returns the errors of a row of the grid, and writes those of its cells.
@@ -126,11 +127,33 @@ PartOfErrors compute_errors(const PilotSplats& part, const PilotContributions& c
                             std::vector<CellError>& of_cells)
 {
     PartOfErrors errors;
+    const auto cells = static_cast<double>(contributions.grid.cells());
     for (const PilotContribution& splat : part.contributions()) {
         const RemainingErrors of_splat =
             errors.add(splat.shares, brightness.scale(splat), choice, contributions.grid.pixels(),
                        contributions.splatted_pixels());
-        of_cells.push_back({.cell = splat.cell, .camera = of_splat.camera});
+        CellError of_cell{.cell = splat.cell};
+        add_scaled(of_cell.camera, of_splat.camera, cells / contributions.splatted_pixels());
+        of_cells.push_back(of_cell);
+    }
+    return errors;
+}
+
+/// Returns the errors of merged paths, and adds those of cells to `of_cells`.
+PartOfErrors compute_errors(std::span<const PilotContribution* const> merged,
+                            const PilotContributions& contributions,
+                            const PilotBrightness& brightness, const PerCandidate<double>& choice,
+                            std::vector<CellError>& of_cells)
+{
+    PartOfErrors errors;
+    const auto cells = static_cast<double>(contributions.grid.cells());
+    for (const PilotContribution* path : merged) {
+        const double paths = contributions.camera_paths() / path->number;
+        const RemainingErrors of_path = errors.add(path->shares, brightness.scale(path->cell),
+                                                   choice, contributions.grid.pixels(), paths);
+        CellError of_cell{.cell = path->cell};
+        add_scaled(of_cell.camera, of_path.camera, cells / paths);
+        of_cells.push_back(of_cell);
     }
     return errors;
 }
@@ -145,31 +168,35 @@ PilotErrors compute_errors(const PilotContributions& contributions,
                         .costs = std::vector<PerCandidate<double>>(grid.cells()),
                         .scattering = std::vector<double>(grid.cells())};
     const PerCandidate<double> choice = measure_choice(contributions, brightness);
-    std::vector<PartOfErrors> parts(rows + contributions.parts.size());
-    std::vector<std::vector<CellError>> of_splats(contributions.parts.size());
+    // The parts: rows of camera paths, then splats, then groups of merged paths.
+    constexpr std::size_t group = 1024;
+    const std::vector<const PilotContribution*> merged =
+        findable_merged_paths(contributions, brightness);
+    const std::size_t before_merged = rows + contributions.parts.size();
+    std::vector<PartOfErrors> parts(before_merged + (merged.size() + group - 1) / group);
+    std::vector<std::vector<CellError>> added(parts.size() - rows);  // to errors of cells
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
         const FlushDenormals flush;
-        parts[i] = i < rows
-                       ? compute_errors(contributions.rows[i], grid.index(0, static_cast<int>(i)),
-                                        contributions, brightness, choice, of_cells)
-                       : compute_errors(contributions.parts[i - rows], contributions, brightness,
-                                        choice, of_splats[i - rows]);
+        if (i < rows) {
+            parts[i] = compute_errors(contributions.rows[i], grid.index(0, static_cast<int>(i)),
+                                      contributions, brightness, choice, of_cells);
+        } else if (i < before_merged) {
+            parts[i] = compute_errors(contributions.parts[i - rows], contributions, brightness,
+                                      choice, added[i - rows]);
+        } else {
+            const std::size_t first = group * (i - before_merged);
+            parts[i] = compute_errors(
+                std::span(merged).subspan(first, std::min(group, merged.size() - first)),
+                contributions, brightness, choice, added[i - rows]);
+        }
     });
     PartOfErrors all;
-    const auto cells = static_cast<double>(grid.cells());
-    for (const PilotContribution* path : findable_merged_paths(contributions, brightness)) {
-        const double paths = contributions.camera_paths() / path->number;
-        const RemainingErrors of_path =
-            all.add(path->shares, brightness.scale(path->cell), choice, grid.pixels(), paths);
-        add_scaled(of_cells.camera[path->cell], of_path.camera, cells / paths);
-    }
     for (const PartOfErrors& part : parts) {
         all.add(part);
     }
-    for (const std::vector<CellError>& part : of_splats) {
+    for (const std::vector<CellError>& part : added) {
         for (const CellError& error : part) {
-            add_scaled(of_cells.camera[error.cell], error.camera,
-                       cells / contributions.splatted_pixels());
+            add_scaled(of_cells.camera[error.cell], error.camera, 1.0);
         }
     }
     of_cells.splats = all.of_splats;

@@ -51,9 +51,9 @@ public:
                 std::int64_t index, double light_paths);
 
     [[nodiscard]] const std::vector<PilotCell>& cells() const { return cells_; }
-    /// Returns paths of two edges and more.
+    /// Returns paths of two edges and more; where a camera path found many, some stand for all.
     [[nodiscard]] const std::vector<PilotContribution>& joined() const { return joined_; }
-    /// Returns paths that were found by merging; where there are many, some stand for all.
+    /// Returns paths that were found by merging, likewise.
     [[nodiscard]] const std::vector<PilotContribution>& merged() const { return merged_; }
     [[nodiscard]] const std::vector<PilotLamp>& lamps() const { return lamps_; }
     [[nodiscard]] const RenderStats& stats() const { return stats_; }

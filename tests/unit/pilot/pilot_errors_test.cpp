@@ -306,7 +306,7 @@ TEST_CASE("a merged path counts like all those for which it stands", "[pilot]")
     }
 }
 
-TEST_CASE("merged paths can be found if so many are that some stand for", "[pilot]")
+TEST_CASE("a merged path is findable if a render finds one of those it stands for", "[pilot]")
 {
     const auto findable = [](double chance) {
         const PilotContributions contributions =

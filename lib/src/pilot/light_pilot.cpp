@@ -9,6 +9,7 @@
 #include "pilot/light_starts.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <glm/geometric.hpp>
 
@@ -32,17 +33,23 @@ struct Finds {
     std::vector<Escape> escapes;
     std::vector<Escape> to_suns;
     std::vector<IndirectLight> indirect;
-
-    Finds& operator+=(const Finds& more)
-    {
-        trials.insert(trials.end(), more.trials.begin(), more.trials.end());
-        findings.insert(findings.end(), more.findings.begin(), more.findings.end());
-        escapes.insert(escapes.end(), more.escapes.begin(), more.escapes.end());
-        to_suns.insert(to_suns.end(), more.to_suns.begin(), more.to_suns.end());
-        indirect.insert(indirect.end(), more.indirect.begin(), more.indirect.end());
-        return *this;
-    }
 };
+
+/// Joins one kind of results of all parts, in their order.
+template <typename Find>
+std::vector<Find> join(const std::vector<Finds>& parts, std::vector<Find> Finds::*kind)
+{
+    std::size_t size = 0;
+    for (const Finds& part : parts) {
+        size += (part.*kind).size();
+    }
+    std::vector<Find> all;
+    all.reserve(size);
+    for (const Finds& part : parts) {
+        all.insert(all.end(), (part.*kind).begin(), (part.*kind).end());
+    }
+    return all;
+}
 
 /// Camera paths along each side of the image: one per pixel, up to a number beyond which more have
 /// no benefit.
@@ -157,6 +164,25 @@ std::optional<GroupShares> make_shares(std::vector<GroupShares::Finding> finding
         return std::nullopt;
     }
     return GroupShares(std::move(findings), world.lights().next_event_lights().group_count());
+}
+
+/// Returns where the light of each sun enters that some ray of `to_suns` found; the tile of such a
+/// ray is the number of its sun.
+std::vector<SunEntries> make_sun_entries(const std::vector<Escape>& to_suns, const World& world)
+{
+    std::vector<SunEntries> entries;
+    const std::vector<LightId> suns = find_suns(world);
+    for (std::size_t sun = 0; sun < suns.size(); ++sun) {
+        std::vector<Escape> of_sun;
+        std::copy_if(to_suns.begin(), to_suns.end(), std::back_inserter(of_sun),
+                     [sun](const Escape& escape) { return escape.tile == sun; });
+        if (!of_sun.empty()) {
+            entries.push_back({.sun = suns[sun],
+                               .window = EntryWindow(of_sun, world.bounding_sphere().center,
+                                                     world.bounding_sphere())});
+        }
+    }
+    return entries;
 }
 
 /// Camera paths of one row of the pilot.
@@ -436,28 +462,18 @@ std::unique_ptr<const LearnedLight> learn_light(const World& world, const Moving
     if (abandon.stop_requested()) {
         return nullptr;
     }
-    Finds all;
-    for (const Finds& row : rows) {
-        all += row;
-    }
-    LearnedLight learned{.visibility = make_visibility(std::move(all.trials)),
-                         .groups = make_shares(std::move(all.findings), world),
-                         .starts = learn_starts(all.indirect, world.lights())};
-    if (learned.visibility) {
-        learned.entries.emplace(std::move(all.escapes), find_environment(world)->tiles(),
-                                world.bounding_sphere());
-    }
-    const std::vector<LightId> suns = find_suns(world);
-    for (std::size_t sun = 0; sun < suns.size(); ++sun) {
-        std::vector<Escape> of_sun;
-        std::copy_if(all.to_suns.begin(), all.to_suns.end(), std::back_inserter(of_sun),
-                     [sun](const Escape& escape) { return escape.tile == sun; });
-        if (!of_sun.empty()) {
-            learned.suns.push_back({.sun = suns[sun],
-                                    .window = EntryWindow(of_sun, world.bounding_sphere().center,
-                                                          world.bounding_sphere())});
-        }
-    }
+    LearnedLight learned;
+    tbb::parallel_invoke(
+        [&] {
+            learned.visibility = make_visibility(join(rows, &Finds::trials));
+            if (learned.visibility) {
+                learned.entries.emplace(join(rows, &Finds::escapes),
+                                        find_environment(world)->tiles(), world.bounding_sphere());
+            }
+        },
+        [&] { learned.groups = make_shares(join(rows, &Finds::findings), world); },
+        [&] { learned.starts = learn_starts(join(rows, &Finds::indirect), world.lights()); },
+        [&] { learned.suns = make_sun_entries(join(rows, &Finds::to_suns), world); });
     return learned.visibility || learned.groups || learned.starts || !learned.suns.empty()
                ? std::make_unique<const LearnedLight>(std::move(learned))
                : nullptr;

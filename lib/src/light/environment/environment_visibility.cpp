@@ -47,9 +47,8 @@ TileFactors compute_factors(const Probabilities& visible)
 }  // namespace
 
 EnvironmentVisibility::EnvironmentVisibility(std::vector<Trial> trials)
-    : tree_(std::span(trials), trials_of_cell, Probabilities(EnvironmentTiles::tile_count, 1.0f),
-            probabilities,
-            [this](const Probabilities& visible) { cells_.push_back(compute_factors(visible)); })
+    : cells_(std::span(trials), trials_of_cell, Probabilities(EnvironmentTiles::tile_count, 1.0f),
+             probabilities, compute_factors)
 {}
 
 }  // namespace bdpt

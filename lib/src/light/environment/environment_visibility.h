@@ -28,7 +28,7 @@ public:
     explicit EnvironmentVisibility(std::vector<Trial> trials);
 
     /// Factors of the tiles' shares of the samples at `p`, in [min_factor, 1].
-    [[nodiscard]] const TileFactors& at(Vec3 p) const noexcept { return cells_[tree_.cell_at(p)]; }
+    [[nodiscard]] const TileFactors& at(Vec3 p) const noexcept { return cells_.at(p); }
     /// Number of cells that space is divided into.
     [[nodiscard]] std::size_t cells() const noexcept { return cells_.size(); }
 
@@ -36,8 +36,7 @@ public:
     static constexpr float min_factor = 0.05f;
 
 private:
-    std::vector<TileFactors> cells_;
-    PlaceTree tree_;  // fills them in
+    PlaceTree<TileFactors> cells_;
 };
 
 }  // namespace bdpt

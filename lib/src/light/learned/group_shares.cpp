@@ -77,10 +77,8 @@ GroupShares::Shares shares_by(const MeanSquares& squares, std::size_t groups)
 }  // namespace
 
 GroupShares::GroupShares(std::vector<Finding> findings, std::size_t groups)
-    : tree_(std::span(findings), findings_of_cell, MeanSquares{}, mean_squares,
-            [this, groups](const MeanSquares& squares) {
-                cells_.push_back(shares_by(squares, groups));
-            })
+    : cells_(std::span(findings), findings_of_cell, MeanSquares{}, mean_squares,
+             [groups](const MeanSquares& squares) { return shares_by(squares, groups); })
 {}
 
 }  // namespace bdpt

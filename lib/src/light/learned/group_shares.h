@@ -31,7 +31,7 @@ public:
     /// black, all shares are equal.
     GroupShares(std::vector<Finding> findings, std::size_t groups);
 
-    [[nodiscard]] const Shares& at(Vec3 p) const noexcept { return cells_[tree_.cell_at(p)]; }
+    [[nodiscard]] const Shares& at(Vec3 p) const noexcept { return cells_.at(p); }
     /// Number of cells that space is divided into.
     [[nodiscard]] std::size_t cells() const noexcept { return cells_.size(); }
 
@@ -39,8 +39,7 @@ public:
     static constexpr double even_part = 0.1;
 
 private:
-    std::vector<Shares> cells_;
-    PlaceTree tree_;  // fills them in
+    PlaceTree<Shares> cells_;
 };
 
 }  // namespace bdpt

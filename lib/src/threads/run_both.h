@@ -1,0 +1,10 @@
+#pragma once
+
+#include <functional>
+
+namespace bdpt {
+
+/// Runs both functions, on two threads if one is idle. Throws what they throw.
+void run_both(const std::function<void()>& first, const std::function<void()>& second);
+
+}  // namespace bdpt

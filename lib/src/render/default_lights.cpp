@@ -44,6 +44,28 @@ double even_sky(double sine)
                       : horizon + (ground - horizon) * smooth_step(-1.5 * sine);
 }
 
+double mean(const std::vector<double>& cards)
+{
+    return std::accumulate(cards.begin(), cards.end(), 0.0) / static_cast<double>(cards.size());
+}
+
+double median(std::vector<double>& cards)
+{
+    const auto middle = cards.begin() + static_cast<std::ptrdiff_t>(cards.size() / 2);
+    std::nth_element(cards.begin(), middle, cards.end());
+    return *middle;
+}
+
+/// Tests with few paths whether cards show so much more than `least` [nit] that more paths need not
+/// be traced. Uses the median, which few paths make too low rather than too high: most of their
+/// noise is in a few bright cards.
+bool is_clearly_lit(double least, const Scene& scene, const FramedView& framed, float aspect)
+{
+    constexpr double margin = 3.0;
+    std::vector<double> cards = white_cards(scene, framed.camera, {.aspect = aspect, .paths = 2});
+    return !cards.empty() && median(cards) >= margin * least;
+}
+
 /// Tests whether emissive surfaces illuminate the framed view when nothing else does.
 bool is_lit_by_emitters(const Scene& scene, const FramedView& framed, float aspect)
 {
@@ -52,18 +74,16 @@ bool is_lit_by_emitters(const Scene& scene, const FramedView& framed, float aspe
     // on both kinds (docs/decisions/0059-light-of-scenes-without-lights.md).
     constexpr double min_outside = 0.03;
     constexpr double min_inside = 0.001;
+    const double least = framed.enclosed ? min_inside : min_outside;
+    if (is_clearly_lit(least, scene, framed, aspect)) {
+        return true;
+    }
     std::vector<double> cards = white_cards(scene, framed.camera, {.aspect = aspect});
     if (cards.empty()) {
         return false;
     }
-    if (!framed.enclosed) {
-        const auto middle = cards.begin() + static_cast<std::ptrdiff_t>(cards.size() / 2);
-        std::nth_element(cards.begin(), middle, cards.end());
-        return *middle >= min_outside;
-    }
-    // Uses the mean, as a room may be dark except for a beam of light.
-    const double sum = std::accumulate(cards.begin(), cards.end(), 0.0);
-    return sum >= min_inside * static_cast<double>(cards.size());
+    // Uses the mean in rooms, which may be dark except for a beam of light.
+    return (framed.enclosed ? mean(cards) : median(cards)) >= least;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <bdpt/light/light_meter.h>
 
+#include <bdpt/error.h>
+
 #include "camera/moving_camera.h"
 #include "geometry/flush_denormals.h"
 #include "integrator/sample_start.h"
@@ -19,12 +21,13 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <string>
 
 namespace bdpt {
 namespace {
 
-constexpr int side_of_grid = 32;  // of a square view [cards]
-constexpr int paths_of_card = 32;
+constexpr int side_of_grid = 32;       // of a square view [cards]
+constexpr int max_paths = 1024;        // of a card
 constexpr int max_walk_vertices = 12;  // [vertices] later vertices contribute next to nothing
 constexpr int roulette_start = 4;      // [vertices]
 constexpr float survival = 0.75f;      // survival probability at each vertex from there on
@@ -52,8 +55,13 @@ RenderOptions grid_options(const LightMeterOptions& asked)
 /// Traces paths from white cards to lights, like path tracing with MIS.
 class CardMeter {
 public:
-    CardMeter(const World& world, const MovingCamera& camera, const RenderOptions& options)
-        : world_(world), camera_(camera), options_(options), filter_(options.film.filter)
+    CardMeter(const World& world, const MovingCamera& camera, const RenderOptions& options,
+              int paths)
+        : world_(world),
+          camera_(camera),
+          options_(options),
+          paths_(paths),
+          filter_(options.film.filter)
     {}
 
     /// Returns the luminance of the card at the surface that the pixel shows; nullopt if it shows
@@ -62,7 +70,7 @@ public:
     {
         double sum = 0.0;
         int cards = 0;
-        for (int i = 0; i < paths_of_card; ++i) {
+        for (int i = 0; i < paths_; ++i) {
             if (const std::optional<double> found = path(x, y, i)) {
                 sum += *found;
                 ++cards;
@@ -220,6 +228,7 @@ private:
     const World& world_;
     const MovingCamera& camera_;
     const RenderOptions& options_;
+    int paths_;  // of a card
     PixelFilter filter_;
 };
 
@@ -230,10 +239,15 @@ std::vector<double> white_cards(const Scene& scene, const CameraDesc& camera,
 {
     const RenderOptions options = grid_options(asked);
     check_options(options);
+    if (asked.paths < 1 || asked.paths > max_paths) {
+        throw Error(ErrorCode::usage, "number of paths of a card is " +
+                                          std::to_string(asked.paths) + ", not in [1, " +
+                                          std::to_string(max_paths) + "]");
+    }
     check_camera(camera);
     check_camera_distance(camera, scene.world().farthest_origin());
     const MovingCamera opened = open_camera(scene.world(), camera, options);
-    const CardMeter meter(scene.world(), opened, options);
+    const CardMeter meter(scene.world(), opened, options, asked.paths);
     std::vector<std::vector<double>> rows(static_cast<std::size_t>(options.film.height));
     Threads threads(options.system.threads);
     threads.execute([&] {

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace bdpt::test::light_meter_test {
@@ -82,6 +84,39 @@ TEST_CASE("cards are the same on any number of threads, and none where nothing i
     CHECK(cards.size() > 100);
     CHECK(cards == white_cards(scene, outside, {.aspect = 2.0f, .threads = 3}));
     CHECK(white_cards(scene, camera_at({0, 0, 4}, {0, 0, 8}, 0.8f)).empty());
+}
+
+TEST_CASE("cards of few paths have the same mean as those of many, and more noise", "[light_meter]")
+{
+    SceneBuilder builder;
+    const MaterialDesc wall = lambertian(Rgb(0.7f));
+    builder.walls(wall, wall).ceiling(wall).front(wall).lamp(0.98f, 0.3f, Rgb(5.0f));
+    const Scene scene(builder.desc);
+    const CameraDesc inside = camera_at({0.0f, 0.0f, 0.9f}, {0.0f, 0.0f, -1.0f}, 0.9f);
+    const std::vector<double> exact = white_cards(scene, inside, {.paths = 1024});
+    const auto mean_and_noise = [&](int paths) {
+        const std::vector<double> cards = white_cards(scene, inside, {.paths = paths});
+        REQUIRE(cards.size() == exact.size());
+        double sum = 0.0;
+        double squares = 0.0;
+        for (std::size_t i = 0; i < cards.size(); ++i) {
+            sum += cards[i];
+            squares += (cards[i] - exact[i]) * (cards[i] - exact[i]);
+        }
+        return std::pair(sum / static_cast<double>(cards.size()), squares);
+    };
+    const auto [mean_of_2, noise_of_2] = mean_and_noise(2);
+    const auto [mean_of_32, noise_of_32] = mean_and_noise(32);
+    CHECK(mean_of_2 == Approx(mean_of_32).epsilon(0.05));
+    CHECK(noise_of_2 > 8.0 * noise_of_32);
+}
+
+TEST_CASE("a number of paths out of range is an error that names it", "[light_meter]")
+{
+    const Scene scene(sphere_under_sky(lambertian(Rgb(0.5f)), 1.0f).desc);
+    CHECK_THROWS_WITH(white_cards(scene, outside, {.paths = 0}),
+                      ContainsSubstring("number of paths of a card is 0, not in [1, 1024]"));
+    CHECK_THROWS_WITH(white_cards(scene, outside, {.paths = 1025}), ContainsSubstring("1025"));
 }
 
 TEST_CASE("the level is that of most of the brighter half", "[light_meter]")

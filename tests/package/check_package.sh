@@ -242,6 +242,7 @@ make_wheel() {
     --config-settings=cmake.build-type=Debug --config-settings=cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O2 \
     --config-settings=cmake.define.BDPT_COMMAND_OPTIMIZATION=-O1 \
     --config-settings=cmake.define.BDPT_WERROR=ON --config-settings=cmake.define.CMAKE_UNITY_BUILD=ON \
+    --config-settings=cmake.define.CMAKE_UNITY_BUILD_BATCH_SIZE=32 \
     --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER"
   rm -rf "$folder/source" "$folder/tmp"
   "${pip[@]}" uninstall -q -y scikit-build-core

@@ -82,6 +82,48 @@ const EnvironmentLight& sky_of(const Scene& scene)
     return std::get<EnvironmentLight>(lights[*lights.environment()].model());
 }
 
+/// What is wrong in `room_and_terrace`: that only what is blocked is visible, on one side of the
+/// room, that each place has light of another group alone, that light paths start at one half of
+/// the lamp, that light of the sky enters from below, and light of the sun beside the room.
+LearnedLight mislead(const Scene& scene)
+{
+    std::vector<EnvironmentVisibility::Trial> wrong;
+    std::vector<GroupShares::Finding> findings;
+    std::vector<Escape> escapes;
+    std::vector<Escape> wrong_side;  // of the sun
+    Random random(6);
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 p = 2.0f * Vec3(random.next(), random.next(), random.next()) - 1.0f;
+        const auto tile = static_cast<std::uint32_t>(random.next() * EnvironmentTiles::tile_count);
+        wrong.push_back({.p = p, .tile = tile, .visible = (tile % 2 == 0) == (p.x > 0.1f)});
+        for (std::uint32_t group = 0; group < 3; ++group) {
+            const bool only = group == (p.z > 0.0f ? 2U : p.x > 0.0f ? 1U : 0U);
+            findings.push_back({.p = p, .group = group, .value = only ? 1.0f : 0.0f});
+        }
+        const Vec3 down = normalize(Vec3(p.x, -1.0f, p.y));
+        escapes.push_back({.p = 0.3f * p,
+                           .direction = down,
+                           .tile = sky_of(scene).tile_to(down),
+                           .throughput = 1.0f});
+        wrong_side.push_back({.p = p + Vec3(2.0f, 0.0f, 0.0f),
+                              .direction = normalize(Vec3(-0.1f, 1.0f, -0.05f)),
+                              .throughput = 1.0f});
+    }
+    const LightSet& lights = scene.world().lights();
+    LightId sun{};
+    while (!std::holds_alternative<DirectionalLight>(lights[sun].model())) {
+        sun = LightId{static_cast<std::uint32_t>(sun) + 1};
+    }
+    const std::vector<IndirectLight> half_of_lamp(500, {.light = LightId{0}, .value = 1.0f});
+    return {.visibility = EnvironmentVisibility(wrong),
+            .groups = GroupShares(findings, 3),
+            .starts = learn_starts(half_of_lamp, lights),
+            .entries =
+                EnvironmentEntries(escapes, sky_of(scene).tiles(), scene.world().bounding_sphere()),
+            .suns = {{.sun = sun,
+                      .window = EntryWindow(wrong_side, {}, scene.world().bounding_sphere())}}};
+}
+
 }  // namespace
 
 TEST_CASE("light pilot: the open front is visible, the wall behind is not", "[pilot]")
@@ -456,48 +498,51 @@ TEST_CASE("light pilot: all renders of a view learn once", "[pilot]")
           learned(scene, named));
 }
 
+TEST_CASE("light pilot: samples of learned lights have the density that hits of them are told",
+          "[pilot]")
+{
+    const Scene scene(room_and_terrace().desc);
+    const LightSet& lights = scene.world().lights();
+    const LearnedLight learned = mislead(scene);
+    const NextEventSampling sampling{.environments = EnvironmentSampling::learned,
+                                     .lights = LightSampling::automatic,
+                                     .learned = &learned};
+    Random random(12);
+    int of_sky = 0;
+    int of_lamp = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const Vec3 p = 2.0f * Vec3(random.next(), random.next(), random.next()) - 1.0f;
+        LightSampleContext receiver{.p = p};
+        if (i % 2 == 0) {
+            receiver.normal = normalize(Vec3(p.z, 1.0f, p.x));
+        }
+        Sampler sampler(SamplerKind::independent, 12, i, 0, 0);
+        sampler.start(SampleUse::next_event);
+        const Vec2 u = sampler.next_2d();
+        const LightSet::NextEvent next = lights.sample_next_event(
+            receiver, u, [&sampler] { return sampler.next_fine(); }, sampling, 0.0f);
+        if (!next.incident || lights[next.light].is_delta()) {
+            continue;
+        }
+        const bool is_sky = next.light == lights.environment();
+        ++(is_sky ? of_sky : of_lamp);
+        const LightPoint met{.p = is_sky ? next.incident->wi : next.incident->end.p,
+                             .ng = next.incident->end.ng,
+                             .barycentrics = next.incident->barycentrics};
+        const float told = lights.next_event_pdf(next.light, met, receiver, sampling).value;
+        CHECK(told == Approx(next.pdf().value).epsilon(1e-4));
+    }
+    CHECK(of_sky > 500);
+    CHECK(of_lamp > 500);
+}
+
 TEST_CASE("light pilot: the image is right whatever was learned", "[pilot]")
 {
-    // Also what is wrong on purpose: that only what is blocked is visible, on one side of the room,
-    // that each place has light of another group alone, that light paths start at one half of the
-    // lamp, that light of the sky enters from below, and light of the sun beside the room.
+    // Also what is wrong on purpose.
     const Scene scene(room_and_terrace().desc);
     const World& world = scene.world();
     const MovingCamera camera(room_camera(), Camera(room_camera(), 16, 12));
-    std::vector<EnvironmentVisibility::Trial> wrong;
-    std::vector<GroupShares::Finding> findings;
-    std::vector<Escape> escapes;
-    std::vector<Escape> wrong_side;  // of the sun
-    Random random(6);
-    for (int i = 0; i < 20000; ++i) {
-        const Vec3 p = 2.0f * Vec3(random.next(), random.next(), random.next()) - 1.0f;
-        const auto tile = static_cast<std::uint32_t>(random.next() * EnvironmentTiles::tile_count);
-        wrong.push_back({.p = p, .tile = tile, .visible = (tile % 2 == 0) == (p.x > 0.1f)});
-        for (std::uint32_t group = 0; group < 3; ++group) {
-            const bool only = group == (p.z > 0.0f ? 2U : p.x > 0.0f ? 1U : 0U);
-            findings.push_back({.p = p, .group = group, .value = only ? 1.0f : 0.0f});
-        }
-        const Vec3 down = normalize(Vec3(p.x, -1.0f, p.y));
-        escapes.push_back({.p = 0.3f * p,
-                           .direction = down,
-                           .tile = sky_of(scene).tile_to(down),
-                           .throughput = 1.0f});
-        wrong_side.push_back({.p = p + Vec3(2.0f, 0.0f, 0.0f),
-                              .direction = normalize(Vec3(-0.1f, 1.0f, -0.05f)),
-                              .throughput = 1.0f});
-    }
-    const LightSet& lights = world.lights();
-    LightId sun{};
-    while (!std::holds_alternative<DirectionalLight>(lights[sun].model())) {
-        sun = LightId{static_cast<std::uint32_t>(sun) + 1};
-    }
-    const std::vector<IndirectLight> half_of_lamp(500, {.light = LightId{0}, .value = 1.0f});
-    const LearnedLight misled{
-        .visibility = EnvironmentVisibility(wrong),
-        .groups = GroupShares(findings, 3),
-        .starts = learn_starts(half_of_lamp, lights),
-        .entries = EnvironmentEntries(escapes, sky_of(scene).tiles(), world.bounding_sphere()),
-        .suns = {{.sun = sun, .window = EntryWindow(wrong_side, {}, world.bounding_sphere())}}};
+    const LearnedLight misled = mislead(scene);
     for (const auto kind : {IntegratorKind::mis, IntegratorKind::bdpt}) {
         RenderOptions options = options_of(kind);
         const auto right = learned(scene, options);

@@ -2,6 +2,10 @@
 
 #include "catch.hpp"
 #include "chi_square.h"
+#include "light/learned/learned_light.h"
+#include "math/sampler.h"
+#include "scene/world.h"
+#include "scene_builder.h"
 #include "statistics.h"
 
 #include <algorithm>
@@ -9,6 +13,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 namespace bdpt::environment_visibility_test {
@@ -181,6 +186,36 @@ TEST_CASE("visibility: samples of tiles have the density that is told", "[light]
         }
     }
     CHECK(attracted > 0);
+}
+
+TEST_CASE("visibility: next-event estimation prefers what is visible from the receiver",
+          "[light][visibility]")
+{
+    test::SceneBuilder builder;
+    builder.sphere({0, 0, 0}, 1.0f, test::lambertian(Rgb(0.5f)));
+    builder.light(EnvironmentLightDesc{
+        .radiance = Image{.width = 32, .height = 16, .pixels = std::vector<Rgb>(512, Rgb(1.0f))}});
+    const Scene scene(builder.desc);
+    const LightSet& lights = scene.world().lights();
+    const auto& sky = std::get<EnvironmentLight>(lights[*lights.environment()].model());
+    const LearnedLight learned{.visibility = EnvironmentVisibility(trials_of_two_halves(200000))};
+    const NextEventSampling sampling{.environments = EnvironmentSampling::learned,
+                                     .lights = LightSampling::automatic,
+                                     .learned = &learned};
+    const auto mean_tile = [&](Vec3 p) {
+        double sum = 0.0;
+        for (int i = 0; i < 1000; ++i) {
+            Sampler sampler(SamplerKind::independent, 5, i, 0, 0);
+            sampler.start(SampleUse::next_event);
+            const Vec2 u = sampler.next_2d();
+            const LightSet::NextEvent next = lights.sample_next_event(
+                {.p = p}, u, [&sampler] { return sampler.next_fine(); }, sampling, 0.0f);
+            REQUIRE(next.incident);
+            sum += static_cast<double>(sky.tile_to(next.incident->wi)) / 1000.0;
+        }
+        return sum;
+    };
+    CHECK(mean_tile({0.6f, 0.1f, 0.2f}) > mean_tile({-0.6f, 0.1f, 0.2f}) + 0.1 * tile_count);
 }
 
 }  // namespace bdpt::environment_visibility_test

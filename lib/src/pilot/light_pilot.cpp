@@ -35,9 +35,9 @@ struct Finds {
     std::vector<IndirectLight> indirect;
 };
 
-/// Joins one kind of results of all parts, in their order.
+/// Returns one kind of results of all parts, in their order.
 template <typename Find>
-std::vector<Find> join(const std::vector<Finds>& parts, std::vector<Find> Finds::*kind)
+std::vector<Find> concatenate(const std::vector<Finds>& parts, std::vector<Find> Finds::*kind)
 {
     std::size_t size = 0;
     for (const Finds& part : parts) {
@@ -166,8 +166,8 @@ std::optional<GroupShares> make_shares(std::vector<GroupShares::Finding> finding
     return GroupShares(std::move(findings), world.lights().next_event_lights().group_count());
 }
 
-/// Returns where the light of each sun enters that some ray of `to_suns` found; the tile of such a
-/// ray is the number of its sun.
+/// Returns where light of the suns enters, for each sun that a ray of `to_suns` reached. The `tile`
+/// of such a ray is the index of its sun in `find_suns`.
 std::vector<SunEntries> make_sun_entries(const std::vector<Escape>& to_suns, const World& world)
 {
     std::vector<SunEntries> entries;
@@ -465,15 +465,15 @@ std::unique_ptr<const LearnedLight> learn_light(const World& world, const Moving
     LearnedLight learned;
     tbb::parallel_invoke(
         [&] {
-            learned.visibility = make_visibility(join(rows, &Finds::trials));
+            learned.visibility = make_visibility(concatenate(rows, &Finds::trials));
             if (learned.visibility) {
-                learned.entries.emplace(join(rows, &Finds::escapes),
+                learned.entries.emplace(concatenate(rows, &Finds::escapes),
                                         find_environment(world)->tiles(), world.bounding_sphere());
             }
         },
-        [&] { learned.groups = make_shares(join(rows, &Finds::findings), world); },
-        [&] { learned.starts = learn_starts(join(rows, &Finds::indirect), world.lights()); },
-        [&] { learned.suns = make_sun_entries(join(rows, &Finds::to_suns), world); });
+        [&] { learned.groups = make_shares(concatenate(rows, &Finds::findings), world); },
+        [&] { learned.starts = learn_starts(concatenate(rows, &Finds::indirect), world.lights()); },
+        [&] { learned.suns = make_sun_entries(concatenate(rows, &Finds::to_suns), world); });
     return learned.visibility || learned.groups || learned.starts || !learned.suns.empty()
                ? std::make_unique<const LearnedLight>(std::move(learned))
                : nullptr;

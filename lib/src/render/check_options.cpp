@@ -27,15 +27,6 @@
 namespace bdpt {
 namespace {
 
-void check_range(const char* what, std::int64_t value, std::int64_t low, std::int64_t high)
-{
-    if (value < low || value > high) {
-        throw Error(ErrorCode::usage, std::string(what) + " is " + std::to_string(value) +
-                                          ", not in [" + std::to_string(low) + ", " +
-                                          std::to_string(high) + "]");
-    }
-}
-
 void check_crop(const PixelRect& crop, int width, int height)
 {
     const bool inside = crop.x0 >= 0 && crop.y0 >= 0 && crop.x1 <= width && crop.y1 <= height;
@@ -169,6 +160,15 @@ std::string label(const CameraDesc& camera)
 }
 
 }  // namespace
+
+void check_range(const char* what, std::int64_t value, std::int64_t low, std::int64_t high)
+{
+    if (value < low || value > high) {
+        throw Error(ErrorCode::usage, std::string(what) + " is " + std::to_string(value) +
+                                          ", not in [" + std::to_string(low) + ", " +
+                                          std::to_string(high) + "]");
+    }
+}
 
 void check_options(const RenderOptions& options)
 {

@@ -3,7 +3,12 @@
 #include <bdpt/render_options.h>
 #include <bdpt/scene_desc.h>
 
+#include <cstdint>
+
 namespace bdpt {
+
+/// Throws `Error` (usage) if `value` is not in [low, high]; the text begins with `what`.
+void check_range(const char* what, std::int64_t value, std::int64_t low, std::int64_t high);
 
 /// Throws `Error` (usage) that names the first option out of range and its value.
 void check_options(const RenderOptions& options);

@@ -49,7 +49,7 @@ double mean(const std::vector<double>& cards)
     return std::accumulate(cards.begin(), cards.end(), 0.0) / static_cast<double>(cards.size());
 }
 
-double median(std::vector<double>& cards)
+double median(std::vector<double> cards)
 {
     const auto middle = cards.begin() + static_cast<std::ptrdiff_t>(cards.size() / 2);
     std::nth_element(cards.begin(), middle, cards.end());
@@ -62,7 +62,8 @@ double median(std::vector<double>& cards)
 bool is_clearly_lit(double least, const Scene& scene, const FramedView& framed, float aspect)
 {
     constexpr double margin = 3.0;
-    std::vector<double> cards = white_cards(scene, framed.camera, {.aspect = aspect, .paths = 2});
+    const std::vector<double> cards =
+        white_cards(scene, framed.camera, {.aspect = aspect, .paths = 2});
     return !cards.empty() && median(cards) >= margin * least;
 }
 
@@ -78,7 +79,7 @@ bool is_lit_by_emitters(const Scene& scene, const FramedView& framed, float aspe
     if (is_clearly_lit(least, scene, framed, aspect)) {
         return true;
     }
-    std::vector<double> cards = white_cards(scene, framed.camera, {.aspect = aspect});
+    const std::vector<double> cards = white_cards(scene, framed.camera, {.aspect = aspect});
     if (cards.empty()) {
         return false;
     }

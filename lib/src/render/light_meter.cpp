@@ -1,7 +1,5 @@
 #include <bdpt/light/light_meter.h>
 
-#include <bdpt/error.h>
-
 #include "camera/moving_camera.h"
 #include "geometry/flush_denormals.h"
 #include "integrator/sample_start.h"
@@ -21,7 +19,6 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <string>
 
 namespace bdpt {
 namespace {
@@ -239,11 +236,7 @@ std::vector<double> white_cards(const Scene& scene, const CameraDesc& camera,
 {
     const RenderOptions options = grid_options(asked);
     check_options(options);
-    if (asked.paths < 1 || asked.paths > max_paths) {
-        throw Error(ErrorCode::usage, "number of paths of a card is " +
-                                          std::to_string(asked.paths) + ", not in [1, " +
-                                          std::to_string(max_paths) + "]");
-    }
+    check_range("number of paths of a card", asked.paths, 1, max_paths);
     check_camera(camera);
     check_camera_distance(camera, scene.world().farthest_origin());
     const MovingCamera opened = open_camera(scene.world(), camera, options);

@@ -4,7 +4,7 @@
 
 namespace bdpt {
 
-/// Runs both functions, on two threads if one is idle. Throws what they throw.
+/// Runs both functions, side by side if another thread is idle. Throws what they throw.
 void run_both(const std::function<void()>& first, const std::function<void()>& second);
 
 }  // namespace bdpt

@@ -82,9 +82,9 @@ const EnvironmentLight& sky_of(const Scene& scene)
     return std::get<EnvironmentLight>(lights[*lights.environment()].model());
 }
 
-/// What is wrong in `room_and_terrace`: that only what is blocked is visible, on one side of the
-/// room, that each place has light of another group alone, that light paths start at one half of
-/// the lamp, that light of the sky enters from below, and light of the sun beside the room.
+/// Returns claims about `room_and_terrace` that are all wrong: only what is blocked is visible, on
+/// one side of the room; each place has light of another group alone; light paths start at one half
+/// of the lamp; light of the sky enters from below, and light of the sun beside the room.
 LearnedLight mislead(const Scene& scene)
 {
     std::vector<EnvironmentVisibility::Trial> wrong;
@@ -498,7 +498,7 @@ TEST_CASE("light pilot: all renders of a view learn once", "[pilot]")
           learned(scene, named));
 }
 
-TEST_CASE("light pilot: samples of learned lights have the density that hits of them are told",
+TEST_CASE("light pilot: a learned light sample has the density of a hit of the same point",
           "[pilot]")
 {
     const Scene scene(room_and_terrace().desc);
@@ -529,8 +529,8 @@ TEST_CASE("light pilot: samples of learned lights have the density that hits of 
         const LightPoint met{.p = is_sky ? next.incident->wi : next.incident->end.p,
                              .ng = next.incident->end.ng,
                              .barycentrics = next.incident->barycentrics};
-        const float told = lights.next_event_pdf(next.light, met, receiver, sampling).value;
-        CHECK(told == Approx(next.pdf().value).epsilon(1e-4));
+        const float of_hit = lights.next_event_pdf(next.light, met, receiver, sampling).value;
+        CHECK(of_hit == Approx(next.pdf().value).epsilon(1e-4));
     }
     CHECK(of_sky > 500);
     CHECK(of_lamp > 500);
@@ -538,7 +538,6 @@ TEST_CASE("light pilot: samples of learned lights have the density that hits of 
 
 TEST_CASE("light pilot: the image is right whatever was learned", "[pilot]")
 {
-    // Also what is wrong on purpose.
     const Scene scene(room_and_terrace().desc);
     const World& world = scene.world();
     const MovingCamera camera(room_camera(), Camera(room_camera(), 16, 12));

@@ -145,11 +145,10 @@ TEST_CASE("emitters that light an open scene are its light, those that glow are 
     CHECK(glows.desc.lights.size() == 1);
 }
 
-TEST_CASE("emitters that light less than half of an open view brightly are none",
-          "[default_lights]")
+TEST_CASE("an emitter above a floor is its light if half of the floor is lit", "[default_lights]")
 {
-    // A box with a lamp is most of what is visible, if it is large.
-    const auto lit_part = [](float half_side) {
+    // However bright it is: a small one lights only the part below it.
+    const auto lights_beside_emitter = [](float half_side) {
         test::SceneBuilder scene;
         scene.quad({-4, -1, 4}, {4, -1, 4}, {4, -1, -4}, {-4, -1, -4}, wall);
         scene.quad({-half_side, -0.5f, half_side}, {-half_side, -0.5f, -half_side},
@@ -157,8 +156,8 @@ TEST_CASE("emitters that light less than half of an open view brightly are none"
                    test::emitter(Rgb(50.0f)));
         return add_default_lights(scene.desc);
     };
-    CHECK(lit_part(0.05f) == DefaultLights::sky);
-    CHECK(lit_part(2.0f) == DefaultLights::none);
+    CHECK(lights_beside_emitter(0.05f) == DefaultLights::sky);
+    CHECK(lights_beside_emitter(2.0f) == DefaultLights::none);
 }
 
 TEST_CASE("emitters of a closed room are its light, unless they light next to nothing",

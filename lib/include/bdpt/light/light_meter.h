@@ -31,14 +31,14 @@ struct LightMeterOptions {
     float aspect = 1.0f;  ///< aspect ratio of the view: width over height, above 0
     /// Paths of each card, in [1, 1024]: noise falls with the root of the number.
     int paths = 32;
-    int threads = 0;      ///< as `SystemOptions::threads`; does not affect the result
+    int threads = 0;  ///< as `SystemOptions::threads`; does not affect the result
 };
 
 /// Returns the luminance [nit] of white diffuse cards on the surfaces that the camera sees, a few
 /// thousand at most, evenly distributed over the view: E / pi, where the irradiance E includes
 /// direct light and light from all other surfaces. Each value is a noisy estimate from few paths.
-/// Empty if the camera sees no surface. Deterministic. Throws `Error` like render(), and for options
-/// out of range.
+/// Empty if the camera sees no surface. Deterministic. Throws `Error` like render(), and (usage) if
+/// the number of paths is out of range.
 [[nodiscard]] BDPT_EXPORT std::vector<double> white_cards(const Scene& scene,
                                                           const CameraDesc& camera,
                                                           const LightMeterOptions& options = {});

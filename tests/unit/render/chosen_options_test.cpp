@@ -4,6 +4,7 @@
 #include "room.h"
 #include "scene_builder.h"
 
+#include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
 
 #include <utility>

@@ -18,6 +18,7 @@ JobOptions::JobOptions(const std::vector<JobSetting>& settings)
         for (const JobSetting& setting : settings) {
             if (setting.name == to_key(option)) {
                 option.texts = setting.texts;
+                option.job = setting.job;
             }
         }
     }
@@ -28,7 +29,7 @@ std::vector<JobSetting> JobOptions::settings() const
     std::vector<JobSetting> settings;
     for (const app::Option& option : list_.all()) {
         if (option.given()) {
-            settings.push_back({.name = to_key(option), .texts = option.texts});
+            settings.push_back({.name = to_key(option), .texts = option.texts, .job = option.job});
         }
     }
     return settings;
@@ -63,23 +64,17 @@ std::string to_list(const Values& values)
 
 }  // namespace
 
-JobValue::JobValue(std::nullptr_t /*value*/) : json_("null")
-{}
+JobValue::JobValue(std::nullptr_t /*value*/) : json_("null") {}
 
-JobValue::JobValue(bool value) : json_(value ? "true" : "false")
-{}
+JobValue::JobValue(bool value) : json_(value ? "true" : "false") {}
 
-JobValue::JobValue(double value) : json_(to_json(value))
-{}
+JobValue::JobValue(double value) : json_(to_json(value)) {}
 
-JobValue::JobValue(Quoted value) : json_(to_json(value.text))
-{}
+JobValue::JobValue(Quoted value) : json_(to_json(value.text)) {}
 
-JobValue::JobValue(std::initializer_list<JobValue> values) : json_(to_list(values))
-{}
+JobValue::JobValue(std::initializer_list<JobValue> values) : json_(to_list(values)) {}
 
-JobValue::JobValue(const std::vector<JobValue>& values) : json_(to_list(values))
-{}
+JobValue::JobValue(const std::vector<JobValue>& values) : json_(to_list(values)) {}
 
 RenderJob::RenderJob(const std::filesystem::path& scene)
 {
@@ -98,7 +93,7 @@ RenderJob RenderJob::from_file(const std::filesystem::path& file)
 RenderJob RenderJob::from_json(std::string_view text, const std::filesystem::path& folder)
 {
     job::JobOptions options({});
-    app::load_job(io::JsonValue::parse(text), folder, options.list());
+    app::load_job(io::JsonValue::parse(text), folder / "job.json", options.list());
     RenderJob result;
     result.settings_ = options.settings();
     return result;

@@ -51,7 +51,7 @@ bool belongs(const app::Option& option, Call call)
         case Call::save:
             return uses.python_save;
         case Call::run:
-            return (uses.job || uses.program) && !option.is_argument();
+            return uses.stated_in <= app::StatedIn::programs && !option.is_argument();
     }
     return false;
 }
@@ -292,6 +292,20 @@ bool change_view(const Words& words)
                    }));
     });
     return changed;
+}
+
+std::optional<std::string> find_unsafe(const Words& words)
+{
+    std::vector<std::string> safe;
+    visit_options(Call::load, [&safe](const app::Option& option) {
+        if (option.is_harmless()) {
+            safe.push_back(option.name());
+        }
+    });
+    const auto found = std::find_if(words.begin(), words.end(), [&safe](const std::string& word) {
+        return std::find(safe.begin(), safe.end(), parse_name(word)) == safe.end();
+    });
+    return found != words.end() ? std::optional(*found) : std::nullopt;
 }
 
 Words combined(const Words& of_load, const Words& of_render)

@@ -33,6 +33,10 @@ void set_options(RenderJob& job, const nanobind::kwargs& options);
 /// Tests whether one of `words` chooses a camera, or changes its position or its lens.
 [[nodiscard]] bool change_view(const Words& words);
 
+/// Returns the first of `words` that is no option of load() that a pickle, which may come from
+/// anybody, may state; none if all are.
+[[nodiscard]] std::optional<std::string> find_unsafe(const Words& words);
+
 /// Combines the words of load() with those of render(), which replace the ones that they cannot be
 /// combined with: another view of the same scene.
 [[nodiscard]] Words combined(const Words& of_load, const Words& of_render);

@@ -4,6 +4,7 @@
 #include <bdpt/io/output_file.h>
 #include <fmt/core.h>
 
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -21,6 +22,7 @@
 #include "options/job_file.h"
 #include "options/values/output_files.h"
 #include "options/values/value_types.h"
+#include "report/render_files.h"
 #include "stage/input_files.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
@@ -58,9 +60,18 @@ int run_help(Program& program, const std::string& topic)
 /// Runs `bdpt render --save-job`: checks that the options are compatible, as a render would.
 int save_job(const RenderRequest& request, const OptionList& options)
 {
-    const RenderArguments arguments = checked(request, options);
+    RenderArguments arguments = checked(request, options);
     const fs::path& file = request.saved_job;
-    check_output("--save-job", file, FileSet(input_files(arguments)), FileSet(arguments.outputs));
+    FileSet inputs(input_files(arguments));
+    inputs.add(named_files(arguments, std::array{file}));
+    check_output("--save-job", file, inputs, FileSet(arguments.outputs));
+    arguments.job = JobSource{.file = file};
+    for (const Option& option : options.all()) {
+        if (option.given() && option.uses.stated_in == StatedIn::own_folder) {
+            arguments.job->outputs.push_back(option.name());
+        }
+    }
+    check_files_of_job(arguments);
     io::OutputFile output(file);
     output.write(job_text(options, file));
     output.commit();

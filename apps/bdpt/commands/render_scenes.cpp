@@ -15,6 +15,7 @@
 #include "options/values/default_output.h"
 #include "options/values/file_pattern.h"
 #include "options/values/file_set.h"
+#include "options/values/output_files.h"
 #include "options/values/pipes.h"
 #include "stage/input_files.h"
 #include "terminal/console.h"
@@ -47,28 +48,26 @@ void check_scenes(const std::vector<fs::path>& scenes, const OptionList& options
 /// write a file that is read for another.
 void check_separate(const std::vector<RenderArguments>& all)
 {
-    FileSet inputs;
+    std::vector<fs::path> files;
     for (const RenderArguments& one : all) {
-        inputs.add(one.file);
-    }
-    FileSet written;
-    for (const RenderArguments& one : all) {
-        std::vector<fs::path> files = one.outputs;
+        files.insert(files.end(), one.outputs.begin(), one.outputs.end());
         if (one.stats) {
             files.push_back(*one.stats);
         }
-        for (const fs::path& file : files) {
-            if (inputs.contains(file)) {
-                throw Error(
-                    ErrorCode::usage,
-                    fmt::format("{}: cannot be both an input and an output", file.string()));
-            }
-            if (!written.add(file)) {
-                throw OptionError(fmt::format(
-                    "{}: several scenes would write it: put {{name}} into names of outputs, like "
-                    "-o '{{name}}.png', and rename scenes of the same name",
-                    file.string()));
-            }
+    }
+    FileSet inputs;
+    for (const RenderArguments& one : all) {
+        inputs.add(input_files(one));
+        inputs.add(named_files(one, files));
+    }
+    check_not_read(files, inputs);
+    FileSet written;
+    for (const fs::path& file : files) {
+        if (!written.add(file)) {
+            throw OptionError(fmt::format(
+                "{}: several scenes would write it: put {{name}} into names of outputs, like "
+                "-o '{{name}}.png', and rename scenes of the same name",
+                file.string()));
         }
     }
 }
@@ -88,6 +87,9 @@ RenderArguments for_scene(const RenderArguments& asked, const fs::path& scene)
     }
     if (one.outputs.empty() && !one.part && !one.sequence && scene != "-") {
         one.outputs.push_back(default_output(scene));
+        if (one.job) {
+            one.job->names_default = true;
+        }
     }
     return one;
 }

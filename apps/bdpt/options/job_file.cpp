@@ -85,16 +85,11 @@ void take(Option& option, const JsonValue& value, const fs::path& folder)
     }
 }
 
-/// Who sets an option.
-enum class Setter : std::uint8_t { file, program };
-
-/// Returns the option with the name `key` in jobs, or null.
-Option* find_option(OptionList& options, const std::string& key, Setter setter = Setter::file)
+/// Returns the option with the name `key` that may be stated in places like `where`, or null.
+Option* find_option(OptionList& options, const std::string& key, StatedIn where)
 {
     for (Option& option : options.all()) {
-        const bool may_be_set =
-            option.uses.job || (option.uses.program && setter == Setter::program);
-        if (may_be_set && to_key(option) == key) {
+        if (option.uses.stated_in <= where && to_key(option) == key) {
             return &option;
         }
     }
@@ -106,7 +101,7 @@ Option* find_option(OptionList& options, const std::string& key, Setter setter =
 {
     std::vector<std::string> keys;
     for (const Option& option : options.all()) {
-        if (option.uses.job) {
+        if (option.is_for_jobs()) {
             keys.push_back(to_key(option));
         }
     }
@@ -220,13 +215,13 @@ bool is_job(const fs::path& file)
 
 void load_job(const fs::path& file, OptionList& options)
 {
-    load_job(JsonValue::read(file), file.parent_path(), options);
+    load_job(JsonValue::read(file), file, options);
 }
 
-void load_job(const JsonValue& job, const fs::path& folder, OptionList& options)
+void load_job(const JsonValue& job, const fs::path& file, OptionList& options)
 {
     check_format(job);
-    Option& scene = *find_option(options, "file");
+    Option& scene = *find_option(options, "file", StatedIn::own_folder);
     scene.texts.clear();
     std::vector<const Option*> given;
     for (const Option& option : options.all()) {
@@ -238,15 +233,17 @@ void load_job(const JsonValue& job, const fs::path& folder, OptionList& options)
         if (key == format_key || key == schema_key) {
             continue;
         }
-        Option* option = find_option(options, key);
+        Option* option = find_option(options, key, StatedIn::own_folder);
         if (option == nullptr) {
             fail_unknown(options, key, value);
         }
         // Values that the command line overrides are checked, too.
         std::vector<std::string> before = option->texts;
-        take(*option, job.at(key), folder);
+        take(*option, job.at(key), file.parent_path());
         if (std::find(given.begin(), given.end(), option) != given.end()) {
             option->texts = std::move(before);
+        } else {
+            option->job = file;
         }
     }
     if (!scene.given()) {
@@ -259,11 +256,12 @@ void load_job(const JsonValue& job, const fs::path& folder, OptionList& options)
 void set_options(const JsonValue& members, OptionList& options)
 {
     for (const auto& [key, value] : members.members()) {
-        Option* option = find_option(options, key, Setter::program);
+        Option* option = find_option(options, key, StatedIn::programs);
         if (option == nullptr) {
             fail_unknown(options, key, value);
         }
         option->texts.clear();
+        option->job.clear();
         const bool is_scene = key == "file";
         if (is_scene || !value.is_null()) {
             take(*option, members.at(key), "");
@@ -279,7 +277,7 @@ std::string job_text(const OptionList& options, const fs::path& file)
     const fs::path folder = fs::weakly_canonical(fs::absolute(file)).parent_path();
     ordered_json job{{format_key, job_format}};
     for (const Option& option : options.all()) {
-        if (!option.uses.job || !option.given()) {
+        if (!option.is_for_jobs() || !option.given()) {
             continue;
         }
         const std::string key = to_key(option);
@@ -301,7 +299,7 @@ std::string job_schema(const OptionList& options)
         {format_key, {{"const", job_format}, {"description", "Format of the file"}}},
         {schema_key, {{"type", "string"}}}};
     for (const Option& option : options.all()) {
-        if (option.uses.job) {
+        if (option.is_for_jobs()) {
             members[to_key(option)] = make_schema(option);
         }
     }

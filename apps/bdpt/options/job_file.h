@@ -11,7 +11,7 @@
 namespace bdpt::app {
 
 // A job is a JSON file equivalent to a command line: its members are the options of `bdpt render`
-// (`OptionUses::job`), by their names with '_' for '-', and "file", the scene. It loads no code.
+// that documents may state (`StatedIn`), by their names with '_' for '-', and "file", the scene.
 // Paths in it are relative to its folder.
 
 /// Value of "bdpt_job" in jobs. It is incremented with every change that older programs would
@@ -29,11 +29,11 @@ inline constexpr int job_format = 1;
 /// place in the file.
 void load_job(const std::filesystem::path& file, OptionList& options);
 
-/// The same for a job that was read; paths in it are relative to `folder`.
-void load_job(const io::JsonValue& job, const std::filesystem::path& folder, OptionList& options);
+/// The same for a job that was read from `file`.
+void load_job(const io::JsonValue& job, const std::filesystem::path& file, OptionList& options);
 
 /// Stores `members`, an object of options as in jobs, into `options`, replacing what was given;
-/// null removes it. Options of `OptionUses::program` may be among them; paths are relative to the
+/// null removes it. Options of `StatedIn::programs` may be among them; paths are relative to the
 /// working directory. Throws `Error` (invalid_input).
 void set_options(const io::JsonValue& members, OptionList& options);
 

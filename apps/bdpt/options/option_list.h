@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -51,6 +52,15 @@ struct ValueType {
     ValueInfo info{};
 };
 
+/// Where an option may be stated. Documents (jobs, plans, scenes of Blender, pickled scenes) may
+/// come from anybody: they load no code, connect to no machine and replace no file of others.
+enum class StatedIn : std::uint8_t {
+    documents,     ///< anywhere
+    own_folder,    ///< anywhere; of a document the written file must be in its folder, or below
+    programs,      ///< on the command line, and by programs (`RenderJob::set`)
+    command_line,  ///< only there
+};
+
 /// Uses of an option other than on the command line.
 struct OptionUses {
     bool plan_render = false;    ///< plans pass it to `bdpt render`
@@ -58,8 +68,7 @@ struct OptionUses {
     bool python_load = false;    ///< keyword of bdpt.load()
     bool python_render = false;  ///< keyword of render() in Python
     bool python_save = false;    ///< keyword of save() in Python
-    bool job = true;             ///< member of jobs (options/job_file.h)
-    bool program = false;        ///< of `RenderJob::set`, though no file may decide it
+    StatedIn stated_in = StatedIn::documents;
 };
 
 /// An option of a command, or a positional argument.
@@ -77,7 +86,12 @@ struct Option {
     std::string expected{};
     std::function<void()> clear{};     ///< clears all values of a repeatable option
     std::vector<std::string> texts{};  ///< the given texts; "true" for a flag
+    std::filesystem::path job{};       ///< file of the job that gave them; empty: a person did
 
+    /// Tests whether jobs may state the option.
+    [[nodiscard]] bool is_for_jobs() const { return uses.stated_in <= StatedIn::own_folder; }
+    /// Tests whether it neither loads code nor names files to write.
+    [[nodiscard]] bool is_harmless() const { return uses.stated_in == StatedIn::documents; }
     [[nodiscard]] bool is_flag() const { return value.empty(); }
     [[nodiscard]] bool is_argument() const { return !names.starts_with('-'); }
     /// Returns "--output", or "file" for an argument.

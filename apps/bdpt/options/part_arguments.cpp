@@ -36,29 +36,30 @@ of another render, or overlaps another one, 6 output cannot be written, 7 out of
 
 void add_part_options(OptionList& options, PartChoice& part)
 {
-    options.add("--part", "FILE",
-                "Checkpoint file (.exr): written while rendering; if it exists, the render resumes "
-                "from it (after a crash, or with more --spp). bdpt merge reads it, too. Without -o "
-                "only this file is written",
-                part.file,
-                file_named({".exr"}, "a file name that ends in .exr, best in .part.exr"));
+    options
+        .add("--part", "FILE",
+             "Checkpoint file (.exr): written while rendering; if it exists, the render resumes "
+             "from it (after a crash, or with more --spp). bdpt merge reads it, too. Without -o "
+             "only this file is written",
+             part.file, file_named({".exr"}, "a file name that ends in .exr, best in .part.exr"))
+        .uses.stated_in = StatedIn::own_folder;
     const Choices<ExistingPart> existing{
         {{"true", ExistingPart::restart}, {"false", ExistingPart::go_on}}};
     options
         .add_flag("--restart", "Replace the file of --part instead of resuming from it",
                   part.existing, existing.type())
-        .uses = {.job = false, .program = true};
+        .uses.stated_in = StatedIn::programs;
     options
         .add("--plan", "FILE",
              "Render one task of this plan (bdpt plan), which sets all but --threads, "
              "--max-memory, --stats, --ktx-library, --restart, --quiet and --json",
              part.plan, any_text())
-        .uses.job = false;
+        .uses.stated_in = StatedIn::command_line;
     options
         .add("--task", "N|env:NAME",
              "Task of --plan, counted from 0, or the environment variable that holds its number",
              part.task, any_text())
-        .uses.job = false;
+        .uses.stated_in = StatedIn::command_line;
 }
 
 std::optional<PartChoice> checked(const PartChoice& part, const OptionList& options)
@@ -90,14 +91,14 @@ void add_quiet_option(OptionList& options, Printed& printed, std::string help)
     const Choices<Verbosity> verbosities{
         {{"true", Verbosity::quiet}, {"false", Verbosity::normal}}};
     options.add_flag("-q,--quiet", std::move(help), printed.verbosity, verbosities.type()).uses = {
-        .job = false};
+        .stated_in = StatedIn::command_line};
 }
 
 void add_json_option(OptionList& options, Printed& printed, std::string help)
 {
     const Choices<Format> formats{{{"true", Format::json}, {"false", Format::text}}};
-    options.add_flag("--json", std::move(help), printed.format, formats.type()).uses = {.job =
-                                                                                            false};
+    options.add_flag("--json", std::move(help), printed.format, formats.type()).uses = {
+        .stated_in = StatedIn::command_line};
 }
 
 bool is_part_name(const std::filesystem::path& file)

@@ -23,11 +23,11 @@ Choices<Engine> engines()
 }
 
 /// Returns the given options that plans keep for the command of `use`, as words.
-std::vector<std::string> kept_words(const OptionList& options, bool OptionUses::*use)
+std::vector<std::string> kept_words(const OptionList& options, bool OptionUses::* use)
 {
     std::vector<std::string> words;
     for (const Option& option : options.all()) {
-        if (option.uses.*use && option.given()) {
+        if (option.uses.*use && option.is_harmless() && option.given()) {
             words.push_back(option.word());
         }
     }
@@ -72,10 +72,10 @@ PlannableOptions plannable_options()
     add_plan_options(options, request);
     PlannableOptions result;
     for (const Option& option : options.all()) {
-        if (option.uses.plan_render) {
+        if (option.uses.plan_render && option.is_harmless()) {
             result.render.push_back(option.name());
         }
-        if (option.uses.plan_merge) {
+        if (option.uses.plan_merge && option.is_harmless()) {
             result.merge.push_back(option.name());
         }
     }
@@ -102,16 +102,13 @@ void add_plan_options(OptionList& options, PlanRequest& request)
              arguments.engine, engines().type())
         .required = true;
     options
-        .add("-d,--directory", "FOLDER",
-             "Folder of the plan and its parts, created if missing",
+        .add("-d,--directory", "FOLDER", "Folder of the plan and its parts, created if missing",
              arguments.folder, any_text())
         .required = true;
     const Choices<ExistingPlan> existing{
         {{"true", ExistingPlan::replace}, {"false", ExistingPlan::must_be_equal}}};
-    options.add_flag(
-        "--restart",
-        "Replace an existing plan, and remove the parts of its tasks",
-        arguments.existing, existing.type());
+    options.add_flag("--restart", "Replace an existing plan, and remove the parts of its tasks",
+                     arguments.existing, existing.type());
     add_plannable_options(options, request.render);
     add_sequence_options(options, request.render.sequence);
     options.section("Output");

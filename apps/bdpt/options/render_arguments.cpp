@@ -39,13 +39,13 @@ void add_how(OptionList& options, RenderRequest& request)
                     "Image size. Default: the largest with the camera's aspect ratio within "
                     "1280x720");
     const Choices<Adaptivity> adaptivity{{{"true", Adaptivity::on}, {"false", Adaptivity::off}}};
-    options
-        .add_flag("--adaptive",
-                  "Adaptive sampling: 1/4 to 4 times --spp samples, by the noise in a test render "
-                  "of 8 samples per pixel; --spp is the mean, a multiple of 8. Unbiased. Not for "
-                  "lt and vcm. By default, --integrator auto gives pixels 1/2 to 2 times "
-                  "--spp where that helps; --adaptive=false gives all equally many",
-                  request.adaptive, adaptivity.type());
+    options.add_flag(
+        "--adaptive",
+        "Adaptive sampling: 1/4 to 4 times --spp samples, by the noise in a test render "
+        "of 8 samples per pixel; --spp is the mean, a multiple of 8. Unbiased. Not for "
+        "lt and vcm. By default, --integrator auto gives pixels 1/2 to 2 times "
+        "--spp where that helps; --adaptive=false gives all equally many",
+        request.adaptive, adaptivity.type());
     options
         .add("--rates", "FILE",
              "Adaptive sampling by an .exr of --save-rates, without a test render",
@@ -81,7 +81,7 @@ void add_image_output(OptionList& options, RenderRequest& request)
             "png:- etc. write to standard output. May be repeated. Default of bdpt render without "
             "--part: the scene's name with .png, in the working directory",
             arguments.outputs, file_path(standard_output_names()))
-        .uses = {};
+        .uses = {.stated_in = StatedIn::own_folder};
     add_display_options(options, arguments.display);
     add_denoise_options(options, request.denoise);
     add_half_option(options, arguments.exr);
@@ -94,8 +94,7 @@ void add_image_output(OptionList& options, RenderRequest& request)
     add_tiled_option(options, arguments.exr);
     const Choices<PathNames> names{{{"true", PathNames::paths}, {"false", PathNames::files}}};
     options
-        .add_flag("--full-paths",
-                  "Store full paths of the scene and other files in image metadata",
+        .add_flag("--full-paths", "Store full paths of the scene and other files in image metadata",
                   arguments.path_names, names.type())
         .uses = {.plan_render = true};
     add_quiet_option(options, arguments.printed);
@@ -118,18 +117,22 @@ void add_process_options(OptionList& options, RenderRequest& request)
                 "default) and --time",
                 arguments.goal.noise, noise_level());
     options.section("Output");
-    options.add("--stats", "FILE", "Write ray and path counts and timings to this .json file",
-                arguments.stats, file_path({"-"}));
+    options
+        .add("--stats", "FILE", "Write ray and path counts and timings to this .json file",
+             arguments.stats, file_path({"-"}))
+        .uses.stated_in = StatedIn::own_folder;
     const Choices<Profiling> profiling{{{"true", Profiling::on}, {"false", Profiling::off}}};
     options.add_flag("--profile",
                      "Profile the render by phase and pixel: printed, in --stats, and as .exr "
                      "layer time.Y (microseconds per sample). Does not change the image",
                      arguments.profiling, profiling.type());
-    options.add("--save-rates", "FILE",
-                "Write the samples of each pixel as multiples of --spp: .exr for --rates, or .png "
-                "in false colours",
-                request.rates.saved,
-                file_named({".exr", ".png"}, "a file name that ends in .exr or .png"));
+    options
+        .add("--save-rates", "FILE",
+             "Write the samples of each pixel as multiples of --spp: .exr for --rates, or .png "
+             "in false colours",
+             request.rates.saved,
+             file_named({".exr", ".png"}, "a file name that ends in .exr or .png"))
+        .uses.stated_in = StatedIn::own_folder;
     add_strategy_options(options, request.strategies);
     add_part_options(options, request.part);
     options
@@ -137,13 +140,28 @@ void add_process_options(OptionList& options, RenderRequest& request)
              "Show the render in progress in the image viewer tev at this address. Default port: "
              "14158",
              arguments.viewer, parsed_by(parse_address, "HOST or HOST:PORT, like localhost:14158"))
-        .uses.job = false;
+        .uses.stated_in = StatedIn::command_line;
     options
         .add("--save-job", "FILE",
              "Write these options to this .json file, a job, instead of rendering. bdpt render "
              "takes a job in place of a scene; further options override the job's",
              request.saved_job, file_named({".json"}, "a file name that ends in .json"))
-        .uses.job = false;
+        .uses.stated_in = StatedIn::command_line;
+}
+
+/// Returns the job that gave some of `options`, if any.
+std::optional<JobSource> find_job(const OptionList& options)
+{
+    std::optional<JobSource> job;
+    for (const Option& option : options.all()) {
+        if (option.given() && !option.job.empty()) {
+            job = job.value_or(JobSource{.file = option.job});
+            if (option.uses.stated_in == StatedIn::own_folder) {
+                job->outputs.push_back(option.name());
+            }
+        }
+    }
+    return job;
 }
 
 /// Returns the goal of the render.
@@ -346,7 +364,7 @@ void add_render_options(OptionList& options, RenderRequest& request)
             "More scenes, rendered one after the other; {name} in output names becomes the scene's "
             "name",
             request.others, file_path())
-        .uses.job = false;
+        .uses.stated_in = StatedIn::command_line;
     add_process_options(options, request);
     add_sequence_options(options, request.sequence);
 }
@@ -354,6 +372,7 @@ void add_render_options(OptionList& options, RenderRequest& request)
 RenderArguments checked(const RenderRequest& request, const OptionList& options)
 {
     RenderArguments result = request.arguments;
+    result.job = find_job(options);
     result.part = checked(request.part, options);
     result.sequence = checked(request.sequence, options);
     check_combinations(options, result.camera);

@@ -51,6 +51,13 @@ enum class PathNames : std::uint8_t {
     paths,  ///< paths as given
 };
 
+/// A job that options came from, perhaps a stranger's.
+struct JobSource {
+    std::filesystem::path file{};
+    std::vector<std::string> outputs{};  ///< its options that name files to write: "--output", ...
+    bool names_default = false;          ///< the default output has the name of its scene
+};
+
 /// Arguments of `bdpt render`.
 struct RenderArguments {
     std::filesystem::path file{};
@@ -86,6 +93,7 @@ struct RenderArguments {
     std::optional<DisplayAddress> viewer{};       ///< viewer that shows the render
     Printed printed{};
     PathNames path_names = PathNames::files;  ///< in the metadata of images
+    std::optional<JobSource> job{};           ///< set if there is one
 };
 
 /// Options of `bdpt render`, as given: `arguments`, and the options that are resolved when all of

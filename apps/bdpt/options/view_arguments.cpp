@@ -76,17 +76,17 @@ void add_view_command_options(OptionList& options, ViewRequest& request)
                              [](const Option& option) { return !is_for_view(option); }),
               all.end());
     for (Option& option : all) {
-        option.uses = {.job = option.uses.job};
+        option.uses = {.stated_in = option.uses.stated_in};
         if (option.name() == "--spp") {
-            option.help = "Samples per pixel of the finished image. Default: " +
-                          std::to_string(view_samples);
+            option.help =
+                "Samples per pixel of the finished image. Default: " + std::to_string(view_samples);
         } else if (option.name() == "file") {
             option.help = "The scene: .gltf or .glb, or a job: .json";
         } else if (option.name() == "--noise") {
             option.help = "Stop at this noise, like 2%";
         }
     }
-    options.section("Server", {.job = false});
+    options.section("Server", {.stated_in = StatedIn::command_line});
     options.add("--listen", "HOST[:PORT]",
                 "Address to listen on. Default: 127.0.0.1 (this machine only) and any free port",
                 request.arguments.listen,

@@ -3,10 +3,13 @@
 #include <bdpt/error.h>
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <string_view>
 #include <system_error>
 
 #include "options/arguments.h"
 #include "options/values/output_files.h"
+#include "options/values/pipes.h"
 #include "report/strategy_files.h"
 
 namespace bdpt::app {
@@ -36,7 +39,57 @@ void check_part_file(const std::filesystem::path& file)
     }
 }
 
+/// Checks `files`, which a job may have named by `option`.
+void check_files_of_job(const RenderArguments& arguments, std::string_view option,
+                        const std::vector<std::filesystem::path>& files)
+{
+    if (!arguments.job) {
+        return;
+    }
+    const JobSource& job = *arguments.job;
+    const bool names =
+        std::find(job.outputs.begin(), job.outputs.end(), option) != job.outputs.end();
+    const bool names_default = job.names_default && option == "--output";
+    for (const std::filesystem::path& file : files) {
+        if (is_standard_output(file)) {
+            continue;
+        }
+        if (names && !is_below(file, job.file.parent_path())) {
+            throw Error(ErrorCode::invalid_input,
+                        fmt::format("{}: {} \"{}\": a job writes only into its folder; name other "
+                                    "files on the command line",
+                                    job.file.string(), option, file.string()));
+        }
+        std::error_code ignored;
+        // A part is not replaced but continued.
+        if ((names || names_default) && option != "--part" &&
+            std::filesystem::exists(file, ignored) && !is_file_of_ours(file)) {
+            throw Error(ErrorCode::output,
+                        fmt::format("{}: cannot write: a job names it, but it is not a file that "
+                                    "bdpt wrote; remove it, or name files with {}",
+                                    file.string(), option));
+        }
+    }
+}
+
 }  // namespace
+
+void check_files_of_job(const RenderArguments& arguments)
+{
+    check_files_of_job(arguments, "--output", arguments.outputs);
+    if (arguments.strategies) {
+        check_files_of_job(arguments, "--strategies", arguments.strategies->both());
+    }
+    if (arguments.rates && arguments.rates->saved) {
+        check_files_of_job(arguments, "--save-rates", {*arguments.rates->saved});
+    }
+    if (arguments.part) {
+        check_files_of_job(arguments, "--part", {arguments.part->file});
+    }
+    if (arguments.stats) {
+        check_files_of_job(arguments, "--stats", {*arguments.stats});
+    }
+}
 
 std::vector<std::filesystem::path> check_files(const RenderArguments& arguments,
                                                const FileSet& inputs)
@@ -46,6 +99,7 @@ std::vector<std::filesystem::path> check_files(const RenderArguments& arguments,
                               ? "--output is required for several images, like -o out.####.png"
                               : "--output is required for a scene from the standard input");
     }
+    check_files_of_job(arguments);
     check_outputs(arguments.outputs, inputs);
     FileSet outputs(arguments.outputs);
     std::vector<std::filesystem::path> written = all_image_files(arguments);

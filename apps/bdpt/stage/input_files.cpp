@@ -1,6 +1,11 @@
 #include "stage/input_files.h"
 
+#include <bdpt/error.h>
+#include <bdpt/io/gltf.h>
+
+#include <algorithm>
 #include <string>
+#include <system_error>
 
 namespace bdpt::app {
 
@@ -25,6 +30,12 @@ std::vector<fs::path> input_files(const RenderArguments& arguments)
     if (arguments.denoise && arguments.denoise->library) {
         files.push_back(*arguments.denoise->library);
     }
+    if (arguments.scene.ktx_library) {
+        files.push_back(*arguments.scene.ktx_library);
+    }
+    if (arguments.job) {
+        files.push_back(arguments.job->file);
+    }
     if (arguments.display.backdrop && !arguments.display.backdrop->photo.empty()) {
         files.push_back(arguments.display.backdrop->photo);
     }
@@ -37,6 +48,23 @@ std::vector<fs::path> input_files(const RenderArguments& arguments, const Prepar
     std::vector<fs::path> files = input_files(arguments);
     files.insert(files.end(), stage.files.begin(), stage.files.end());
     return files;
+}
+
+std::vector<fs::path> named_files(const RenderArguments& arguments,
+                                  std::span<const fs::path> outputs)
+{
+    const bool replaces = std::any_of(outputs.begin(), outputs.end(), [](const fs::path& output) {
+        std::error_code ignored;
+        return fs::exists(output, ignored);
+    });
+    if (!replaces || arguments.file == "-") {
+        return {};
+    }
+    try {
+        return io::read_gltf_files(arguments.file, arguments.scene.limits);
+    } catch (const Error&) {
+        return {};  // what is wrong is said when the scene is loaded
+    }
 }
 
 }  // namespace bdpt::app

@@ -47,7 +47,7 @@ public:
         CAPTURE(job, outcome.err);
         CHECK(outcome.exit_code == code);
         CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
-        CHECK_FALSE(fs::exists(path("o.exr")));
+        CHECK_FALSE(fs::exists(path("jobs/o.exr")));
         return outcome.err;
     }
 
@@ -57,7 +57,7 @@ private:
 
 std::string job_with(const std::string& members)
 {
-    return R"({"bdpt_job": 1, "file": "../cube.gltf", "output": ["../o.exr"])" +
+    return R"({"bdpt_job": 1, "file": "../cube.gltf", "output": ["o.exr"])" +
            (members.empty() ? "" : ", " + members) + "}";
 }
 
@@ -94,8 +94,8 @@ TEST_CASE("a job renders what its options would, from wherever it is started", "
                  "0.5",
                  "--quiet"})
                 .exit_code == 0);
-    CHECK(run({"compare", studio.path("o.exr"), studio.path("same.exr"), "--threshold", "mse=0",
-               "--quiet"})
+    CHECK(run({"compare", studio.path("jobs/o.exr"), studio.path("same.exr"), "--threshold",
+               "mse=0", "--quiet"})
               .exit_code == 0);
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("options beside a job come before those in it", "[job]")
     const std::string job = job_with(R"("spp": 3, "size": "16x9")");
     REQUIRE(studio.render(job, {"--spp", "1", "-o", studio.path("p.png")}).exit_code == 0);
     CHECK(fs::exists(studio.path("p.png")));
-    CHECK_FALSE(fs::exists(studio.path("o.exr")));
+    CHECK_FALSE(fs::exists(studio.path("jobs/o.exr")));
     const Outcome wrong = studio.render(job, {"--samples", "0:1"});
     CHECK(wrong.exit_code == 2);
     CHECK(wrong.err.find("--samples cannot be combined with --spp") != std::string::npos);
@@ -119,17 +119,18 @@ TEST_CASE("a saved job is what was typed, and renders that", "[job]")
         "--size",        "16x9",    "--spp",    "2",     "--seed",          "18446744073709551615",
         "--light-paths", "0.25",    "--camera", "auto",  "--denoise=layer", "--env",
         "none",          "--clamp", "1e3",      "--half"};
-    Words words{"render", studio.path("cube.gltf"), "-o", studio.path("o.exr"), "--save-job", saved,
-                "--quiet"};
+    Words words{
+        "render", studio.path("cube.gltf"), "-o", studio.path("jobs/o.exr"), "--save-job", saved,
+        "--quiet"};
     words.insert(words.end(), typed.begin(), typed.end());
     REQUIRE(run(words).exit_code == 0);
-    CHECK_FALSE(fs::exists(studio.path("o.exr")));
+    CHECK_FALSE(fs::exists(studio.path("jobs/o.exr")));
     const json job = json::parse(read_text(saved));
     json expected = json::parse(R"({"bdpt_job": 1, "size": "16x9", "spp": 2,
         "seed": 18446744073709551615, "light_paths": 0.25, "camera": "auto", "denoise": "layer",
         "env": "none", "clamp": 1000.0, "half": true})");
     expected["file"] = studio.path("cube.gltf");
-    expected["output"] = {studio.path("o.exr")};
+    expected["output"] = {studio.path("jobs/o.exr")};
     CHECK(job == expected);
     // What is saved of a job is that job.
     const std::string again = studio.path("jobs/again.json");
@@ -140,7 +141,8 @@ TEST_CASE("a saved job is what was typed, and renders that", "[job]")
 TEST_CASE("a job may not be saved where it would overwrite what it reads or writes", "[job]")
 {
     const Studio studio;
-    const Words words{"render", studio.path("cube.gltf"), "-o", studio.path("o.exr"), "--save-job"};
+    const Words words{"render", studio.path("cube.gltf"), "-o", studio.path("jobs/o.exr"),
+                      "--save-job"};
     const auto refuse = [&](const std::string& file, int code, const Words& more = {}) {
         Words all = words;
         all.push_back(file);
@@ -166,6 +168,82 @@ TEST_CASE("a job without an output renders into the default one", "[job]")
     CAPTURE(outcome.err);
     CHECK(outcome.exit_code == 0);
     CHECK(fs::exists(studio.path("desk/cube.png")));
+}
+
+TEST_CASE("a job writes only into its folder", "[job]")
+{
+    const Studio studio;
+    fs::create_directory_symlink(studio.path(""), studio.path("jobs/up"));
+    fs::create_symlink("../dangling.exr", studio.path("jobs/link.exr"));
+    const std::string rest = R"("spp": 8, "size": "8x8", "integrator": "bdpt")";
+    const auto job = [&](const std::string& option, const std::string& file) {
+        return R"({"bdpt_job": 1, "file": "../cube.gltf", "adaptive": true, )" + rest + ", \"" +
+               option + "\": \"" + file + "\"}";
+    };
+    const std::vector<std::pair<std::string, std::string>> outputs{
+        {"output", ".exr"},     {"output", ".png"},     {"stats", ".json"},
+        {"save_rates", ".exr"}, {"strategies", ".exr"}, {"part", ".exr"}};
+    for (const auto& [option, end] : outputs) {
+        for (const std::string& file : {"../x" + end, studio.path("x" + end), "up/x" + end,
+                                        "new/../../x" + end, "../jobs-too/x" + end}) {
+            const std::string message = studio.refused(job(option, file), 4);
+            CHECK(message.find("jobs/a.json: --") != std::string::npos);
+            CHECK(message.find("writes only into its folder") != std::string::npos);
+        }
+    }
+    static_cast<void>(studio.refused(job("output", "link.exr"), 4));
+    static_cast<void>(studio.refused(job("output", "{camera}/../../x.exr"), 4));
+    CHECK_FALSE(fs::exists(studio.path("dangling.exr")));
+    CHECK_FALSE(fs::exists(studio.path("cube.png")));
+    // Who types names any file.
+    const std::string out = studio.path("x.exr");
+    CHECK(studio.render(job("output", "../x.exr"), {"-o", out}).exit_code == 0);
+    CHECK(studio.render(job("stats", "../x.json"), {"-o", out, "--stats", studio.path("x.json")})
+              .exit_code == 0);
+    CHECK(fs::exists(studio.path("x.json")));
+    const Outcome saved = run(
+        {"render", studio.path("cube.gltf"), "-o", out, "--save-job", studio.path("jobs/s.json")});
+    CHECK(saved.exit_code == 4);
+    CHECK(saved.err.find("jobs/s.json: --output") != std::string::npos);
+    CHECK_FALSE(fs::exists(studio.path("jobs/s.json")));
+}
+
+TEST_CASE("a job replaces files of bdpt, and no others", "[job]")
+{
+    const Studio studio;
+    const std::string job =
+        R"({"bdpt_job": 1, "file": "../cube.gltf", "output": ["o.exr", "o.png", "o.jpg", "o.hdr"],
+            "stats": "s", "adaptive": true, "save_rates": "r.png", "strategies": "t.exr",
+            "part": "p.part.exr", "spp": 8, "size": "8x8", "integrator": "bdpt"})";
+    REQUIRE(studio.render(job).exit_code == 0);
+    const Outcome again = studio.render(job);
+    CAPTURE(again.err);
+    CHECK(again.exit_code == 0);
+    for (const char* name : {"o.exr", "o.png", "o.jpg", "o.hdr", "s", "r.png", "t.exr", "t.png"}) {
+        const std::string file = studio.path("jobs/" + std::string(name));
+        const std::string ours = read_text(file);
+        for (const std::string& text : {std::string("thesis"), ours.substr(0, 8) + "theirs"}) {
+            write_text(file, text);
+            const Outcome refused = studio.render(job);
+            CAPTURE(refused.err, name);
+            CHECK(refused.exit_code == 6);
+            CHECK(refused.err.find(file + ": cannot write: a job names it") != std::string::npos);
+            CHECK(read_text(file) == text);
+        }
+        write_text(file, ours);
+    }
+    write_text(studio.path("jobs/o.exr"), "thesis");
+    CHECK(studio.render(job, {"-o", studio.path("jobs/o.exr")}).exit_code == 0);
+    // The scene of the job gives the default output its name.
+    fs::create_directory(studio.path("desk"));
+    const Launch launch{.arguments = {"render", studio.write(R"({"bdpt_job": 1, "spp": 1,
+                            "size": 8, "file": "../cube.gltf"})")},
+                        .folder = studio.path("desk")};
+    CHECK(run(launch).exit_code == 0);
+    CHECK(run(launch).exit_code == 0);
+    write_text(studio.path("desk/cube.png"), "thesis");
+    CHECK(run(launch).exit_code == 6);
+    CHECK(read_text(studio.path("desk/cube.png")) == "thesis");
 }
 
 TEST_CASE("mistakes in a job are told with their place", "[job]")
@@ -194,7 +272,7 @@ TEST_CASE("mistakes in a job are told with their place", "[job]")
     const auto refused = [&](const std::string& text, const std::string& message, int code = 4) {
         CHECK(studio.refused(text, code).find(message) != std::string::npos);
     };
-    refused(R"({"bdpt_job": 1, "file": "../cube.gltf", "output": ["../o.exr", {}]})",
+    refused(R"({"bdpt_job": 1, "file": "../cube.gltf", "output": ["o.exr", {}]})",
             "/output/1: must be a text");
     refused("[]", "is not a job");
     refused("{}", "has no \"bdpt_job\"");
@@ -203,7 +281,7 @@ TEST_CASE("mistakes in a job are told with their place", "[job]")
     refused(R"({"bdpt_job": 1})", "has no \"file\"");
     refused(R"({"bdpt_job": 1, "file": "a.json", "output": "o.exr"})", "/file: must be a scene");
     refused(R"({"bdpt_job": 1, "file": "../cube.gltf", "spp": 1, "spp": 2})", "spp");
-    refused(R"({"bdpt_job": 1, "file": "../none.gltf", "output": "../o.exr"})", "no such file", 3);
+    refused(R"({"bdpt_job": 1, "file": "../none.gltf", "output": "o.exr"})", "no such file", 3);
     refused(R"({"bdpt_job": 1, "file": "../cube.gltf", "orbit": 4})", "--output is required", 2);
     refused(std::string(100'000, '['), "a.json");
     CHECK(run({"render", studio.path("jobs/none.json")}).exit_code == 3);

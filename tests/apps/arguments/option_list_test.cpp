@@ -3,6 +3,7 @@
 #include <bdpt/options/option_fields.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -61,6 +62,39 @@ TEST_CASE("no two options of render have one name, and each has a help text")
         CHECK(option.help.back() != '.');
         CHECK((option.is_argument() || !option.section.empty()));
     }
+}
+
+TEST_CASE("few options name files, code or machines, and documents state few of those")
+{
+    RenderRequest request;
+    OptionList options;
+    add_render_options(options, request);
+    std::map<std::string, StatedIn> restricted;
+    std::set<std::string> readers;
+    for (const Option& option : options.all()) {
+        if (!option.is_harmless()) {
+            restricted[option.name()] = option.uses.stated_in;
+        } else if (option.info.is_path || option.value.find("FILE") != std::string::npos ||
+                   option.value.find("DIR") != std::string::npos) {
+            readers.insert(option.name());
+        }
+    }
+    CHECK(restricted == std::map<std::string, StatedIn>{{"--output", StatedIn::own_folder},
+                                                        {"--stats", StatedIn::own_folder},
+                                                        {"--save-rates", StatedIn::own_folder},
+                                                        {"--strategies", StatedIn::own_folder},
+                                                        {"--part", StatedIn::own_folder},
+                                                        {"--restart", StatedIn::programs},
+                                                        {"--denoiser-library", StatedIn::programs},
+                                                        {"--ktx-library", StatedIn::programs},
+                                                        {"others", StatedIn::command_line},
+                                                        {"--plan", StatedIn::command_line},
+                                                        {"--task", StatedIn::command_line},
+                                                        {"--display", StatedIn::command_line},
+                                                        {"--save-job", StatedIn::command_line},
+                                                        {"--quiet", StatedIn::command_line},
+                                                        {"--json", StatedIn::command_line}});
+    CHECK(readers == std::set<std::string>{"file", "--rates", "--env", "--volume", "--background"});
 }
 
 TEST_CASE("options store what was given, the last text or all of them")

@@ -170,9 +170,8 @@ TEST_CASE("messages and progress go to the program, and nothing to the standard 
     CHECK(progress.back().fraction == 1.0);
     CHECK(progress.back().seconds_left == 0.0);
     CHECK(progress.back().images == 1);
-    CHECK(std::is_sorted(progress.begin(), progress.end(), [](const auto& a, const auto& b) {
-        return a.fraction < b.fraction;
-    }));
+    CHECK(std::is_sorted(progress.begin(), progress.end(),
+                         [](const auto& a, const auto& b) { return a.fraction < b.fraction; }));
 }
 
 TEST_CASE("a stop ends the render, and what is there is written", "[job]")
@@ -277,6 +276,23 @@ TEST_CASE("jobs that cannot be done are errors of the command", "[job]")
     CHECK(code_of(RenderJob("-")) == ErrorCode::usage);
     CHECK(code_of(studio.small().set("stats", "-")) == ErrorCode::usage);
     CHECK(studio.written().empty());
+}
+
+TEST_CASE("a job file writes into its folder, and the program anywhere", "[job]")
+{
+    const Studio studio;
+    const std::string text =
+        R"({"bdpt_job": 1, "file": "../cube.gltf", "size": 8, "spp": 1, "output": ["../out.exr"]})";
+    fs::create_directory(studio.folder / "jobs");
+    write_text(studio.folder / "jobs/a.json", text);
+    RenderJob job = RenderJob::from_file(studio.folder / "jobs/a.json");
+    CHECK(code_of(job) == ErrorCode::invalid_input);
+    CHECK(code_of(RenderJob::from_json(text, studio.folder / "jobs")) == ErrorCode::invalid_input);
+    CHECK(code_of(job.set("output", {studio.folder / "jobs/a.json"})) == ErrorCode::usage);
+    CHECK_FALSE(fs::exists(studio.folder / "out.exr"));
+    const fs::path out = studio.folder / "out.exr";
+    write_text(out, "mine");
+    CHECK(bdpt::run(job.set("output", {out})).images.at(0).files == std::vector<fs::path>{out});
 }
 
 TEST_CASE("a job goes on with its part, or replaces it", "[job]")

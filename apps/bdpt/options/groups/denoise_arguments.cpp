@@ -25,8 +25,7 @@ void add_denoise_options(OptionList& options, DenoiseArguments& denoise)
                     "Open Image Denoise 2: the library or its folder. Default: the system's "
                     "libOpenImageDenoise.so.2; in a Python environment, that of pyoidn",
                     denoise.library, some_text("a file or a folder"));
-    // No file may choose code to load.
-    library.uses = {.python_save = true, .job = false, .program = true};
+    library.uses = {.python_save = true, .stated_in = StatedIn::programs};  // it is code
 }
 
 std::optional<DenoiseArguments> checked(const DenoiseArguments& denoise, const OptionList& options)

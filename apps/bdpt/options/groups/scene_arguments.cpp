@@ -47,9 +47,7 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
                     "libktx 4 for KTX2 textures (KHR_texture_basisu): the library or its folder. "
                     "Default: the system's libktx.so.4",
                     scene.ktx_library, some_text("a file or a folder"));
-    library.uses.plan_render = false;  // no file may choose code to load
-    library.uses.job = false;
-    library.uses.program = true;
+    library.uses.stated_in = StatedIn::programs;  // it is code
     options.add_flag("--ignore-required",
                      "Render files that require unsupported extensions, or libktx where it is "
                      "missing, without these features",

@@ -41,7 +41,7 @@ void add_strategy_file_option(OptionList& options, StrategyFiles& strategies, st
     };
     Option& option = options.add("--strategies", "FILE", std::move(help), strategies,
                                  parsed_by(parse, "a file name that ends in .exr"));
-    option.uses = {};
+    option.uses = {.stated_in = StatedIn::own_folder};
     option.info.is_path = true;
 }
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 /// Returns device and inode of a file; none: it does not exist.
 std::optional<std::pair<dev_t, ino_t>> find_identity(const fs::path& file)
 {
-    struct stat status {};
+    struct stat status{};
     const int result =
         is_standard_output(file) ? ::fstat(STDOUT_FILENO, &status) : ::stat(file.c_str(), &status);
     return result == 0 ? std::optional(std::pair(status.st_dev, status.st_ino)) : std::nullopt;
@@ -53,6 +53,12 @@ bool FileSet::contains(const fs::path& file) const
 {
     const auto identity = find_identity(file);
     return identity ? there_.contains(*identity) : not_there_.contains(resolve_path(file));
+}
+
+bool is_below(const fs::path& file, const fs::path& folder)
+{
+    const fs::path way = resolve_path(file).lexically_relative(resolve_path(folder / "."));
+    return !way.empty() && way != "." && *way.begin() != "..";
 }
 
 }  // namespace bdpt::app

@@ -26,4 +26,7 @@ private:
     std::set<std::filesystem::path> not_there_;
 };
 
+/// Tests whether `file`, existing or not, is in `folder` or below, with symbolic links followed.
+[[nodiscard]] bool is_below(const std::filesystem::path& file, const std::filesystem::path& folder);
+
 }  // namespace bdpt::app

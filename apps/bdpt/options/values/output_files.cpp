@@ -7,14 +7,21 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <fstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "options/values/pipes.h"
 
 namespace bdpt::app {
 namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view stats_start = "{\n  \"version\": \"";  // report/stats_file.h
+
+}  // namespace
 
 std::optional<ImageType> find_type(const fs::path& output)
 {
@@ -88,6 +95,28 @@ void check_output(std::string_view option, const fs::path& file, const FileSet& 
                                 file.string()));
     }
     io::check_writable(file);
+}
+
+bool is_file_of_ours(const fs::path& file)
+{
+    using namespace std::string_view_literals;
+    static constexpr std::array signatures{"\x76\x2f\x31\x01"sv, "\x89PNG\r\n\x1a\n"sv,
+                                           "\xff\xd8\xff"sv, "#?RADIANCE\n"sv};
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) {
+        return false;
+    }
+    constexpr std::size_t max_length = std::size_t{1} << 20;
+    std::string start(max_length, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(std::max(stream.gcount(), std::streamsize{0})));
+    const bool is_image =
+        std::any_of(signatures.begin(), signatures.end(),
+                    [&](std::string_view signature) { return start.starts_with(signature); });
+    return (is_image && start.find("bdpt.version"sv) != std::string::npos) ||
+           (start.starts_with(stats_start) &&
+            start.find("\"stopped_by\": "sv) != std::string::npos);
 }
 
 bool writes_exr(std::span<const fs::path> outputs)

@@ -65,7 +65,12 @@ private:
 struct JobSetting {
     std::string name;
     std::vector<std::string> texts;  ///< as on the command line; several if the option repeats
-    friend bool operator==(const JobSetting&, const JobSetting&) = default;
+    std::filesystem::path job{};     ///< the job file that gave it; empty: the program did
+    /// Compares what is set, not by whom.
+    friend bool operator==(const JobSetting& a, const JobSetting& b)
+    {
+        return a.name == b.name && a.texts == b.texts;
+    }
 };
 
 /// A render, from the scene to the files, as plain data: the options of `bdpt render` by name, as
@@ -77,15 +82,16 @@ public:
     /// directory. Throws `Error` as `set()`.
     explicit RenderJob(const std::filesystem::path& scene);
 
-    /// Reads a job file; paths in it are relative to its folder. Throws `Error`: not_found, and
-    /// invalid_input that names the place in the file.
+    /// Reads a job file; paths in it are relative to its folder. Files that it names are written
+    /// only there or below, and replace only files of bdpt; `set()` chooses others. Throws `Error`:
+    /// not_found, and invalid_input that names the place in the file.
     [[nodiscard]] static RenderJob from_file(const std::filesystem::path& file);
-    /// Parses the text of a job file that would be in `folder`. Throws `Error` (invalid_input).
+    /// Parses the text of a job file, job.json in `folder`. Throws `Error` (invalid_input).
     [[nodiscard]] static RenderJob from_json(std::string_view text,
                                              const std::filesystem::path& folder = {});
 
     /// Sets an option, replacing its value. Beside the options of job files there are those that no
-    /// file may decide: `restart`, `denoiser_library` and `ktx_library`. Throws `Error`
+    /// file may state: `restart`, `denoiser_library` and `ktx_library`. Throws `Error`
     /// (invalid_input) for an unknown name, and for a value of a wrong type or out of range.
     RenderJob& set(std::string_view name, const JobValue& value);
 
@@ -110,9 +116,9 @@ enum class MessageKind : std::uint8_t {
 
 /// Progress of a job, between the passes of an image.
 struct JobProgress {
-    std::size_t image = 0;   ///< index of the image
-    std::size_t images = 1;  ///< number of images of the job
-    double fraction = 0.0;   ///< of the image, in [0, 1], by samples, time or noise
+    std::size_t image = 0;                 ///< index of the image
+    std::size_t images = 1;                ///< number of images of the job
+    double fraction = 0.0;                 ///< of the image, in [0, 1], by samples, time or noise
     std::optional<double> seconds_left{};  ///< for the image, estimated [s]
     Progress render{};                     ///< of the image
 };

@@ -151,4 +151,9 @@ struct LoadedScene {
 [[nodiscard]] BDPT_EXPORT GltfFacts read_gltf_facts(const std::filesystem::path& file,
                                                     const ReadLimits& limits = {});
 
+/// Returns all files that a document names, used or not, as `LoadedScene::files`, from its JSON
+/// alone. Throws `Error` as `read_gltf_facts`, and for URIs that `load_gltf` refuses.
+[[nodiscard]] BDPT_EXPORT std::vector<std::filesystem::path> read_gltf_files(
+    const std::filesystem::path& file, const ReadLimits& limits = {});
+
 }  // namespace bdpt::io

@@ -88,24 +88,43 @@ GltfFacts collect_facts(const CheckedGltf& checked)
     return facts;
 }
 
+namespace {
+
+/// Reads the JSON of a file.
+Json read_document(const std::filesystem::path& file, const ReadLimits& limits)
+{
+    const Bytes bytes = read_file(file, limits.file_bytes);
+    ByteView text = bytes;
+    if (is_glb(bytes)) {
+        LoadContext context{.folder = file.parent_path(), .limits = limits};
+        const GlbChunks::Range json = find_glb_chunks(bytes, context).json;
+        text = text.subspan(json.offset, json.size);
+    }
+    return parse_json(text, limits);
+}
+
+}  // namespace
+
 GltfFacts read_gltf_facts(const std::filesystem::path& file, const ReadLimits& limits)
 {
     return with_named_errors(file, [&] {
-        const Bytes bytes = read_file(file, limits.file_bytes);
-        ByteView text = bytes;
-        if (is_glb(bytes)) {
-            LoadContext context{.folder = file.parent_path(), .limits = limits};
-            const GlbChunks::Range json = find_glb_chunks(bytes, context).json;
-            text = text.subspan(json.offset, json.size);
-        }
         CheckedGltf unchecked;
-        unchecked.document = parse_json(text, limits);
+        unchecked.document = read_document(file, limits);
         const JsonPlace root(unchecked.document);
         if (!root.has("asset") || !root.member("asset").value().is_object()) {
             root.fail("not a glTF document: it has no object \"asset\"");
         }
         unchecked.extensions = list_extensions(root);
         return collect_facts(unchecked);
+    });
+}
+
+std::vector<std::filesystem::path> read_gltf_files(const std::filesystem::path& file,
+                                                   const ReadLimits& limits)
+{
+    return with_named_errors(file, [&] {
+        const Json document = read_document(file, limits);
+        return checked_uris(JsonPlace(document), file.parent_path());
     });
 }
 

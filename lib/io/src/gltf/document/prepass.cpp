@@ -155,7 +155,10 @@ void add_buffers(Paths& files, const JsonPlace& buffers, const std::filesystem::
     }
 }
 
-Paths checked_uris(const JsonPlace& root, const std::filesystem::path& folder)
+}  // namespace
+
+std::vector<std::filesystem::path> checked_uris(const JsonPlace& root,
+                                                const std::filesystem::path& folder)
 {
     Paths files;
     if (root.has("buffers")) {
@@ -177,8 +180,6 @@ Paths checked_uris(const JsonPlace& root, const std::filesystem::path& folder)
     }
     return files;
 }
-
-}  // namespace
 
 CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& context)
 {

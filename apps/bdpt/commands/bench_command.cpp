@@ -182,7 +182,13 @@ int run_bench(const BenchArguments& arguments, const std::vector<std::string>& c
         io::check_writable(file);
     }
     for (const BenchSubject& subject : arguments.subjects) {
-        check_not_read(files, input_files(subject.render));
+        FileSet inputs(input_files(subject.render));
+        inputs.add(named_files(subject.render, files));
+        if (const auto& reference = arguments.options.reference) {
+            inputs.add(*reference);
+            inputs.add(*reference / (subject.name + ".exr"));
+        }
+        check_not_read(files, inputs);
     }
     TerminalConsole console(arguments.printed.format, arguments.printed.verbosity);
     SignalInterrupt interrupt(temporary_paths(files), [&console] {

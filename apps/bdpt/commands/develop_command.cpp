@@ -70,7 +70,11 @@ int run_develop(const DevelopArguments& arguments)
 {
     const std::vector<fs::path> outputs = choose_outputs(arguments);
     const std::string file = arguments.file.string();
-    check_outputs(outputs, FileSet({arguments.file}));
+    FileSet inputs({arguments.file});
+    if (arguments.denoise && arguments.denoise->library) {
+        inputs.add(*arguments.denoise->library);
+    }
+    check_outputs(outputs, inputs);
     TerminalConsole console(arguments.printed.format, arguments.printed.verbosity);
     const SignalInterrupt interrupt(temporary_paths(outputs), [] {});
     LayeredImage image =

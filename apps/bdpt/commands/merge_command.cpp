@@ -164,6 +164,9 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
     check_strategies(arguments, parts.front());
     const DisplayArguments display = display_of_parts(parts.front(), arguments.display);
     check_transparency(display, arguments.outputs);
+    if (display.backdrop) {
+        check_not_read(merged_files(arguments), FileSet({display.backdrop->photo}));
+    }
     check_backplate(display);
     RenderResult sum;
     io::MemoryBudget memory(memory_limit(std::nullopt));

@@ -54,6 +54,17 @@ def record_passes():
         passes.fill = fill
 
 
+@contextlib.contextmanager
+def kept_image(folder):
+    """Makes the command write its image to command.exr in the folder, too."""
+    words = engine.denoiser_words
+    engine.denoiser_words = lambda scene: [*words(scene), "-o", f"{folder}/command.exr"]
+    try:
+        yield folder / "command.exr"
+    finally:
+        engine.denoiser_words = words
+
+
 def list_passes(scene, folder):
     with record_passes() as found:
         rendered(scene, folder / "passes.exr")
@@ -76,8 +87,8 @@ def catch_render_error(scene, **options):
 
 def test_image_is_that_of_the_command(folder):
     scene = lit_scene()
-    scene.bdpt.options = f"-o {folder}/command.exr"
-    ours = rendered(scene, folder / "blender.exr")
+    with kept_image(folder):
+        ours = rendered(scene, folder / "blender.exr")
     import_of_blender = render_by_command(folder / "command.exr")
     assert ours.shape == (SIZE[1], SIZE[0], 4) and ours[..., :3].mean() > 0.1
     assert np.array_equal(ours[..., :3], import_of_blender[..., :3]) and (ours[..., 3] == 1).all()
@@ -91,9 +102,10 @@ def render_by_command(file):
 
 def test_options_reach_the_command(folder):
     scene = lit_scene()
-    scene.bdpt.options = f"-o {folder}/command.exr --seed 7"
+    scene.bdpt.options = "--seed 7"
     scene.bdpt.integrator, scene.bdpt.max_depth, scene.bdpt.samples = "mis", 3, 5
-    rendered(scene, folder / "blender.exr")
+    with kept_image(folder):
+        rendered(scene, folder / "blender.exr")
     said = Exr(folder / "command.exr").texts["bdpt.settings"]
     for words in ('"integrator":"mis"', '"max_depth":3', '"spp":5', '"seed":7'):
         assert words in said, f"{words} is not in {said}"
@@ -109,8 +121,8 @@ def test_passes(folder):
     for name in ("z", "normal", "position", "cryptomatte_object", "cryptomatte_material"):
         setattr(layer, f"use_pass_{name}", True)
     layer.bdpt.use_pass_denoising_data = True
-    scene.bdpt.options = f"-o {folder}/command.exr"
-    found = list_passes(scene, folder)
+    with kept_image(folder):
+        found = list_passes(scene, folder)
     y, x = 28, 24  # a pixel of the floor in front of the ball
     place = mathutils.Vector([float(value) for value in found["Position"][y, x]])
     assert abs(place.z) < 1e-5 and np.allclose(found["Normal"][y, x], (0, 0, 1), atol=1e-5)
@@ -248,8 +260,8 @@ def test_transparent_film(folder):
 def find_shown_names(scene, folder):
     """Returns the names of visible objects, from their mattes."""
     bpy.context.view_layer.use_pass_cryptomatte_object = True
-    scene.bdpt.options = f"-o {folder}/command.exr"
-    ids = list_passes(scene, folder)["CryptoObject00"].view(np.uint32)[..., 0]
+    with kept_image(folder):
+        ids = list_passes(scene, folder)["CryptoObject00"].view(np.uint32)[..., 0]
     texts = Exr(folder / "command.exr").texts
     manifest = eval(next(text for key, text in texts.items() if key.endswith("/manifest")))
     return {name for name, value in manifest.items() if (ids == int(value, 16)).any()}
@@ -375,6 +387,9 @@ def test_errors(folder):
     assert "nonsense" in catch_render_error(scene)
     scene.bdpt.options = "--seed '1"
     assert "Options" in catch_render_error(scene)
+    for options in ("--denoise --denoiser-library evil.so", "--ktx-library evil.so", "--display localhost", f"--stats {folder}/x"):
+        scene.bdpt.options = options
+        assert "job" in catch_render_error(scene) and not (folder / "x").exists()
     scene.bdpt.options = ""
     scene.camera.data.type = "PANO"
     assert "panoramic" in catch_render_error(scene)
@@ -453,8 +468,9 @@ def test_live_image(folder):
 def test_half_files(folder):
     """Tests that the OpenEXR reader supports half floats and uncompressed chunks, as Blender's own does."""
     scene = lit_scene(1)
-    scene.bdpt.options = f"--half -o {folder}/command.exr"
-    rendered(scene, folder / "blender.exr")
+    scene.bdpt.options = "--half"
+    with kept_image(folder):
+        rendered(scene, folder / "blender.exr")
     ours = Exr(folder / "command.exr")
     assert ours.channels["R"].dtype == np.float16
     assert np.array_equal(ours.pixels("RGB"), render_by_command(folder / "command.exr")[..., :3])

@@ -3,6 +3,8 @@
 import contextlib
 import json
 import queue
+import re
+import shlex
 import shutil
 import subprocess
 import sysconfig
@@ -18,6 +20,37 @@ def program(chosen):
         return chosen
     found = shutil.which("bdpt")
     return found or shutil.which("bdpt", path=sysconfig.get_path("scripts"))
+
+
+def write_job(file, scene, words):
+    """Writes `words`, options of `bdpt render` as typed, as a job that renders `scene`; later ones come first.
+
+    The words may be a stranger's: bdpt refuses jobs that load code, connect to machines, or write elsewhere.
+    """
+    job, key = {}, None
+    for word in words:
+        if word.startswith("--"):
+            name, has_value, value = word[2:].partition("=")
+            key = name.replace("-", "_")
+            job[key] = parse_value(value) if has_value else True
+        elif key is not None and job[key] is True:
+            job[key] = parse_value(word)
+        else:
+            raise RuntimeError(f"Options: {word}: expected --NAME or --NAME VALUE")
+    file.write_text(json.dumps({**job, "bdpt_job": 1, "file": str(scene)}))
+
+
+def parse_value(text):
+    """Returns a number of JSON, or the text."""
+    return json.loads(text) if re.fullmatch(r"-?(0|[1-9]\d*)(\.\d+)?([eE][+-]?\d+)?", text) else text
+
+
+def split_options(text):
+    """Splits a line as a shell does."""
+    try:
+        return shlex.split(text)
+    except ValueError as error:
+        raise RuntimeError(f"Options: {error}: {text}") from None
 
 
 class Command:

@@ -2,14 +2,13 @@
 
 import math
 import pathlib
-import shlex
 import tempfile
 import time
 
 import bpy
 
 from . import export, main_thread, passes, settings
-from .command import Command, program
+from .command import Command, program, split_options, write_job
 from .exr import Exr
 from .live_image import LiveImage
 
@@ -46,7 +45,10 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
         for warning in dict.fromkeys(exported.warnings):
             self.report_to_user("WARNING", warning)
         image = folder / "image.exr"
-        words = [*exported.words(), *list_options(scene), *passes.words(scene, depsgraph.view_layer_eval), "-o", str(image)]
+        # What the scene says is a job, because scenes come from strangers, too.
+        job = folder / "job.json"
+        write_job(job, exported.file, [*exported.words(), *list_options(scene)])
+        words = [str(job), *denoiser_words(scene), *passes.words(scene, depsgraph.view_layer_eval), "-o", str(image)]
         command = self._run(words, exported.film, depsgraph.view_layer_eval)
         for warning in command.warnings:
             self.report_to_user("WARNING", warning)
@@ -146,13 +148,13 @@ def list_options(scene):
     words += ["--time", f"{chosen.time:g}s"] if chosen.time > 0.0 else []
     words += ["--noise", f"{chosen.noise:g}%"] if chosen.noise > 0.0 else []
     words += ["--background", "transparent"] if scene.render.film_transparent else []
-    if chosen.denoise:
-        library = denoiser_of_blender()
-        words += ["--denoise", *(["--denoiser-library", str(library)] if library else [])]
-    try:
-        return words + shlex.split(chosen.options)
-    except ValueError as error:
-        raise RuntimeError(f"Options: {error}: {chosen.options}") from None
+    return words + split_options(chosen.options)
+
+
+def denoiser_words(scene):
+    """Returns the options of `bdpt render` that denoise, if the scene asks for it."""
+    library = denoiser_of_blender()
+    return ["--denoise", *(["--denoiser-library", str(library)] if library else [])] if scene.bdpt.denoise else []
 
 
 def denoiser_of_blender():

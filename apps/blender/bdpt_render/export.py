@@ -82,7 +82,7 @@ class Export:
         return Y_UP @ mathutils.Matrix.LocRotScale(place, turn, None)
 
     def words(self):
-        words = [str(self.file), *self.film.words(), *self._environment]
+        words = [*self.film.words(), *self._environment]
         moving = "animations" in self._glb.document
         return words + (["--frame-time", "0", "--shutter", "1"] if moving else [])
 

@@ -31,7 +31,8 @@ class BDPT_SceneSettings(bpy.types.PropertyGroup):
     max_depth: bpy.props.IntProperty(name="Max Depth", default=64, min=1, max=4096,
                                      description="Longest path of light, in edges: one more than its bounces")
     options: bpy.props.StringProperty(name="Options", default="",
-                                      description="More options of the command bdpt render, as one types them")
+                                      description="More options of the command bdpt render, as one types them. Jobs may have the same: none "
+                                                  "that load code, connect to machines or write other files")
 
 
 def passes_changed(self, context):

@@ -1,6 +1,7 @@
 #include "python_scene.h"
 
 #include <bdpt/error.h>
+#include <fmt/core.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -81,7 +82,23 @@ std::tuple<std::string, Words> get_state(const PythonScene& scene)
         throw nb::type_error(
             "only unedited scenes from load() can be pickled: pickle what this one is made of");
     }
+    if (const auto word = find_unsafe(scene.words)) {
+        throw nb::type_error(
+            fmt::format("a scene with {} cannot be pickled: a pickle must not choose code to load",
+                        *word)
+                .c_str());
+    }
     return {scene.origin->string(), scene.words};
+}
+
+/// Loads the scene of a pickle.
+PythonScene load_state(const std::string& file, const Words& words)
+{
+    if (const auto word = find_unsafe(words)) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("a pickled scene must not have the option {}", *word));
+    }
+    return load_file(file, words);
 }
 
 }  // namespace
@@ -116,7 +133,7 @@ void bind_scene(nb::module_& module)
         .def("__getstate__", &get_state)
         .def("__setstate__",
              [](PythonScene& scene, const std::tuple<std::string, Words>& state) {
-                 new (&scene) PythonScene(load_file(std::get<0>(state), std::get<1>(state)));
+                 new (&scene) PythonScene(load_state(std::get<0>(state), std::get<1>(state)));
              })
         .def("__repr__", [](const PythonScene& scene) {
             return nb::str("<bdpt.Scene {}, {} triangles>")

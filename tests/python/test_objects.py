@@ -99,6 +99,17 @@ def test_scenes_of_files_are_pickled_and_others_say_why_not(tmp_path, monkeypatc
             pickle.dumps(edited)
 
 
+def test_pickles_choose_no_code(tmp_path):
+    scene = bdpt.load(BOX, ktx_library=tmp_path / "evil.so")
+    with pytest.raises(TypeError, match="--ktx-library=.*cannot be pickled"):
+        pickle.dumps(scene)
+    path, words = bdpt.load(BOX, env="none").__getstate__()
+    assert words == ["--env=none"]
+    for bad in (["--ktx-library=evil.so"], ["--ktx-library", "evil.so"], ["--stats=x"], ["-o", "x.exr"], ["other.gltf"]):
+        with pytest.raises(bdpt.Error, match="pickled scene"):
+            bdpt.Scene.__new__(bdpt.Scene).__setstate__((path, bad))
+
+
 # The box is open towards -z.
 @pytest.mark.parametrize("loaded, options", [
     ({}, {"from_": (0.2, 0.3, -0.7), "look_at": (0.3, 0.2, 0.3), "fov": 50}),

@@ -35,11 +35,12 @@ MediumId Media::add(const Medium& medium)
     if (medium.is_clear()) {
         return MediumId::clear;
     }
-    const auto known = std::find(media_.begin() + 1, media_.end(), medium);
-    const auto id = static_cast<MediumId>(known - media_.begin());
-    // Fog is bounded; a body filled with the same medium is not.
-    if (known != media_.end() && id != fog_) {
-        return id;
+    for (std::size_t i = 1; i < media_.size(); ++i) {
+        const auto id = static_cast<MediumId>(i);
+        // Fog is bounded; a body filled with the same medium is not.
+        if (id != fog_ && media_[i] == medium) {
+            return id;
+        }
     }
     media_.push_back(medium);
     mean_scatterings_.push_back(1.0f);

@@ -48,6 +48,19 @@ double mean(Rgb value)
 
 }  // namespace
 
+TEST_CASE("equal bodies share a medium, which is not that of equal fog", "[media]")
+{
+    Media media;
+    const Medium milk = scattering(chromatic);
+    const MediumId fog = media.add_fog(milk, {.center = Vec3(0.0f), .radius = 1.0f});
+    const MediumId body = media.add(milk);
+    CHECK(body != fog);
+    for (int i = 0; i < 3; ++i) {
+        CHECK(media.add(milk) == body);
+    }
+    CHECK(media.add(scattering(chromatic, 0.6f)) != body);
+}
+
 TEST_CASE("a medium is known from either end, and the rule is symmetric", "[media]")
 {
     Media media;

@@ -26,7 +26,7 @@ StrategySet::StrategySet(const RenderOptions& options, const LearnedLight* learn
       max_depth_(options.transport.max_depth),
       max_camera_depth_(options.bidirectional.max_camera_depth),
       max_light_depth_(options.bidirectional.max_light_depth),
-      stride_(options.transport.max_depth + 2),
+      disabled_(options.bidirectional.disabled),
       light_paths_(options),
       complete_(options.integrator != IntegratorKind::lt &&
                 std::none_of(options.bidirectional.disabled.begin(),
@@ -47,40 +47,63 @@ StrategySet::StrategySet(const RenderOptions& options, const LearnedLight* learn
                            .samples = options.sampling.light_samples,
                            .learned = options.bidirectional.strategy_depth > 0 ? nullptr : learned}
 {
-    counts_.assign(static_cast<std::size_t>(stride_ * stride_), 0.0f);
-    for (int s = 0; s < stride_; ++s) {
-        for (int t = 0; s + t < stride_; ++t) {
-            if (s + t < 2 || !allows(s + t - 1, s, t) || !is_switched_on(options, {s, t})) {
-                continue;
-            }
-            // s = 1 samples new light points for each camera vertex; other strategies use light
-            // paths.
-            const double samples = s == 1 && t >= 2   ? next_event_sampling_.samples
-                                   : s == 1 && t == 1 ? visible_light_samples_
-                                   : s <= 1           ? 1.0
-                                   : t <= 1           ? light_paths()
-                                                      : connections();
-            if (samples == 0.0) {
-                continue;
-            }
-            counts_[static_cast<std::size_t>(s * stride_ + t)] = static_cast<float>(samples);
-            camera_vertices_ = std::max(camera_vertices_, t);
-            // For t = 0 the last vertex is the lens, which is not a vertex of the walk.
-            light_vertices_ = std::max(light_vertices_, s < 2 ? 0 : t == 0 ? s - 1 : s);
+    const auto of_light_paths = static_cast<float>(light_paths());
+    // s = 1 samples new light points for each camera vertex; other strategies use light paths.
+    counts_[0] = {1.0f, 1.0f, 1.0f};
+    counts_[1] = {1.0f, static_cast<float>(visible_light_samples_),
+                  static_cast<float>(next_event_sampling_.samples)};
+    counts_[2] = {of_light_paths, of_light_paths, static_cast<float>(connections())};
+    if (options.integrator == IntegratorKind::lt) {
+        for (auto& of_s : counts_) {
+            of_s[2] = 0.0f;
         }
     }
+    camera_vertices_ = find_camera_vertices();
+    light_vertices_ = find_light_vertices();
     if (merges_) {
         // Subpaths of a path of max_depth edges, whose two ends do not merge.
         camera_vertices_ =
             std::max(camera_vertices_, std::min(max_depth_ - 1, max_camera_depth_) + 1);
         light_vertices_ = std::max(light_vertices_, std::min(max_depth_ - 1, max_light_depth_) + 1);
     }
-    for (int t = 2; t + 1 < stride_; ++t) {
+    for (int t = 2; t <= max_depth_; ++t) {
         if (uses(1, t) && !uses(0, t + 1)) {
             next_event_sampling_.environments = EnvironmentSampling::plain;
             next_event_sampling_.learned = nullptr;
         }
     }
+}
+
+// Kinds of strategies that take no samples are not searched, so that the time is linear in the
+// depth, or proportional to the number of disabled strategies.
+
+int StrategySet::find_camera_vertices() const
+{
+    for (int t = std::min(max_depth_, max_camera_depth_) + 1; t > 1; --t) {
+        const int most = count_of_kind(2, t) > 0.0f ? max_depth_ + 1 - t : 1;
+        for (int s = 0; s <= most; ++s) {
+            if (uses(s, t)) {
+                return t;
+            }
+        }
+    }
+    return 1;
+}
+
+int StrategySet::find_light_vertices() const
+{
+    for (int s = std::min(max_depth_, max_light_depth_) + 1; s > 1; --s) {
+        const int most = count_of_kind(s, 2) > 0.0f ? max_depth_ + 1 - s : 1;
+        for (int t = 1; t <= most; ++t) {
+            if (uses(s, t)) {
+                return s;
+            }
+        }
+        if (uses(s, 0)) {
+            return s - 1;  // the last vertex is the lens, which is not a vertex of the walk
+        }
+    }
+    return 0;
 }
 
 }  // namespace bdpt

@@ -5,6 +5,9 @@
 
 #include <bdpt/render_options.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace bdpt {
@@ -19,7 +22,10 @@ public:
     /// Returns N_s of the strategy; 0 if it is not used.
     [[nodiscard]] float count(int s, int t) const
     {
-        return counts_[static_cast<std::size_t>(s * stride_ + t)];
+        const bool used = allows(s + t - 1, s, t) &&
+                          (disabled_.empty() || std::find(disabled_.begin(), disabled_.end(),
+                                                          Strategy{s, t}) == disabled_.end());
+        return used ? count_of_kind(s, t) : 0.0f;
     }
     [[nodiscard]] bool uses(int s, int t) const { return count(s, t) > 0.0f; }
     /// Tests whether the last of s light vertices is merged with the last of t camera vertices.
@@ -54,11 +60,21 @@ private:
                s - 1 <= max_light_depth_;
     }
 
+    /// Returns N_s of the strategy if nothing forbids it.
+    [[nodiscard]] float count_of_kind(int s, int t) const
+    {
+        return counts_[static_cast<std::size_t>(std::min(s, 2))]
+                      [static_cast<std::size_t>(std::min(t, 2))];
+    }
+    /// Returns the largest t of the strategies used.
+    [[nodiscard]] int find_camera_vertices() const;
+    [[nodiscard]] int find_light_vertices() const;
+
     int min_depth_;
     int max_depth_;
     int max_camera_depth_;
     int max_light_depth_;
-    int stride_;
+    std::vector<Strategy> disabled_;
     LightPathCounts light_paths_;
     bool complete_;
     bool merges_;
@@ -66,7 +82,7 @@ private:
     int camera_vertices_ = 1;
     int light_vertices_ = 0;
     NextEventSampling next_event_sampling_;
-    std::vector<float> counts_;
+    std::array<std::array<float, 3>, 3> counts_{};  // by s and t; 2 stands for all from 2
 };
 
 }  // namespace bdpt

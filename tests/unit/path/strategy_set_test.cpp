@@ -54,4 +54,41 @@ TEST_CASE("strategies that are disabled take no samples", "[strategies]")
     CHECK(StrategySet(options).uses(0, 2));
 }
 
+TEST_CASE("the longest subpaths are those that a strategy uses", "[strategies]")
+{
+    RenderOptions options = bidirectional();
+    options.transport.max_depth = 5;
+    CHECK(StrategySet(options).camera_vertices() == 6);
+    CHECK(StrategySet(options).light_vertices() == 5);
+    CHECK(StrategySet(options).uses(0, 6));
+    CHECK_FALSE(StrategySet(options).uses(0, 7));
+    CHECK_FALSE(StrategySet(options).uses(0, 1));
+
+    options.bidirectional.disabled = {{.s = 0, .t = 6}, {.s = 1, .t = 5}, {.s = 5, .t = 1}};
+    CHECK(StrategySet(options).camera_vertices() == 5);
+    CHECK(StrategySet(options).light_vertices() == 5);  // (6, 0): the lens is no vertex of the walk
+    options.bidirectional.disabled.push_back({.s = 6, .t = 0});
+    CHECK(StrategySet(options).light_vertices() == 4);
+    options.bidirectional.max_camera_depth = 2;
+    options.bidirectional.max_light_depth = 1;
+    CHECK(StrategySet(options).camera_vertices() == 3);
+    CHECK(StrategySet(options).light_vertices() == 2);
+
+    options = bidirectional();
+    options.transport.max_depth = 5;
+    options.integrator = IntegratorKind::lt;
+    CHECK(StrategySet(options).camera_vertices() == 1);
+    CHECK(StrategySet(options).light_vertices() == 5);
+}
+
+TEST_CASE("the strategies of very long paths need little memory and time", "[strategies]")
+{
+    RenderOptions options = bidirectional();
+    options.transport.max_depth = 1'000'000;  // a table of all strategies had 4 TB
+    const StrategySet strategies(options);
+    CHECK(strategies.camera_vertices() == 1'000'001);
+    CHECK(strategies.light_vertices() == 1'000'000);
+    CHECK(strategies.count(400'000, 500'000) == static_cast<float>(strategies.connections()));
+}
+
 }  // namespace bdpt::test::strategy_set_test

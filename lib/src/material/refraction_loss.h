@@ -1,21 +1,25 @@
 #pragma once
 
+#include "material/table_nodes.h"
+#include "math/elementary.h"
+
 #include <array>
+#include <cstddef>
+#include <span>
 
 namespace bdpt {
 
 class SpecularAlbedo;
 
 /// Loss of single scattering at the rough boundary of a transparent body: light that is neither
-/// reflected nor transmitted, as other microfacets mask it, for one refractive index. About 20 kB;
-/// refer to it, do not copy it.
+/// reflected nor transmitted, as other microfacets mask it, for one refractive index. About 20 kB.
 class RefractionLoss {
 public:
     /// The side from which light arrives.
     enum class Side { outer, inner };
 
-    /// Integrates the tables, which takes some hundred milliseconds.
-    explicit RefractionLoss(const SpecularAlbedo& boundary);
+    /// `boundary` has the refractive index; it must outlive this.
+    explicit RefractionLoss(const SpecularAlbedo& boundary) : boundary_(boundary) {}
 
     /// Returns the loss of light with this cosine in [0, 1], in [0, 1]. `f0` and `f90` are the
     /// reflectances at normal and at grazing incidence on the outer side. `roughness` is
@@ -37,22 +41,23 @@ private:
     };
     /// Rows of evenly spaced roughness; within them nodes evenly spaced in sqrt(cosine).
     struct Table {
+        LazyRows<roughness_nodes> rows;
         std::array<Loss, roughness_nodes * cosine_nodes> directional;
         std::array<Loss, roughness_nodes> average;
     };
 
-    [[nodiscard]] static Loss integrate(const SpecularAlbedo& boundary, Side side, float cosine,
-                                        float roughness);
+    /// Returns the table with the rows of this node.
+    [[nodiscard]] const Table& table(Side side, std::size_t node) const;
+    void make_row(Side side, std::size_t row) const;
+    [[nodiscard]] Loss integrate(Side side, float cosine, float alpha,
+                                 std::span<const SinCos> azimuths) const;
     [[nodiscard]] static Loss compute_average(const Loss* row);
     [[nodiscard]] static Loss mix(const Loss& a, const Loss& b, float t);
     [[nodiscard]] static float value(const Loss& loss, float f0, float f90);
-    [[nodiscard]] const Table& table(Side side) const
-    {
-        return side == Side::outer ? outer_ : inner_;
-    }
 
-    Table outer_;
-    Table inner_;
+    const SpecularAlbedo& boundary_;
+    mutable Table outer_;
+    mutable Table inner_;
 };
 
 }  // namespace bdpt

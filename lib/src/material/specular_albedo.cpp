@@ -9,28 +9,26 @@ namespace bdpt {
 
 using Split = SpecularAlbedo::Split;
 
-SpecularAlbedo::SpecularAlbedo(float ior, Below below)
+SpecularAlbedo::SpecularAlbedo(float ior)
     : ior_(std::clamp(ior, 1.0f, 1e6f)),
       r0_((ior_ - 1.0f) / (ior_ + 1.0f) * ((ior_ - 1.0f) / (ior_ + 1.0f))),
-      inv_range_(0.25f * (ior_ + 1.0f) * ((ior_ + 1.0f) / ior_))
+      inv_range_(0.25f * (ior_ + 1.0f) * ((ior_ + 1.0f) / ior_)),
+      loss_(*this)
+{}
+
+void SpecularAlbedo::make_row(std::size_t row) const noexcept
 {
-    for (int row = 0; row < roughness_nodes; ++row) {
-        const float roughness = static_cast<float>(row) / (roughness_nodes - 1);
-        for (int column = 0; column < cosine_nodes; ++column) {
-            const float x = static_cast<float>(column) / (cosine_nodes - 1);
-            table_[static_cast<std::size_t>(row * cosine_nodes + column)] =
-                integrate(x * x, roughness);
-        }
-        average_[static_cast<std::size_t>(row)] = average_of_row(row);
+    const float roughness = static_cast<float>(row) / (roughness_nodes - 1);
+    for (int column = 0; column < cosine_nodes; ++column) {
+        const float x = static_cast<float>(column) / (cosine_nodes - 1);
+        table_[row * cosine_nodes + static_cast<std::size_t>(column)] = integrate(x * x, roughness);
     }
-    if (below == Below::transparent_body) {
-        loss_ = std::make_unique<const RefractionLoss>(*this);
-    }
+    average_[row] = average_of_row(row);
 }
 
 /// Integrates 2 c dc = 4 x^3 dx exactly, for the albedo is linear in x between nodes, so that the
 /// average is consistent with the interpolated directional values.
-Split SpecularAlbedo::average_of_row(int row) const
+Split SpecularAlbedo::average_of_row(std::size_t row) const
 {
     constexpr double step = 1.0 / (cosine_nodes - 1);
     const Split* nodes = table_.data() + row * cosine_nodes;

@@ -2,17 +2,18 @@
 
 #include "material/lobes/fresnel.h"
 #include "material/refraction_loss.h"
+#include "material/table_nodes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
+#include <cstddef>
 
 namespace bdpt {
 
 /// Albedo of single scattering by a rough dielectric boundary, for one refractive index: tables
-/// over cosine and roughness, in constant time. With it the diffuse light below the boundary is
-/// exactly the transmitted light. About 16 kB; refer to it, do not copy it.
+/// over cosine and roughness, in constant time once their rows exist. With it the diffuse light
+/// below the boundary is exactly the transmitted light. About 40 kB.
 class SpecularAlbedo {
 public:
     /// The coefficients of F0 and F90 in an albedo E = F0 f0 + F90 f90.
@@ -21,12 +22,8 @@ public:
         float f90 = 0.0f;
     };
 
-    /// The kind of base below the boundary.
-    enum class Below { base, transparent_body };
-
-    /// Integrates the tables, which takes some milliseconds, and more for transparent bodies. `ior`
-    /// is clamped to [1, 1e6].
-    explicit SpecularAlbedo(float ior, Below below = Below::base);
+    /// `ior` is clamped to [1, 1e6].
+    explicit SpecularAlbedo(float ior);
 
     [[nodiscard]] float ior() const noexcept { return ior_; }
     /// Returns the reflectance at normal incidence, ((ior - 1) / (ior + 1))^2.
@@ -39,8 +36,8 @@ public:
         return std::clamp((fresnel_dielectric(cos_outer, ior_) - r0_) * inv_range_, 0.0f, 1.0f);
     }
 
-    /// Returns the loss of refraction; null without a transparent body below.
-    [[nodiscard]] const RefractionLoss* refraction_loss() const noexcept { return loss_.get(); }
+    /// Returns the loss of refraction at the boundary of a transparent body.
+    [[nodiscard]] const RefractionLoss& refraction_loss() const noexcept { return loss_; }
 
     /// Position of a roughness in the tables.
     struct Roughness {
@@ -59,8 +56,9 @@ public:
     /// Returns the albedo for light from a direction with this cosine in [0, 1].
     [[nodiscard]] Split directional(float cosine, Roughness roughness) const noexcept
     {
-        const Position p = position(scaled(std::sqrt(cosine), cosine_nodes), cosine_nodes);
-        const Position r = position(roughness.row, roughness_nodes);
+        const NodePosition p = node_position(scaled(std::sqrt(cosine), cosine_nodes), cosine_nodes);
+        const NodePosition r = node_position(roughness.row, roughness_nodes);
+        require(r.node);
         const Split* lower = table_.data() + r.node * cosine_nodes + p.node;
         const Split* upper = lower + cosine_nodes;
         return mix(mix(lower[0], lower[1], p.fraction), mix(upper[0], upper[1], p.fraction),
@@ -70,7 +68,8 @@ public:
     /// Returns the cosine-weighted average of `directional` over the hemisphere.
     [[nodiscard]] Split average(Roughness roughness) const noexcept
     {
-        const Position r = position(roughness.row, roughness_nodes);
+        const NodePosition r = node_position(roughness.row, roughness_nodes);
+        require(r.node);
         const Split* row = average_.data() + r.node;
         return mix(row[0], row[1], r.fraction);
     }
@@ -79,38 +78,31 @@ private:
     static constexpr int cosine_nodes = 64;
     static constexpr int roughness_nodes = 32;
 
-    /// Position of a value in [0, 1] among evenly spaced nodes: the node before it, and the
-    /// fraction of the interval.
-    struct Position {
-        int node;
-        float fraction;
-    };
-
     [[nodiscard]] static float scaled(float value, int nodes)
     {
         return std::clamp(value, 0.0f, 1.0f) * static_cast<float>(nodes - 1);
     }
-    [[nodiscard]] static Position position(float scaled, int nodes)
-    {
-        const int node = std::min(static_cast<int>(scaled), nodes - 2);
-        return {node, scaled - static_cast<float>(node)};
-    }
-
     [[nodiscard]] static Split mix(Split a, Split b, float t)
     {
         return {a.f0 + t * (b.f0 - a.f0), a.f90 + t * (b.f90 - a.f90)};
     }
 
+    void require(std::size_t node) const noexcept
+    {
+        rows_.require(node, [this](std::size_t row) { make_row(row); });
+    }
+    void make_row(std::size_t row) const noexcept;
     [[nodiscard]] Split integrate(float cosine, float roughness) const;
-    [[nodiscard]] Split average_of_row(int row) const;
+    [[nodiscard]] Split average_of_row(std::size_t row) const;
 
     float ior_;
     float r0_;
     float inv_range_;  ///< 1 / (1 - r0)
-    /// Rows of evenly spaced roughness; within them nodes evenly spaced in sqrt(cosine).
-    std::array<Split, roughness_nodes * cosine_nodes> table_;
-    std::array<Split, roughness_nodes> average_;
-    std::unique_ptr<const RefractionLoss> loss_;
+    // Rows of evenly spaced roughness; within them nodes evenly spaced in sqrt(cosine).
+    LazyRows<roughness_nodes> rows_;
+    mutable std::array<Split, roughness_nodes * cosine_nodes> table_;
+    mutable std::array<Split, roughness_nodes> average_;
+    RefractionLoss loss_;
 };
 
 }  // namespace bdpt

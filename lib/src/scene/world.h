@@ -140,7 +140,8 @@ public:
     [[nodiscard]] const Volumes& volumes() const { return volumes_; }
     /// Returns the medium at a point that lies on no surface.
     [[nodiscard]] MediumId medium_at(Vec3 p) const;
-    /// Returns the memo of the light pilot, the only mutable state of a world.
+    /// Returns the memo of the light pilot: with the tables of materials, which gain rows as rays
+    /// need them, the only mutable state of a world.
     [[nodiscard]] LearnedMemo& learned() const noexcept { return learned_; }
     /// Returns likely mistakes in the scene, one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
@@ -195,9 +196,7 @@ private:
     };
 
     SharedSceneDesc desc_;
-    using AlbedoKey =
-        std::pair<float, SpecularAlbedo::Below>;  ///< the first member is the index of refraction
-    std::map<AlbedoKey, std::shared_ptr<const SpecularAlbedo>> albedos_;
+    std::map<float, std::shared_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
     std::shared_ptr<const LayerTables> layer_tables_;  // set if any material needs them
     MipMaps mip_maps_;                                 // filled if textures are mip-mapped
     Media media_;

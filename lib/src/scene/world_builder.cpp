@@ -8,10 +8,7 @@
 #include "scene/measured_emission.h"
 #include "scene/precision.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -34,25 +31,6 @@ bool light_moves(const LightDesc& light)
             return moves;
         },
         light);
-}
-
-/// Tests whether the boundary is rough, so that microfacets mask a part of the light.
-bool is_rough(const MaterialDesc& desc)
-{
-    return desc.roughness > 0.0f || desc.anisotropy.strength != 0.0f ||
-           desc.glossiness_texture.has_value();
-}
-
-/// Returns the keys of the tables of red, green and blue.
-std::array<std::pair<float, SpecularAlbedo::Below>, 3> albedo_keys(const MaterialDesc& desc,
-                                                                   const Exterior& exterior)
-{
-    const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
-    const bool is_transparent = desc.transmission > 0.0f && desc.thickness > 0.0f;
-    // A smooth boundary loses nothing, and the table of losses takes longest to compute.
-    const auto below = is_transparent && is_rough(desc) ? SpecularAlbedo::Below::transparent_body
-                                                        : SpecularAlbedo::Below::base;
-    return {{{red, below}, {green, below}, {blue, below}}};
 }
 
 }  // namespace
@@ -122,7 +100,6 @@ void WorldBuilder::add_materials()
     }
     w.all_materials_->reserve(materials.size());
     const Exterior outside{.medium = w.fog_};
-    make_albedos(outside);
     for (std::size_t i = 0; i < materials.size(); ++i) {
         add_material(i, outside);
     }
@@ -179,51 +156,22 @@ Material WorldBuilder::make_material(const MaterialDesc& desc, const ChannelAlbe
 
 ChannelAlbedos WorldBuilder::find_albedos(const MaterialDesc& desc, const Exterior& exterior)
 {
-    const auto [red, green, blue] = albedo_keys(desc, exterior);
+    const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
     return {find_albedo(red), find_albedo(green), find_albedo(blue)};
 }
 
-/// Computes the tables of all materials in this exterior in parallel: each takes milliseconds.
-void WorldBuilder::make_albedos(const Exterior& exterior)
+/// Returns the table of this scene or of the scene that it was edited from, or else a new one.
+const SpecularAlbedo& WorldBuilder::find_albedo(float ior)
 {
-    std::vector<World::AlbedoKey> missing;
-    for (const MaterialDesc& desc : world_.desc_.materials) {
-        for (const World::AlbedoKey& key : albedo_keys(desc, exterior)) {
-            if (!known_albedo(key) &&
-                std::find(missing.begin(), missing.end(), key) == missing.end()) {
-                missing.push_back(key);
-            }
-        }
+    std::shared_ptr<const SpecularAlbedo>& albedo = world_.albedos_[ior];
+    if (!albedo && like_ != nullptr) {
+        const auto known = like_->albedos_.find(ior);
+        albedo = known != like_->albedos_.end() ? known->second : nullptr;
     }
-    std::vector<std::shared_ptr<const SpecularAlbedo>> made(missing.size());
-    tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
-        made[i] = std::make_shared<const SpecularAlbedo>(missing[i].first, missing[i].second);
-    });
-    for (std::size_t i = 0; i < missing.size(); ++i) {
-        world_.albedos_.emplace(missing[i], std::move(made[i]));
-    }
-}
-
-/// Returns the table of this scene or of the scene that it was edited from; null if neither has it.
-std::shared_ptr<const SpecularAlbedo> WorldBuilder::known_albedo(const World::AlbedoKey& key) const
-{
-    for (const World* world : {static_cast<const World*>(&world_), like_}) {
-        if (world != nullptr) {
-            if (const auto found = world->albedos_.find(key); found != world->albedos_.end()) {
-                return found->second;
-            }
-        }
-    }
-    return nullptr;
-}
-
-const SpecularAlbedo& WorldBuilder::find_albedo(const World::AlbedoKey& key)
-{
-    std::shared_ptr<const SpecularAlbedo> albedo = known_albedo(key);
     if (!albedo) {
-        albedo = std::make_shared<const SpecularAlbedo>(key.first, key.second);
+        albedo = std::make_shared<const SpecularAlbedo>(ior);
     }
-    return *world_.albedos_.emplace(key, std::move(albedo)).first->second;
+    return *albedo;
 }
 
 /// Returns the medium around each light; for those at infinity, the one where their rays enter the

@@ -34,10 +34,7 @@ private:
     [[nodiscard]] Material make_material(const MaterialDesc& desc, const ChannelAlbedos& albedos,
                                          const Exterior& exterior, MediumId within);
     [[nodiscard]] ChannelAlbedos find_albedos(const MaterialDesc& desc, const Exterior& exterior);
-    void make_albedos(const Exterior& exterior);
-    [[nodiscard]] std::shared_ptr<const SpecularAlbedo> known_albedo(
-        const World::AlbedoKey& key) const;
-    [[nodiscard]] const SpecularAlbedo& find_albedo(const World::AlbedoKey& key);
+    [[nodiscard]] const SpecularAlbedo& find_albedo(float ior);
 
     void add_lights();
     [[nodiscard]] bool emission_stays() const;

@@ -1,6 +1,7 @@
 #include "material/lobes/ggx.h"
 #include "material/lobes/interreflection.h"
 #include "material/models/layered_bsdf.h"
+#include "material/white_albedo.h"
 
 #include "catch.hpp"
 #include "layered_cases.h"
@@ -63,19 +64,11 @@ TEST_CASE("brushed metal has the values of the extension's formula")
     };
     const double visibility = 0.5 / (d(wi.z) * length(wo) + d(wo.z) * length(wi));
     // And what is reflected often, as by the roughness that reflects more at once.
-    const SpecularAlbedo albedo(1.5f);
-    const auto white = [&](const auto& look_up) {
-        const auto of = [&](float roughness) {
-            const SpecularAlbedo::Split split = look_up(SpecularAlbedo::at_roughness(roughness));
-            return split.f0 + split.f90;
-        };
-        return std::max(of(0.5f), of(std::sqrt(0.52f)));
-    };
+    const auto larger = [](const auto& of) { return std::max(of(0.5f), of(std::sqrt(0.52f))); };
     const auto unreflected = [&](Vec3 w) {
-        return 1.0f - white([&](auto row) { return albedo.directional(w.z, row); });
+        return 1.0f - larger([&](float r) { return WhiteAlbedo::directional(w.z, r); });
     };
-    const Interreflection repeated(Rgb{1.0f}, white([&](auto row) { return albedo.average(row); }),
-                                   1.0f);
+    const Interreflection repeated(Rgb{1.0f}, larger(WhiteAlbedo::average), 1.0f);
     const double expected =
         distribution * visibility * d(wi.z) + d(repeated.lobe(unreflected(wo), unreflected(wi))
                                                     .eval(wo, wi, TransportMode::radiance)

@@ -116,7 +116,7 @@ TEST_CASE("the lens sees surfaces whose shading normal faces away from it")
                                      ? 0.005
                                      : 2e-4 + 1e-5 / std::max(0.001, static_cast<double>(alpha));
         int seen = 0;
-        for (int i = 0; i < 40000 && seen < 200; ++i) {
+        for (int i = 0; i < 80000 && seen < 200; ++i) {
             const Vec3 wo = random.direction();
             if (agrees(wo) || std::abs(wo.z) < 0.01f) {
                 continue;

@@ -38,9 +38,7 @@ class TestedBsdf {
 
 public:
     explicit TestedBsdf(const BsdfCase& tested)
-        : albedo_(std::make_unique<const SpecularAlbedo>(
-              tested.ior, tested.refracts() ? SpecularAlbedo::Below::transparent_body
-                                            : SpecularAlbedo::Below::base)),
+        : albedo_(std::make_unique<const SpecularAlbedo>(tested.ior)),
           plain_(plain_model(tested.surface, *albedo_))
     {
         if (tested.layers) {

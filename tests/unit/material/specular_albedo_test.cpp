@@ -1,6 +1,7 @@
 #include "material/specular_albedo.h"
 
 #include "catch.hpp"
+#include "material/lobes/boundary.h"
 #include "material/lobes/ggx.h"
 #include "statistics.h"
 
@@ -35,7 +36,62 @@ SpecularAlbedo::Split sampled(const SpecularAlbedo& albedo, float cosine, float 
     return {static_cast<float>(f0 / samples), static_cast<float>(f90 / samples)};
 }
 
+/// What `RefractionLoss` holds, by random samples of visible normals.
+float sampled_loss(const SpecularAlbedo& albedo, RefractionLoss::Side side, float cosine,
+                   float roughness)
+{
+    constexpr int samples = 100000;
+    const bool is_outer = side == RefractionLoss::Side::outer;
+    const float alpha = roughness * roughness;
+    const float eta = is_outer ? 1.0f / albedo.ior() : albedo.ior();
+    const Vec3 wo{std::sqrt(1.0f - cosine * cosine), 0.0f, cosine};
+    test::Random random(79);
+    double scattered = 0.0;
+    for (int i = 0; i < samples; ++i) {
+        const ggx::Microfacet facet = ggx::visible_microfacet(wo, alpha, random.next_2d());
+        const float cos2_far = 1.0f - eta * eta * (1.0f - facet.cosine * facet.cosine);
+        const float cos_outer = is_outer ? facet.cosine : std::sqrt(std::max(0.0f, cos2_far));
+        const float reflected =
+            cos2_far > 0.0f ? fresnel_dielectric(cos_outer, albedo.ior()) : 1.0f;
+        const auto stay = [&](const ggx::Lobe& lobe) {
+            return lobe.pdf_fwd > 0.0f ? static_cast<double>(lobe.f_cos / lobe.pdf_fwd) : 0.0;
+        };
+        if (const Vec3 up = facet.reflected(); up.z > 0.0f) {
+            scattered += static_cast<double>(reflected) * stay(ggx::reflect(wo, up, alpha));
+        }
+        if (cos2_far <= 0.0f) {
+            continue;
+        }
+        if (const Vec3 down = refracted(wo, facet.h, facet.cosine, eta); down.z < 0.0f) {
+            const float n_o = is_outer ? 1.0f : albedo.ior();
+            const float n_i = is_outer ? albedo.ior() : 1.0f;
+            scattered += static_cast<double>(1.0f - reflected) *
+                         stay(ggx::refract(wo, down, n_o, n_i, alpha));
+        }
+    }
+    return static_cast<float>(1.0 - scattered / samples);
+}
+
 }  // namespace
+
+TEST_CASE("RefractionLoss holds the integrals, also between its nodes")
+{
+    for (const float ior : {1.1f, 1.33f, 1.5f, 2.4f}) {
+        const SpecularAlbedo albedo(ior);
+        const float f0 = albedo.normal_reflectance();
+        for (const auto side : {RefractionLoss::Side::outer, RefractionLoss::Side::inner}) {
+            for (const float roughness : {0.11f, 0.41f, 0.72f, 1.0f}) {
+                for (const float cosine : {0.02f, 0.13f, 0.36f, 0.7f, 1.0f}) {
+                    CAPTURE(ior, side == RefractionLoss::Side::outer, roughness, cosine);
+                    const float table =
+                        albedo.refraction_loss().directional(side, cosine, roughness, f0, 1.0f);
+                    const float exact = sampled_loss(albedo, side, cosine, roughness);
+                    CHECK(table == Approx(exact).margin(cosine < 0.1f ? 0.012 : 0.004));
+                }
+            }
+        }
+    }
+}
 
 TEST_CASE("fresnel_dielectric has the textbook's values")
 {

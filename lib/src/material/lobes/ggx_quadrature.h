@@ -25,35 +25,56 @@ struct QuadraturePoint {
     }
 };
 
-inline constexpr std::size_t max_azimuths = 48;
+/// The microfacets visible from a direction with this cosine, by points of the spherical cap that
+/// the stretched distribution becomes.
+class VisibleNormals {
+public:
+    VisibleNormals(float cosine, float alpha)
+        : wo_{std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)), 0.0f, cosine},
+          stretched_(normalize(Vec3{alpha * wo_.x, 0.0f, wo_.z})),
+          stretch_o_(stretch(wo_, alpha)),
+          alpha_(alpha)
+    {}
 
-/// Calls `visit` with midpoints of the parametrisation of visible normals: the azimuth over one
-/// half of its symmetric range, and the height on the spherical cap, denser in the far tails of the
-/// distribution. `cosine` is that of the viewing direction; at most `max_azimuths` azimuths.
+    /// Returns the point at this height in (0, 1), at which points are denser in the far tails of
+    /// the distribution; `weight` is the fraction of all points.
+    [[nodiscard]] QuadraturePoint at(float height, const SinCos& azimuth, float weight) const
+    {
+        const float left = 1.0f - height;
+        const float depth = (1.0f - left * left * left) * (1.0f + stretched_.z);
+        const float radius = std::sqrt(std::max(0.0f, depth * (2.0f - depth)));
+        const Vec3 cap{radius * azimuth.cos, radius * azimuth.sin, 1.0f - depth};
+        const Vec3 slope = cap + stretched_;
+        const Vec3 h =
+            normalize(Vec3{alpha_ * slope.x, alpha_ * slope.y, std::max(slope.z, 1e-12f)});
+        return {{wo_, h, dot(wo_, h)}, 3.0f * left * left * weight, stretch_o_};
+    }
+
+private:
+    Vec3 wo_;
+    Vec3 stretched_;
+    float stretch_o_;
+    float alpha_;
+};
+
+/// Calls `visit` with midpoints of heights and azimuths, over one half of the symmetric range.
+/// `cosine` is that of the viewing direction; at most `max_azimuths` azimuths.
 template <typename Visit>
 void for_each_visible_normal(float cosine, float alpha, int heights, int azimuths,
                              const Visit& visit)
 {
-    const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
-    const Vec3 wo{sine, 0.0f, cosine};
-    const Vec3 stretched = normalize(Vec3{alpha * wo.x, 0.0f, wo.z});
-    const float stretch_o = stretch(wo, alpha);
+    constexpr std::size_t max_azimuths = 16;
     std::array<SinCos, max_azimuths> course;
     for (int j = 0; j < azimuths; ++j) {
         course[static_cast<std::size_t>(j)] =
             sin_cos(pi * (static_cast<float>(j) + 0.5f) / static_cast<float>(azimuths));
     }
+    const VisibleNormals normals(cosine, alpha);
+    const float weight = 1.0f / static_cast<float>(heights * azimuths);
     for (int i = 0; i < heights; ++i) {
-        const float left = 1.0f - (static_cast<float>(i) + 0.5f) / static_cast<float>(heights);
-        const float share = 3.0f * left * left / static_cast<float>(heights * azimuths);
-        const float depth = (1.0f - left * left * left) * (1.0f + stretched.z);
-        const float radius = std::sqrt(depth * (2.0f - depth));
+        const float height = (static_cast<float>(i) + 0.5f) / static_cast<float>(heights);
         for (int j = 0; j < azimuths; ++j) {
-            const SinCos& azimuth = course[static_cast<std::size_t>(j)];
-            const Vec3 cap{radius * azimuth.cos, radius * azimuth.sin, 1.0f - depth};
-            const Vec3 slope = cap + stretched;
-            const Vec3 h = normalize(Vec3{alpha * slope.x, alpha * slope.y, slope.z});
-            visit(QuadraturePoint{{wo, h, dot(wo, h)}, share, stretch_o});
+            visit(normals.at(height, course[static_cast<std::size_t>(j)], weight));
         }
     }
 }

@@ -2,6 +2,7 @@
 
 #include "material/lobes/ggx_boundary.h"
 #include "material/lobes/smooth_boundary.h"
+#include "material/white_albedo.h"
 
 #include <glm/common.hpp>
 
@@ -44,7 +45,8 @@ BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
         }
     }
     const float diffuse = dielectric * (1.0f - transmission);
-    base_weight_ = base_.set_up(boundary_.base_color, diffuse, reaches_base(), parameters);
+    base_weight_ = base_.set_up(boundary_.base_color, diffuse,
+                                diffuse > 0.0f ? reaches_base() : 1.0f, parameters);
     const float base_max = max_component(boundary_.base_color);
     transmission_weight_ = boundary_.transmission * base_max;
     metal_weight_ = metallic * (base_max + (1.0f - base_max) * mean_schlick_weight);
@@ -120,19 +122,16 @@ auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept
 template <typename Film, typename Roughness, typename Base>
 float BasicMetallicRoughness<Film, Roughness, Base>::unreflected(float z) const noexcept
 {
-    const float reflected = roughness_.directional([&](SpecularAlbedo::Roughness row) {
-        const SpecularAlbedo::Split split = boundary_.albedo->directional(std::abs(z), row);
-        return split.f0 + split.f90;
+    return 1.0f - roughness_.directional([z](SpecularAlbedo::Roughness row) {
+        return WhiteAlbedo::directional(std::abs(z), row.value());
     });
-    return std::max(0.0f, 1.0f - reflected);
 }
 
 template <typename Film, typename Roughness, typename Base>
 float BasicMetallicRoughness<Film, Roughness, Base>::average_unreflected() const noexcept
 {
-    return 1.0f - roughness_.average([&](SpecularAlbedo::Roughness row) {
-        const SpecularAlbedo::Split split = boundary_.albedo->average(row);
-        return split.f0 + split.f90;
+    return 1.0f - roughness_.average([](SpecularAlbedo::Roughness row) {
+        return WhiteAlbedo::average(row.value());
     });
 }
 
@@ -145,12 +144,11 @@ float BasicMetallicRoughness<Film, Roughness, Base>::lost(float z) const noexcep
         boundary_.is_inside(z) ? RefractionLoss::Side::inner : RefractionLoss::Side::outer;
     const float scattered = roughness_.directional([&](SpecularAlbedo::Roughness row) {
         if (boundary_.is_solid) {
-            return 1.0f - boundary_.albedo->refraction_loss()->directional(
-                              side, cosine, row.value(), f0, boundary_.f90);
+            return 1.0f - boundary_.albedo->refraction_loss().directional(side, cosine, row.value(),
+                                                                          f0, boundary_.f90);
         }
         // Transmission through a thin wall has the geometry of reflection.
-        const SpecularAlbedo::Split split = boundary_.albedo->directional(cosine, row);
-        return split.f0 + split.f90;
+        return WhiteAlbedo::directional(cosine, row.value());
     });
     return std::max(0.0f, 1.0f - scattered);
 }
@@ -162,11 +160,10 @@ RepeatedRefraction BasicMetallicRoughness<Film, Roughness, Base>::repeated_refra
     const auto loss = [this](RefractionLoss::Side side) {
         return 1.0f - roughness_.average([&](SpecularAlbedo::Roughness row) {
             if (boundary_.is_solid) {
-                return 1.0f - boundary_.albedo->refraction_loss()->average(
+                return 1.0f - boundary_.albedo->refraction_loss().average(
                                   side, row.value(), max_component(boundary_.f0), boundary_.f90);
             }
-            const SpecularAlbedo::Split split = boundary_.albedo->average(row);
-            return split.f0 + split.f90;
+            return WhiteAlbedo::average(row.value());
         });
     };
     return {{.index = boundary_.index_at(1.0f), .loss = loss(RefractionLoss::Side::outer)},

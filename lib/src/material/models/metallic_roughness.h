@@ -206,8 +206,7 @@ private:
     /// Tests whether light is transmitted after scattering by several microfacets.
     [[nodiscard]] bool refracts_repeatedly() const noexcept
     {
-        return boundary_.transmits() && roughness_.is_rough() &&
-               (!boundary_.is_solid || boundary_.albedo->refraction_loss() != nullptr);
+        return boundary_.transmits() && roughness_.is_rough();
     }
     [[nodiscard]] RepeatedRefraction repeated_refraction() const noexcept;
     /// Returns the average transmission of the boundary to the base.

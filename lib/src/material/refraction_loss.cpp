@@ -15,7 +15,7 @@ namespace bdpt {
 namespace {
 
 // Numbers of points of the quadrature; more from within, where total reflection begins at an edge.
-// Errors are at most 0.001 from outside, and 0.004 from within.
+// Errors are at most 0.001 from outside, and 0.006 from within, where their mean is 0.001.
 constexpr int outer_points = 256;
 constexpr int inner_points = 1024;
 

@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+"""Runs a target of libFuzzer until it has run enough inputs: run_enough.py FLOOR SECONDS PROGRAM ARGUMENT...
+
+It runs for SECONDS, or FLOOR inputs where SECONDS is 0, and again while there were fewer than FLOOR inputs: a busy
+machine takes longer. Where that takes five minutes, the target has become too slow to find anything, and this fails.
+"""
+import re
+import subprocess
+import sys
+import time
+
+LONGEST = 300  # [s]
+
+
+def main():
+    floor, seconds = int(sys.argv[1]), int(sys.argv[2])
+    until = f"-max_total_time={seconds}" if seconds > 0 else f"-runs={floor}"
+    end = time.monotonic() + LONGEST
+    runs = 0
+    while runs < floor:
+        if time.monotonic() > end:
+            sys.exit(f"{runs} inputs in {LONGEST} s, but {floor} are needed to find anything")
+        done = subprocess.run([sys.argv[3], until, *sys.argv[4:]], stderr=subprocess.PIPE, text=True, errors="replace",
+                              check=False)
+        print(done.stderr, end="", flush=True)
+        if done.returncode != 0:
+            sys.exit(done.returncode)
+        found = re.search(r"^stat::number_of_executed_units: +(\d+)", done.stderr, re.MULTILINE)
+        if not found:
+            sys.exit("the target did not count its runs (-print_final_stats=1)")
+        runs += int(found.group(1))
+    print(f"{runs} inputs")
+
+
+if __name__ == "__main__":
+    main()

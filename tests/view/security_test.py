@@ -4,11 +4,15 @@
 Each refusal is one line, and the server keeps running."""
 
 import json
+import os
+import pathlib
 import random
 import re
 import socket
 import struct
 import sys
+import tempfile
+import time
 
 import web_socket
 from served import Server, read_answer, expect, received, wait_for
@@ -179,14 +183,22 @@ def check_many_connections(server):
 def check_half_open(server):
     """Tests that unfinished requests do not block others from the page for long."""
     held = []
-    for i in range(100):
+    for i in range(300):
         connection = server.connect()
         connection.sendall((b"", b"G", b"GET / HTTP/1.1\r\n", b"GET / HTTP/1.1\r\nHost: ")[i % 4])
         held.append(connection)
-    wait_for(lambda: server.request(server.path())[0] == 200, "with 100 connections half open the page is served")
+        if i % 50 == 49:  # not after they have timed out
+            expect(server.request(server.path())[0] == 200, f"with {i + 1} connections half open the page is served at once")
     with WebSocket(server) as window:
         expect(window.state()["size"], "and a web socket is opened")
-    for connection in held:
+    windows, refusal = [], ""
+    while len(windows) < 100 and not refusal:
+        try:
+            windows.append(WebSocket(server))
+        except (RuntimeError, ConnectionError) as error:
+            refusal = str(error)
+    expect(32 < len(windows) <= 64 and "503" in refusal, f"after {len(windows)} windows no more are opened: {refusal}")
+    for connection in [*windows, *held]:
         connection.close()
 
 
@@ -245,6 +257,7 @@ def check_frames(server):
                         ("a frame of 2^63 bytes", bytes([0x81, 0xff]) + struct.pack(">Q", 1 << 63) + bytes(4)),
                         ("a reserved kind", bytes([0x83, 0x80]) + bytes(4)), ("reserved bits", bytes([0xf1, 0x80]) + bytes(4)),
                         ("a long ping", bytes([0x89, 0xfe]) + struct.pack(">H", 1000) + bytes(4) + bytes(1000))):
+        files = server.files()
         with WebSocket(server) as window:
             before = server.memory()
             window.connection.sendall(frame)
@@ -254,6 +267,30 @@ def check_frames(server):
             except (ConnectionError, OSError):
                 pass
             expect(server.alive and server.memory() < before + 64, f"{name}: the web socket is closed")
+            end = time.monotonic() + 15
+            while server.files() > files and time.monotonic() < end:
+                time.sleep(0.1)
+            expect(server.files() <= files, "although the other side keeps the connection")
+
+
+def check_opened_address(bdpt, scene):
+    """Tests the address on the command line of the browser, which other users of the machine can see."""
+    with tempfile.TemporaryDirectory() as folder:
+        browser, seen = pathlib.Path(folder, "xdg-open"), pathlib.Path(folder, "seen")
+        browser.write_text(f'#!/bin/sh\necho "$@" > {seen}.new\nmv {seen}.new {seen}\n')
+        browser.chmod(0o755)
+        path, os.environ["PATH"] = os.environ["PATH"], f"{folder}:{os.environ['PATH']}"
+        with Server(bdpt, scene, "--size", "64x48", "--spp", "4", "--open") as server:
+            os.environ["PATH"] = path
+            address = wait_for(lambda: seen.exists() and seen.read_text().strip(), "the browser is started")
+            expect(server.token not in address and address.startswith(f"http://{server.host}/"), "its address has not the token")
+            target = address.removeprefix(f"http://{server.host}")
+            refused(server.request(target, {"Host": "evil.example"}), "another host of it")
+            with server.connect() as connection:
+                connection.sendall(f"GET {target} HTTP/1.1\r\nHost: {server.host}\r\n\r\n".encode())
+                head = received(connection).decode("latin-1")
+            expect(head.startswith("HTTP/1.1 303") and f"Location: {server.path()}\r\n" in head, "it leads to the page")
+            refused(server.request(target), "the same once more", (403,))
 
 
 def main():
@@ -265,6 +302,7 @@ def main():
             check(server)
         check_page(server)
         expect(server.stop() == 0, "Ctrl-C ends it with exit code 0")
+    check_opened_address(bdpt, scene)
 
 
 if __name__ == "__main__":

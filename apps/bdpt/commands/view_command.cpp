@@ -57,7 +57,7 @@ int run_view(const ViewArguments& arguments, const OptionList& options)
          .stop = [&] { session.stop(); }});
     print_text(server.url() + "\n");
     std::fflush(stdout);
-    if (arguments.opens_browser && !open_in_browser(server.url())) {
+    if (arguments.opens_browser && !open_in_browser(server.url_once())) {
         console.warning("there is no xdg-open: open the address in a browser");
     }
     session.run();

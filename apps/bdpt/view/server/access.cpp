@@ -71,8 +71,9 @@ bool are_equal_in_constant_time(std::string_view a, std::string_view b)
     return different == 0;
 }
 
-Access::Access(std::string token, std::string host)
+Access::Access(std::string token, std::string ticket, std::string host)
     : token_(std::move(token)),
+      ticket_(std::move(ticket)),
       host_(lowered(host)),
       listens_everywhere_(host_ == "0.0.0.0" || host_ == "::")
 {}
@@ -86,7 +87,7 @@ bool Access::is_ours(std::string_view host) const
             name == "[" + host_ + "]" || (listens_everywhere_ && is_numeric(name)));
 }
 
-std::optional<Refusal> Access::refusal(const RequestHead& head) const
+std::optional<Refusal> Access::refusal_of_sender(const RequestHead& head) const
 {
     // DNS rebinding: a foreign page's own name points to this machine.
     if (!is_ours(head.host)) {
@@ -97,6 +98,24 @@ std::optional<Refusal> Access::refusal(const RequestHead& head) const
     }
     if (head.method != "GET") {
         return Refusal{405, "only GET is supported"};
+    }
+    return std::nullopt;
+}
+
+bool Access::redeem(const RequestHead& head)
+{
+    const bool has_ticket = !ticket_.empty() && !refusal_of_sender(head) &&
+                            are_equal_in_constant_time(head.target, "/" + ticket_);
+    if (has_ticket) {
+        ticket_.clear();
+    }
+    return has_ticket;
+}
+
+std::optional<Refusal> Access::refusal(const RequestHead& head) const
+{
+    if (auto refusal = refusal_of_sender(head)) {
+        return refusal;
     }
     const std::string_view target = head.target;
     const std::size_t end = target.find('/', 1);

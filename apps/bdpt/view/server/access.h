@@ -31,12 +31,17 @@ struct RequestHead {
 /// Access control of the server.
 class Access {
 public:
-    /// `host` is the address that the server listens on, as given by the user.
-    Access(std::string token, std::string host);
+    /// `host` is the address that the server listens on, as given by the user; `ticket` opens the
+    /// page once.
+    Access(std::string token, std::string ticket, std::string host);
 
     /// Returns the reason for refusing a request; none: it is allowed, and `parse_path` tells the
     /// resource.
     [[nodiscard]] std::optional<Refusal> refusal(const RequestHead& head) const;
+    /// Tests whether a request has the ticket, which is void afterwards.
+    [[nodiscard]] bool redeem(const RequestHead& head);
+    /// Returns the target of the page.
+    [[nodiscard]] std::string page() const { return "/" + token_ + "/"; }
     /// Returns the part of `target` behind the token, without the query.
     [[nodiscard]] static std::string_view parse_path(std::string_view target);
     /// Returns the part behind '?'.
@@ -44,8 +49,11 @@ public:
 
 private:
     [[nodiscard]] bool is_ours(std::string_view host) const;
+    /// Returns the reason for refusing a request whatever it asks for.
+    [[nodiscard]] std::optional<Refusal> refusal_of_sender(const RequestHead& head) const;
 
     std::string token_;
+    std::string ticket_;  // empty: void
     std::string host_;
     bool listens_everywhere_;
 };

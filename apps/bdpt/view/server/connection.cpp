@@ -22,6 +22,7 @@ constexpr std::chrono::seconds patience{10};  // with silent clients
 constexpr std::uint32_t max_header_bytes = 8192;
 constexpr std::size_t max_message_bytes = 65536;
 constexpr std::size_t max_waiting_answers = 256;  // per window
+constexpr int max_clients = 64;
 
 std::string_view to_view(boost::beast::string_view text)
 {
@@ -51,16 +52,40 @@ std::string header_name(const std::string& name)
 }  // namespace
 
 Connection::Connection(asio::ip::tcp::socket socket, ServerState& server)
-    : stream_(std::move(socket)), server_(server)
-{
-    ++server_.connections;
-}
+    : stream_(std::move(socket)),
+      server_(server),
+      place_(server.strangers.insert(server.strangers.end(), this))
+{}
 
 Connection::~Connection()
 {
-    if (counts_) {
-        --server_.connections;
+    leave();
+}
+
+void Connection::leave()
+{
+    if (standing_ == Standing::stranger) {
+        server_.strangers.erase(place_);
+    } else if (standing_ == Standing::client) {
+        --server_.clients;
     }
+    standing_ = Standing::none;
+}
+
+bool Connection::become_client()
+{
+    if (standing_ == Standing::stranger && server_.clients < max_clients) {
+        leave();
+        standing_ = Standing::client;
+        ++server_.clients;
+    }
+    return standing_ == Standing::client;
+}
+
+void Connection::close()
+{
+    leave();
+    stream_.close();
 }
 
 void Connection::read()
@@ -107,8 +132,19 @@ void Connection::serve()
         .target = to_view(request.target()),
         .host = to_view(host),
         .origin = origin != request.end() ? std::optional(to_view(origin->value())) : std::nullopt};
+    if (server_.access->redeem(head)) {
+        Response page = response(303, "text/plain; charset=utf-8");
+        page.set(http::field::location, server_.access->page());
+        page.keep_alive(false);
+        send(std::move(page));
+        return;
+    }
     if (const auto refusal = server_.access->refusal(head)) {
         refuse(refusal->status, refusal->line);
+        return;
+    }
+    if (!become_client()) {
+        refuse(503, "too many windows are open");
         return;
     }
     if (parser_->chunked() || parser_->content_length().value_or(0) > 0) {
@@ -156,8 +192,8 @@ void Connection::save(const std::string& name)
 
 void Connection::open_window()
 {
-    stream_.expires_never();  // web sockets have their own time-outs
-    counts_ = false;          // the window counts instead
+    stream_.expires_never();     // web sockets have their own time-outs
+    standing_ = Standing::none;  // the window counts instead
     std::make_shared<Window>(std::move(stream_), server_)->open(parser_->get());
 }
 
@@ -211,7 +247,7 @@ Window::Window(beast::tcp_stream stream, ServerState& server)
 
 Window::~Window()
 {
-    --server_.connections;
+    --server_.clients;
     server_.windows.erase(client_);
     if (is_open_ && !server_.is_closing) {
         server_.doors.leave(client_);
@@ -223,6 +259,7 @@ void Window::open(const http::request<http::empty_body>& request)
     websocket::stream_base::timeout times =
         websocket::stream_base::timeout::suggested(beast::role_type::server);
     times.idle_timeout = std::chrono::seconds(60);
+    times.handshake_timeout = std::chrono::seconds(1);  // also after a frame that is no frame
     times.keep_alive_pings = true;
     stream_.set_option(times);
     stream_.read_message_max(max_message_bytes);

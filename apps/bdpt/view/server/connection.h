@@ -12,7 +12,9 @@
 #include <boost/beast/websocket.hpp>
 
 #include <array>
+#include <cstdint>
 #include <deque>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -24,6 +26,7 @@
 
 namespace bdpt::app {
 
+class Connection;
 class Window;
 
 /// State shared by all connections of a server.
@@ -35,7 +38,8 @@ struct ServerState {
     std::array<std::shared_ptr<const Frame>, 2> frames{};  ///< last frame of each slot
     std::map<ClientId, std::weak_ptr<Window>> windows{};
     ClientId next_client = 1;
-    int connections = 0;
+    std::list<Connection*> strangers{};  ///< have not shown the token yet, oldest first
+    int clients = 0;                     ///< connections and windows that have
     bool is_closing = false;
 };
 
@@ -48,6 +52,8 @@ public:
     Connection& operator=(const Connection&) = delete;
 
     void read();
+    /// Ends it, whatever it waits for.
+    void close();
 
 private:
     using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
@@ -55,6 +61,10 @@ private:
 
     void take(const boost::system::error_code& error);
     void serve();
+    /// Counts it as a client; returns false if there are too many.
+    [[nodiscard]] bool become_client();
+    /// Counts it no longer.
+    void leave();
     void save(const std::string& name);
     void open_window();
     void refuse(int status, const std::string& line);
@@ -65,7 +75,9 @@ private:
     ServerState& server_;
     boost::beast::flat_buffer buffer_;
     std::optional<Parser> parser_;
-    bool counts_ = true;  // counts towards `connections`
+    enum class Standing : std::uint8_t { stranger, client, none };
+    Standing standing_ = Standing::stranger;
+    std::list<Connection*>::iterator place_;  // of a stranger
 };
 
 /// An open page: a web socket.

@@ -23,7 +23,7 @@ using boost::system::error_code;
 
 namespace {
 
-constexpr int max_connections = 64;
+constexpr std::size_t max_strangers = 64;
 
 /// Adds brackets to hosts with colons.
 std::string host_text(const std::string& host)
@@ -36,10 +36,14 @@ std::string host_text(const std::string& host)
 class Server::Impl {
 public:
     Impl(const DisplayAddress& address, std::string page)
-        : signals_(context_), acceptor_(context_), pause_(context_), token_(random_token())
+        : signals_(context_),
+          acceptor_(context_),
+          pause_(context_),
+          token_(random_token()),
+          ticket_(random_token())
     {
         state_.page = std::move(page);
-        state_.access.emplace(token_, address.host);
+        state_.access.emplace(token_, ticket_, address.host);
         try {
             tcp::resolver resolver(context_);
             const auto found = resolver.resolve(address.host, address.port);
@@ -53,18 +57,19 @@ public:
                         fmt::format("--listen {}:{}: cannot listen there: {}",
                                     host_text(address.host), address.port, error.code().message()));
         }
-        url_ = fmt::format("http://{}:{}/{}/", host_text(address.host),
-                           acceptor_.local_endpoint().port(), token_);
+        site_ = fmt::format("http://{}:{}/", host_text(address.host),
+                            acceptor_.local_endpoint().port());
     }
 
-    [[nodiscard]] const std::string& url() const { return url_; }
+    [[nodiscard]] std::string url() const { return site_ + token_ + "/"; }
+    [[nodiscard]] std::string url_once() const { return site_ + ticket_; }
     [[nodiscard]] int signal() const { return signal_; }
 
     void start(Doors doors)
     {
         state_.doors = std::move(doors);
         for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-            struct sigaction action {};
+            struct sigaction action{};
             ::sigaction(number, nullptr, &action);
             if (action.sa_handler != SIG_IGN) {  // nohup ignores signals
                 signals_.add(number);
@@ -150,10 +155,11 @@ private:
                 pause_.async_wait([this](const error_code& /*error*/) { accept(); });
                 return;
             }
-            // Excess connections are closed by the socket's destructor.
-            if (state_.connections < max_connections) {
-                std::make_shared<Connection>(std::move(socket), state_)->read();
+            // The oldest stranger goes, so that a client, who speaks at once, always gets in.
+            if (state_.strangers.size() >= max_strangers) {
+                state_.strangers.front()->close();
             }
+            std::make_shared<Connection>(std::move(socket), state_)->read();
             accept();
         });
     }
@@ -165,7 +171,8 @@ private:
     tcp::acceptor acceptor_;
     asio::steady_timer pause_;
     std::string token_;
-    std::string url_;
+    std::string ticket_;
+    std::string site_;
     std::atomic<int> signal_{0};
     std::thread thread_;
 };
@@ -182,6 +189,11 @@ Server::~Server()
 std::string Server::url() const
 {
     return impl_->url();
+}
+
+std::string Server::url_once() const
+{
+    return impl_->url_once();
 }
 
 void Server::start(Doors doors)

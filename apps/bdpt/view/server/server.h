@@ -32,6 +32,8 @@ public:
 
     /// Returns the address of the page, with the token.
     [[nodiscard]] std::string url() const;
+    /// Returns an address that leads to the page once, for command lines, which others can see.
+    [[nodiscard]] std::string url_once() const;
     /// Serves until `stop()`. SIGINT, SIGTERM and SIGHUP call `doors.stop`; a second one ends the
     /// process.
     void start(Doors doors);

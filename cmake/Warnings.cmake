@@ -1,5 +1,5 @@
-# bdpt_compile_options(TARGET): sets the language level, the warnings, the floating-point model and the symbol
-# visibility of all our code.
+# bdpt_compile_options(TARGET): sets the language level, the warnings, the floating-point model, the symbol visibility
+# and the hardening of all our code.
 function(bdpt_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # Shared libraries export only symbols that are marked BDPT_EXPORT.
@@ -28,6 +28,8 @@ function(bdpt_compile_options target)
     -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=
     # Allows inlining of exported functions: symbol interposition at load time is not supported.
     -fno-semantic-interposition)
+  # Binds all functions at start, so that the table of their addresses is read-only afterwards.
+  target_link_options(${target} PRIVATE LINKER:-z,relro,-z,now)
   if(BDPT_WERROR)
     target_compile_options(${target} PRIVATE -Werror
       # Each version of g++ has other false positives in inlined code of the standard library.

@@ -36,15 +36,15 @@ def find_broken_links(root):
 
 
 def compare_extensions(root):
-    """Compares the two lists in docs/gltf.md with the table in the code."""
+    """Compares the three lists in docs/gltf.md with the table in the code."""
     file = "lib/io/src/gltf/checks/extension_table.h"
     code = (root / file).read_text(encoding="utf-8").partition("extension_table[] = {")[2]
-    row = r'^    \{"(\w+)"(?:,\s*"([^"]*)")?(.*?)\},$'
-    known = {(name, "ignored" if "ExtensionStatus::ignored" in rest else "supported", note)
+    row = r'^    \{"(\w+)"(?:,\s*"([^"]*)")?(.*?)\},(?=\n    [{/]|\n\};)'
+    known = {(name, next((word for word in ("ignored", "draft") if f"ExtensionStatus::{word}" in rest), "supported"), note)
              for name, note, rest in re.findall(row, code, flags=re.M | re.S)}
     text = (root / "docs/gltf.md").read_text(encoding="utf-8")
-    supported, _, ignored = text.partition("\n### Supported\n")[2].partition("\n### Ignored\n")
-    stated = {(name, status, note) for status, part in (("supported", supported), ("ignored", ignored))
+    parts = re.split(r"\n### (?:Supported|Drafts|Ignored)\n", text)[1:]
+    stated = {(name, status, note) for status, part in zip(("supported", "draft", "ignored"), parts)
               for name, note in re.findall(r"^- `(\w+)`(?: \(\w+\))?(?:: (.*))?$", part, flags=re.M)}
     errors = [f"{file}: no table found"] if not known else []
     errors += [f"docs/gltf.md: lacks the row {row}" for row in sorted(known - stated)]

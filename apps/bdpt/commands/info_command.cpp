@@ -79,7 +79,7 @@ SceneReport read_report(const InfoArguments& arguments, const io::GltfOptions& o
         complete(report, std::move(loaded.scene));
         return report;
     } catch (const Error& error) {
-        if (!is_about_file(error, arguments.scene)) {
+        if (options.strict || !is_about_file(error, arguments.scene)) {
             throw;
         }
         return report_facts(arguments.file, options.limits, error);
@@ -95,7 +95,8 @@ const char* const info_footer = R"(Examples:
 
 A file that can be read but not rendered is described too, with the reason.
 
-Exit codes: as those of bdpt render, but 0 for a file that can be read and not rendered.)";
+Exit codes: as those of bdpt render, but without --strict 0 for a file that can be read and not
+rendered.)";
 
 void add_info_options(OptionList& options, InfoArguments& arguments)
 {

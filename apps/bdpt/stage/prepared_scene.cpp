@@ -91,7 +91,9 @@ LitScene choose_environment(SceneDesc desc, const RenderArguments& arguments)
         lit.desc.lights.emplace_back(studio_environment());
     } else if (!choice.empty()) {
         io::LoadedEnvironment loaded =
-            io::load_environment(choice, arguments.scene.limits, arguments.scene.memory.get());
+            io::load_environment(choice, {.limits = arguments.scene.limits,
+                                          .memory = arguments.scene.memory.get(),
+                                          .strict = arguments.scene.strict});
         for (const std::string& warning : loaded.warnings) {
             lit.warnings.push_back(fmt::format("{}: {}", choice, warning));
         }
@@ -261,6 +263,9 @@ PreparedScene prepare_scene(const RenderArguments& asked)
     loaded.scene.fog = arguments.fog;
     loaded.scene.volumes = std::move(volumes);
     LitScene lit = choose_environment(std::move(loaded.scene), arguments);
+    for (const std::string& note : loaded.notes) {
+        lit.notes.push_back(fmt::format("{}: {}", file, note));
+    }
     spend_building(*arguments.scene.memory, lit.desc,
                    is_undecided(lit) ? Copies::two : Copies::one);
     const auto loading_end = std::chrono::steady_clock::now();

@@ -52,6 +52,11 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
                      "Render files that require unsupported extensions, or libktx where it is "
                      "missing, without these features",
                      scene.ignore_required);
+    options.add_flag("--strict",
+                     "Refuse files whose picture would lack something (missing textures, "
+                     "extensions that are not supported, ...) or needs drafts of extensions, with "
+                     "exit code 5, where a warning or a note is usual",
+                     scene.strict);
     options.add("--max-memory", "SIZE",
                 "Refuse scenes that need more memory than this, like 500M or 2G; a render includes "
                 "its film and layers. Default and maximum: free memory, within the limits of the "

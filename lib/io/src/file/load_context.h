@@ -25,8 +25,12 @@ struct LoadContext {
     Ktx2Decoder* ktx2 = nullptr;   ///< null: KTX2 images are not decoded
     bool ignore_required = false;  ///< `GltfOptions::ignore_required`
 
-    /// Adds a warning.
-    void warn(const std::string& kind, const std::string& place) { warnings.add(kind, place); }
+    /// Adds a warning about something harmless.
+    void warn(const std::string& text, const std::string& place) { warnings.add(text, place); }
+    void warn(WarningKind kind, const std::string& text, const std::string& place)
+    {
+        warnings.add(kind, text, place);
+    }
 };
 
 }  // namespace bdpt::io

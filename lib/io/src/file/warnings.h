@@ -1,29 +1,51 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bdpt::io {
 
-/// Collects warnings. Those of one kind are counted and become one line with the first place.
+/// What a warning says about the picture.
+enum class WarningKind : std::uint8_t {
+    harmless,  ///< the file is odd, but the picture is what it means
+    loss,   ///< data of the file is missing or damaged, or not supported, and the picture lacks it
+    draft,  ///< the picture depends on a specification that may change
+};
+
+/// Collects warnings. Those of one text are counted and become one line with the first place.
 class Warnings {
 public:
-    /// Adds a warning. `kind` says what is odd and what is done about it; `place` where, and which
-    /// value.
-    void add(const std::string& kind, const std::string& place);
+    /// Adds a harmless warning. `text` says what is odd and what is done about it; `place` where,
+    /// and which value.
+    void add(const std::string& text, const std::string& place)
+    {
+        add(WarningKind::harmless, text, place);
+    }
+    void add(WarningKind kind, const std::string& text, const std::string& place);
 
-    /// Returns one line per kind, in the order of their first appearance.
+    /// Returns one line per text, in the order of their first appearance, without drafts.
     [[nodiscard]] std::vector<std::string> lines() const;
+
+    /// Returns such lines about drafts.
+    [[nodiscard]] std::vector<std::string> drafts() const;
+
+    /// Throws `Error` (unsupported) with the first line that is not harmless, and the number of
+    /// others.
+    void refuse_harm() const;
 
 private:
     friend class Silence;
     struct Entry {
-        std::string kind;
+        WarningKind kind;
+        std::string text;
         std::string first_place;
         std::size_t count = 0;
     };
+    [[nodiscard]] static std::string line(const Entry& entry);
 
     std::vector<Entry> entries_;
     std::map<std::string, std::size_t> index_;

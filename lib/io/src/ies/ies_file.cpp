@@ -147,7 +147,7 @@ IesFile read_ies(ByteView bytes, const std::string& place, Warnings& warnings)
     const bool ballast_lamp_factor = has_ballast_lamp_factor(first, place, warnings);
     IesNumbers numbers(lines.rest, lines.number + 1);
     if (tilt != "NONE") {
-        warnings.add("the TILT of a light profile is ignored",
+        warnings.add(WarningKind::loss, "the TILT of a light profile is ignored",
                      fmt::format("{}: {}", place, quote(tilt)));
     }
     if (tilt == "INCLUDE") {

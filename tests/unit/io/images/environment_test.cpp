@@ -63,7 +63,7 @@ LoadedEnvironment load_exr(const Imath::Box2i& display, const Imath::Box2i& data
 Error environment_error(const std::filesystem::path& file, const ReadLimits& limits = {})
 {
     try {
-        static_cast<void>(load_environment(file, limits));
+        static_cast<void>(load_environment(file, {.limits = limits}));
     } catch (const Error& error) {
         return error;
     }
@@ -100,7 +100,8 @@ TEST_CASE("environments of halves and of shared exponents take 6 bytes per texel
         write_exr_channels(folder.path() / "sky.exr", box(0, 0, 3, 1), box(0, 0, 3, 1), type,
                            {{"R", values}, {"G", values}, {"B", values}});
         MemoryBudget memory({.bytes = 1000000, .source = "the test"});
-        const LoadedEnvironment loaded = load_environment(folder.path() / "sky.exr", {}, &memory);
+        const LoadedEnvironment loaded =
+            load_environment(folder.path() / "sky.exr", {.memory = &memory});
         const bool exact = type == Imf::HALF;  // 60001 is none
         CHECK(loaded.light.radiance.bytes() == (exact ? 6U : 12U) * values.size());
         CHECK(memory.spent() == (exact ? 8U : 22U) * values.size());

@@ -222,7 +222,7 @@ TEST_CASE("an environment that lies about its size is refused", "[picture]")
     refused(jpeg, "65500");
     MemoryBudget small({.bytes = 1000, .source = "a test"});
     CHECK(error_of([&] {
-              static_cast<void>(load_environment(folder / "sky.jpg", {}, &small));
+              static_cast<void>(load_environment(folder / "sky.jpg", {.memory = &small}));
           }).code() == ErrorCode::invalid_input);
 }
 

@@ -71,7 +71,7 @@ Tiff floats(int width, int height, int channels, const std::vector<float>& value
 LoadedEnvironment load(const std::string& file, const ReadLimits& limits = {})
 {
     const TempFolder folder;
-    return load_environment(folder.write("sky.tif", file), limits);
+    return load_environment(folder.write("sky.tif", file), {.limits = limits});
 }
 
 void check_refusal(const std::string& file, ErrorCode code, const std::string& part,

@@ -23,6 +23,17 @@
 
 namespace bdpt::io {
 
+/// Limits on an environment, and what is refused.
+struct EnvironmentOptions {
+    ReadLimits limits{};
+    /// Budget that the environment's memory is taken from until it lights a scene; null: only
+    /// `limits` count.
+    MemoryBudget* memory = nullptr;
+    /// True: a damaged image is refused (`ErrorCode::unsupported`), where it otherwise gives a
+    /// warning.
+    bool strict = false;
+};
+
 /// The result of `load_environment`.
 struct LoadedEnvironment {
     EnvironmentLightDesc light;
@@ -39,8 +50,7 @@ struct LoadedEnvironment {
 /// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable),
 /// invalid_input (broken, or over a limit), unsupported (another format or kind of pixels; TIFF
 /// without OpenImageIO).
-[[nodiscard]] BDPT_EXPORT LoadedEnvironment load_environment(const std::filesystem::path& file,
-                                                             const ReadLimits& limits = {},
-                                                             MemoryBudget* memory = nullptr);
+[[nodiscard]] BDPT_EXPORT LoadedEnvironment
+load_environment(const std::filesystem::path& file, const EnvironmentOptions& options = {});
 
 }  // namespace bdpt::io

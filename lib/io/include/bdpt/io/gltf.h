@@ -76,16 +76,22 @@ struct GltfOptions {
     /// True: a file that requires unsupported extensions loads without them, with a warning.
     /// Compressed meshes stay required.
     bool ignore_required = false;
+    /// True: a file whose picture lacks something that the file says (a missing or damaged texture,
+    /// an extension that is not supported, points and lines, ...) or depends on a draft of an
+    /// extension is refused (`ErrorCode::unsupported`), where it otherwise gives warnings and
+    /// notes.
+    bool strict = false;
 };
 
 /// Level of support of a glTF extension.
 enum class ExtensionStatus : std::uint8_t {
     supported,
+    draft,    ///< supported, but the specification is a draft that may change
     ignored,  ///< known, and the image is right or close without it; `note` says what is lost
     unknown,
 };
 
-/// Returns "supported", "ignored" or "unknown".
+/// Returns "supported", "draft", "ignored" or "unknown".
 [[nodiscard]] BDPT_EXPORT std::string_view to_string(ExtensionStatus status);
 
 /// One entry of a file's `extensionsUsed`.
@@ -126,6 +132,7 @@ struct LoadedScene {
     SceneDesc scene;  ///< includes the environment, if any (EXT_lights_image_based), as a light
     std::vector<CameraDesc> cameras;    ///< cameras of the scene's nodes, in the order of the nodes
     std::vector<std::string> warnings;  ///< one line each, without the file's name
+    std::vector<std::string> notes;     ///< the same, about drafts of extensions
     GltfFacts facts;
     /// All files that the document names, used or not, with symbolic links followed: an output with
     /// one of these paths would overwrite the scene's data.
@@ -140,8 +147,8 @@ struct LoadedScene {
 /// not_found (a missing or unreadable file; no such scene, variant or animation), usage (times that
 /// are not finite, or a shutter that closes before it opens), invalid_input (broken, unsafe or
 /// ambiguous, or over a limit), unsupported (a required extension or a glTF version that is not
-/// supported; KHR_texture_basisu without libktx). Non-conforming input that does no harm becomes a
-/// warning.
+/// supported; KHR_texture_basisu without libktx; what `GltfOptions::strict` refuses).
+/// Non-conforming input that does no harm becomes a warning.
 [[nodiscard]] BDPT_EXPORT LoadedScene load_gltf(const std::filesystem::path& file,
                                                 const GltfOptions& options = {});
 

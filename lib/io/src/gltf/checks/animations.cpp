@@ -69,7 +69,8 @@ void check_channel(const JsonPlace& root, const std::vector<bool>& morphing,
     const JsonPlace target = require(channel, "target");
     const JsonPlace path = require(target, "path");
     if (!is_one_of(path.value(), {"translation", "rotation", "scale", "weights"})) {
-        context.warn("only translation, rotation, scale and weights of nodes are animated",
+        context.warn(WarningKind::loss,
+                     "only translation, rotation, scale and weights of nodes are animated",
                      fmt::format("{}: {}", path.pointer(), brief(path.value())));
         return;
     }

@@ -33,13 +33,18 @@ bool is_about_meshes(std::string_view name)
            name == "KHR_mesh_quantization";
 }
 
+bool is_read(ExtensionStatus status)
+{
+    return status == supported || status == draft;
+}
+
 /// Returns why a file that requires an extension cannot be loaded as intended; none: it can.
 std::optional<std::string> obstacle_to(const ExtensionUse& use, LoadContext& context)
 {
     if (is_missing(use.name)) {
         return fmt::format("requires {}, which this build cannot decode", quote(use.name));
     }
-    if (use.status != supported) {
+    if (!is_read(use.status)) {
         return fmt::format("requires {}, which is not supported", quote(use.name));
     }
     if (use.name == "KHR_texture_basisu" && context.ktx2 != nullptr) {
@@ -101,6 +106,14 @@ std::vector<ExtensionUse> check_extensions(const JsonPlace& root, LoadContext& c
         return std::find_if(uses.begin(), uses.end(),
                             [&name](const ExtensionUse& use) { return use.name == name; });
     };
+    const auto add = [&](ExtensionUse use, const JsonPlace& place) {
+        if (use.status == draft) {
+            context.warn(WarningKind::draft,
+                         fmt::format("extension {} is a draft, which may change", use.name),
+                         place.pointer());
+        }
+        uses.push_back(std::move(use));
+    };
     if (root.has("extensionsRequired")) {
         const JsonPlace required = root.member("extensionsRequired");
         for (std::size_t i = 0; i < required.size(); ++i) {
@@ -110,30 +123,32 @@ std::vector<ExtensionUse> check_extensions(const JsonPlace& root, LoadContext& c
                 if (!context.ignore_required || is_about_meshes(use.name)) {
                     place.fail("the file " + *obstacle, ErrorCode::unsupported);
                 }
-                context.warn("loaded without what the file requires",
+                context.warn(WarningKind::loss, "loaded without what the file requires",
                              place.pointer() + ": it " + *obstacle);
             }
             use.required = true;
             if (find(use.name) == uses.end()) {
-                uses.push_back(std::move(use));
+                add(std::move(use), place);
             }
         }
     }
     if (root.has("extensionsUsed")) {
         const JsonPlace used = root.member("extensionsUsed");
         for (std::size_t i = 0; i < used.size(); ++i) {
-            ExtensionUse use = describe(used.element(i));
+            const JsonPlace place = used.element(i);
+            ExtensionUse use = describe(place);
             if (find(use.name) != uses.end()) {
                 continue;
             }
-            if (use.status != supported) {
+            if (!is_read(use.status)) {
                 context.warn(
+                    WarningKind::loss,
                     fmt::format("extension {} is {}{}", use.name,
                                 use.status == ignored ? "ignored: " : "unknown and ignored",
                                 use.note),
-                    used.element(i).pointer());
+                    place.pointer());
             }
-            uses.push_back(std::move(use));
+            add(std::move(use), place);
         }
     }
     return uses;
@@ -144,6 +159,8 @@ std::string_view to_string(ExtensionStatus status)
     switch (status) {
         case supported:
             return "supported";
+        case draft:
+            return "draft";
         case ignored:
             return "ignored";
         case unknown:

@@ -157,7 +157,7 @@ std::optional<MeshDesc> read_primitive(const tinygltf::Model& model, PrimitiveId
         primitive.fail("mode", fmt::format("{} is not a primitive mode", mode));
     }
     if (mode < TINYGLTF_MODE_TRIANGLES) {
-        context.warn("points and lines are not rendered",
+        context.warn(WarningKind::loss, "points and lines are not rendered",
                      fmt::format("{}: mode {}", id.pointer(), mode));
         return std::nullopt;
     }

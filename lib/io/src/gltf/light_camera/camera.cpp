@@ -17,7 +17,7 @@ std::optional<CameraDesc> read_perspective(const tinygltf::Camera& camera, const
     constexpr double pi = 3.141592653589793;
     const double yfov = camera.perspective.yfov;
     if (!(yfov > 0.0 && yfov < pi)) {
-        context.warn("a camera with an impossible field of view is skipped",
+        context.warn(WarningKind::loss, "a camera with an impossible field of view is skipped",
                      fmt::format("{}/perspective/yfov: {}", place, yfov));
         return std::nullopt;
     }
@@ -64,7 +64,7 @@ std::optional<CameraDesc> read_camera(const tinygltf::Model& model, std::size_t 
         return std::nullopt;
     }
     if (!std::isnormal(glm::determinant(Mat3(world_from_node)))) {
-        context.warn("a camera whose transform has no inverse is skipped",
+        context.warn(WarningKind::loss, "a camera whose transform has no inverse is skipped",
                      fmt::format("/nodes/{}", node));
         return std::nullopt;
     }

@@ -138,7 +138,8 @@ CubeMap read_cube(const tinygltf::Model& model, const std::vector<std::size_t>& 
         try {
             const DecodedImage decoded = read_face(model, images[side], context);
             if (!decoded.damage.empty()) {
-                context.warn("an image of the environment is damaged; its decoded part is used",
+                context.warn(WarningKind::loss,
+                             "an image of the environment is damaged; its decoded part is used",
                              face_place + ": " + decoded.damage);
             }
             Image& face = cube.faces[side];
@@ -189,7 +190,8 @@ Image flatten(CubeMap cube, const std::string& place, LoadContext& context)
         1, static_cast<int>(std::min({most, affordable, context.limits.image_side / 2.0})));
     const int wanted = std::max(2 * longest_side(cube), least);
     if (wanted > highest) {
-        context.warn("an environment loses detail, because its equirectangular image would be too "
+        context.warn(WarningKind::loss,
+                     "an environment loses detail, because its equirectangular image would be too "
                      "large",
                      fmt::format("{}: {} x {} pixels", place, 2 * wanted, wanted));
     }
@@ -239,7 +241,8 @@ std::optional<EnvironmentLightDesc> read_image_based_light(const tinygltf::Model
         CubeMap cube = read_cube(model, sides, place + "/specularImages/0", context);
         radiance = flatten(std::move(cube), place, context);
     } catch (const UnreadableCube& error) {
-        context.warn("an image of the environment cannot be read; the environment is left out",
+        context.warn(WarningKind::loss,
+                     "an image of the environment cannot be read; the environment is left out",
                      error.what());
         return std::nullopt;
     }

@@ -46,7 +46,7 @@ std::vector<Vec3> direction_turn(std::span<const glm::dmat4> worlds, Vec3 first,
     std::vector<Vec3> turn = later<Vec3>(thinned(std::span<const glm::dvec3>(directions)));
     for (const Vec3& direction : turn) {
         if (!can_turn(first, direction)) {
-            context.warn("a light whose direction jumps keeps its direction",
+            context.warn(WarningKind::loss, "a light whose direction jumps keeps its direction",
                          fmt::format("/nodes/{}", node));
             return {};
         }
@@ -63,7 +63,8 @@ std::vector<Mat4> camera_motion(std::span<const glm::dmat4> worlds, std::size_t 
     const std::vector<glm::dmat4> few = thinned(worlds);
     std::vector<Mat4> motion = later<Mat4>(few);
     if (!motion.empty() && !can_move(Mat4(few.front()), motion)) {
-        context.warn("a camera whose direction jumps stands still", fmt::format("/nodes/{}", node));
+        context.warn(WarningKind::loss, "a camera whose direction jumps stands still",
+                     fmt::format("/nodes/{}", node));
         return {};
     }
     return motion;
@@ -88,7 +89,7 @@ void move_light(LightDesc& light, std::span<const glm::dmat4> worlds, std::size_
             return glm::dmat3(world) != first;
         };
         if (std::any_of(worlds.begin(), worlds.end(), turned)) {
-            context.warn("a light profile that turns keeps its orientation",
+            context.warn(WarningKind::loss, "a light profile that turns keeps its orientation",
                          fmt::format("/nodes/{}", node));
         }
     }

@@ -29,7 +29,7 @@ struct UnreadableImage : std::runtime_error {
 
 Bytes read_image_file(const std::string& uri, const LoadContext& context)
 {
-    const std::filesystem::path file = resolve_uri(context.folder, uri);
+    const std::filesystem::path file = resolve_uri(context.folders, uri);
     try {
         return read_file(file, context.limits.file_bytes, std::numeric_limits<std::uint64_t>::max(),
                          &context.budget.memory());
@@ -170,7 +170,8 @@ void ImageTable::add(Job& job)
         }
         const std::string& damage = job.decoded.damage;
         if (!damage.empty()) {
-            context_.warn("the image is damaged; the texture uses its decoded part",
+            context_.warn(WarningKind::loss,
+                          "the image is damaged; the texture uses its decoded part",
                           place + ": " + damage);
         }
         for (const std::string& remark : job.decoded.remarks) {
@@ -189,7 +190,8 @@ void ImageTable::add(Job& job)
     } catch (const Error& error) {
         throw Error(error.code(), place + ": " + error.what());
     } catch (const std::runtime_error& error) {
-        context_.warn("the image cannot be read and is left out", place + ": " + error.what());
+        context_.warn(WarningKind::loss, "the image cannot be read and is left out",
+                      place + ": " + error.what());
     }
 }
 

@@ -221,15 +221,15 @@ private:
             return;
         }
         if (desc_.thickness == 0.0f) {
-            context_.warn(
-                "KHR_materials_scatter is supported in bodies with a thickness only; "
-                "this sheet does not scatter",
-                fmt::format("{}/{}scatterStrengthFactor", place_, at));
+            context_.warn(WarningKind::loss,
+                          "KHR_materials_scatter is supported in bodies with a thickness only; "
+                          "this sheet does not scatter",
+                          fmt::format("{}/{}scatterStrengthFactor", place_, at));
             return;
         }
         for (const char* texture : {"scatterStrengthTexture", "multiscatterColorTexture"}) {
             if (value->Has(texture)) {
-                context_.warn("textures of KHR_materials_scatter are ignored",
+                context_.warn(WarningKind::loss, "textures of KHR_materials_scatter are ignored",
                               fmt::format("{}/{}{}", place_, at, texture));
             }
         }

@@ -45,10 +45,12 @@ std::vector<std::size_t> sources(const tinygltf::Texture& texture, const std::st
         if (obstacle == nullptr) {
             result.push_back(*basis);
         } else if (texture.source >= 0 || !result.empty()) {
-            context.warn(fmt::format("the image beside the KTX2 one is used: {}", *obstacle),
+            context.warn(WarningKind::loss,
+                         fmt::format("the image beside the KTX2 one is used: {}", *obstacle),
                          place);
         } else {
-            context.warn(fmt::format("the KTX2 texture is left out: {}", *obstacle), place);
+            context.warn(WarningKind::loss,
+                         fmt::format("the KTX2 texture is left out: {}", *obstacle), place);
         }
     }
     if (texture.source >= 0) {
@@ -125,16 +127,17 @@ std::optional<TextureRef> TextureResolver::resolve(const TextureInfo& info,
         }
     }
     if (ref.uv_set > 1) {
-        context_.warn(
-            "only TEXCOORD_0 and TEXCOORD_1 are read; the texture is left out",
-            fmt::format("{}: texCoord {}", place, ref.uv_set));
+        context_.warn(WarningKind::loss,
+                      "only TEXCOORD_0 and TEXCOORD_1 are read; the texture is left out",
+                      fmt::format("{}: texCoord {}", place, ref.uv_set));
         return std::nullopt;
     }
     const auto& texture = model_.textures[static_cast<std::size_t>(info.index)];
     const std::string texture_place = fmt::format("/textures/{}", info.index);
     const std::vector<std::size_t> images = sources(texture, texture_place, context_);
     if (images.empty() && !find_source(texture, "KHR_texture_basisu")) {
-        context_.warn("the texture has no PNG, JPEG, WebP or KTX2 image and is left out",
+        context_.warn(WarningKind::loss,
+                      "the texture has no PNG, JPEG, WebP or KTX2 image and is left out",
                       texture_place + unread_images(texture));
     }
     std::optional<ImageId> image;

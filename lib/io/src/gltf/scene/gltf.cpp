@@ -42,7 +42,11 @@ LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
     LoadedScene loaded = build_scene(std::move(checked), choice, options.on_progress, context);
     loaded.facts = std::move(facts);
     loaded.files = std::move(files);
+    if (options.strict) {
+        context.warnings.refuse_harm();
+    }
     loaded.warnings = context.warnings.lines();
+    loaded.notes = context.warnings.drafts();
     return loaded;
 }
 

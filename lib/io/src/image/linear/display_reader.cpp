@@ -82,7 +82,7 @@ Image read_display_image(ByteView file, const ReadLimits& limits, Warnings& warn
         }
         const DecodedImage decoded = std::move(encoded).decode();
         if (!decoded.damage.empty()) {
-            warnings.add("the image is damaged", decoded.damage);
+            warnings.add(WarningKind::loss, "the image is damaged", decoded.damage);
         }
         return linear_image(decoded.image);
     } catch (const Error&) {

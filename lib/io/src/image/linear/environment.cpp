@@ -114,9 +114,10 @@ Image read_floats(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
     return image;
 }
 
-LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limits,
-                       MemoryBudget* memory)
+LoadedEnvironment load(const std::filesystem::path& file, const EnvironmentOptions& options)
 {
+    const ReadLimits& limits = options.limits;
+    MemoryBudget* const memory = options.memory;
     const auto worth = [&](ByteView start) {
         const bool known =
             is_exr(start) || is_hdr(start) || is_tiff(start) || is_display_image(start);
@@ -141,16 +142,19 @@ LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limi
         warnings.add("an equirectangular image should be twice as wide as high",
                      fmt::format("{} x {} pixels", image.width(), image.height()));
     }
+    if (options.strict) {
+        warnings.refuse_harm();
+    }
     loaded.warnings = warnings.lines();
     return loaded;
 }
 
 }  // namespace
 
-LoadedEnvironment load_environment(const std::filesystem::path& file, const ReadLimits& limits,
-                                   MemoryBudget* memory)
+LoadedEnvironment load_environment(const std::filesystem::path& file,
+                                   const EnvironmentOptions& options)
 {
-    return with_named_errors(file, [&] { return load(file, limits, memory); });
+    return with_named_errors(file, [&] { return load(file, options); });
 }
 
 }  // namespace bdpt::io

@@ -339,6 +339,12 @@ Words to_words(const nb::kwargs& options, Call call)
         if (value.is_none() || (option.is_flag() && value.ptr() == Py_False)) {
             continue;
         }
+        if (option.repeats && has_items(value)) {
+            for (const nb::handle item : nb::iter(value)) {
+                words.push_back(fmt::format("{}={}", option.name(), to_text(item)));
+            }
+            continue;
+        }
         const bool flag = option.is_flag() && value.ptr() == Py_True;
         words.push_back(flag ? option.name()
                              : fmt::format("{}={}", option.name(), to_text(option, value)));

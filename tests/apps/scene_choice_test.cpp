@@ -53,6 +53,100 @@ TEST_CASE("a variant, an animation or a time that there is not is refused")
     }
 }
 
+bool holds(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+TEST_CASE("all commands refuse what --strict forbids, and jobs have it")
+{
+    const ScratchFolder folder;
+    const std::string material = R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})";
+    const std::string more = R"("textures": [{"source": 0}], "images": [{"uri": "gone.png"}],
+        "extensionsUsed": ["KHR_materials_scatter"],)";
+    const std::string scene =
+        write_cube(folder, "cube", {.material = material, .cameras = two_cameras, .more = more})
+            .string();
+    const std::string out = (folder / "out.exr").string();
+    const std::vector<std::string> render{"render", scene, "-o",           out, "--spp", "1",
+                                          "--size", "8x8", "--integrator", "pt"};
+    const Outcome lenient = run(render);
+    CAPTURE(lenient.err);
+    CHECK(lenient.exit_code == 0);
+    CHECK(holds(lenient.err, "warning: " + scene + ": /images/0: \"gone.png\": no such file"));
+    CHECK(holds(lenient.err, "bdpt: " + scene +
+                                 ": /extensionsUsed/0: extension KHR_materials_scatter is a "
+                                 "draft, which may change"));
+    std::filesystem::remove(out);
+    const std::string job = (folder / "job.json").string();
+    std::ofstream(job) << R"({"bdpt_job": 1, "file": "cube.gltf", "strict": true})";
+    std::vector<std::string> strict = render;
+    strict.emplace_back("--strict");
+    for (const std::vector<std::string>& words :
+         {strict,
+          {"render", job, "-o", out, "--spp", "1"},
+          {"info", scene, "--strict"},
+          {"info", scene, "--strict", "--json"},
+          {"verify", scene, "--strict"},
+          {"inspect", scene, "--strict", "--pixel", "1,1"},
+          {"plan", scene, "--strict", "-o", out, "--spp", "8", "--parts", "2", "-d",
+           (folder / "plan").string()},
+          {"bench", scene, "--strict", "-o", (folder / "bench").string()}}) {
+        const Outcome outcome = run(words);
+        CAPTURE(words, outcome.err);
+        CHECK(outcome.exit_code == 5);
+        CHECK(holds(outcome.err, "error: " + scene +
+                                     ": /extensionsUsed/0: extension "
+                                     "KHR_materials_scatter is a draft, which may change; --strict "
+                                     "refuses this, and 1 more"));
+        CHECK_FALSE(std::filesystem::exists(out));
+    }
+    CHECK(run({"info", scene}).exit_code == 0);
+}
+
+TEST_CASE("--allow-folder lets a scene name files outside of its own folder")
+{
+    const ScratchFolder folder;
+    std::filesystem::create_directories(folder / "scene/scene");
+    std::filesystem::create_directories(folder / "store");
+    const std::string cube = write_cube(folder, "scene/cube", {.cameras = two_cameras}).string();
+    std::filesystem::rename(folder / "scene/cube.bin", folder / "store/1234");
+    std::filesystem::create_symlink("../../store/1234", folder / "scene/scene/cube.bin");
+    const std::string store = (folder / "store").string();
+    const std::string out = (folder / "out.exr").string();
+    const auto render = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"render", cube,  "-o",           out, "--spp", "1",
+                                       "--size", "8x8", "--integrator", "pt"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    const Outcome refused = render({});
+    CAPTURE(refused.err);
+    CHECK(refused.exit_code == 4);
+    CHECK(holds(refused.err, "/buffers/0/uri: \"scene/cube.bin\": is a link to \""));
+    CHECK(holds(refused.err, "outside of the scene's folder; --allow-folder allows others"));
+    CHECK(render({"--allow-folder", (folder / "scene").string(), "--allow-folder", store})
+              .exit_code == 0);
+    CHECK(render({"--allow-folder", (folder / "nowhere").string()}).exit_code == 3);
+    CHECK(holds(run({"info", cube, "--allow-folder", store}).out, "12 in the scene"));
+    // No file may state it, but each task of a plan may be given it.
+    const std::string job = (folder / "job.json").string();
+    std::ofstream(job)
+        << R"({"bdpt_job": 1, "file": "scene/cube.gltf", "allow_folder": ["store"]})";
+    const Outcome of_job = run({"render", job, "-o", out});
+    CHECK(of_job.exit_code == 4);
+    CHECK(holds(of_job.err, "allow_folder"));
+    const std::string plan = (folder / "plan").string();
+    CHECK(run({"plan", cube, "-o", out, "--spp", "8", "--size", "8x8", "--parts", "1", "-d", plan,
+               "--allow-folder", store})
+              .exit_code == 0);
+    const std::vector<std::string> task{"render", "--plan", plan + "/plan.json", "--task", "0"};
+    CHECK(run(task).exit_code == 4);
+    std::vector<std::string> allowed = task;
+    allowed.insert(allowed.end(), {"--allow-folder", store});
+    CHECK(run(allowed).exit_code == 0);
+}
+
 TEST_CASE("a limit of memory is one for render and info")
 {
     const ScratchFolder folder;

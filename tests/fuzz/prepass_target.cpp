@@ -72,7 +72,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const fuzz::InputFile input;
     const std::filesystem::path file = input.write(data, size);
     try {
-        LoadContext context{.folder = file.parent_path(), .limits = fuzz::small_limits};
+        LoadContext context{.folders = {.own = file.parent_path()}, .limits = fuzz::small_limits};
         const CheckedGltf checked = read_checked_gltf(file, context);
         check_views(checked);
         check_accessors(checked);

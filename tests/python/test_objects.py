@@ -2,8 +2,10 @@
 
 import copy
 import io
+import json
 import pathlib
 import pickle
+import shutil
 
 import bdpt
 import numpy as np
@@ -172,3 +174,25 @@ def test_triangles_of_lists_are_whole_numbers():
         bdpt.Mesh(FLOOR, [[0.0, 1.0, 2.5]])
     with pytest.raises(bdpt.Error, match="index -1"):
         bdpt.Mesh(FLOOR, [[0, 1, -1]])
+
+
+def test_a_scene_is_loaded_strictly_and_from_allowed_folders(tmp_path):
+    text = (SCENES / "cornell-box.gltf").read_text()
+    document = json.loads(text)
+    document["extensionsUsed"] = ["EXT_unheard_of"]
+    (tmp_path / "scene").mkdir()
+    file = tmp_path / "scene/box.gltf"
+    for buffer in document["buffers"]:
+        if not buffer["uri"].startswith("data:"):
+            shutil.copy(SCENES / buffer["uri"], tmp_path / buffer["uri"])
+            buffer["uri"] = "../" + buffer["uri"]
+    document["images"] = [{"uri": "../image.png"}]
+    file.write_text(json.dumps(document))
+    with pytest.raises(bdpt.Error, match="outside of the scene's folder; --allow-folder allows others") as refused:
+        bdpt.load(file)
+    assert refused.value.code == 4
+    for folders in (tmp_path, [tmp_path], [tmp_path / "scene", str(tmp_path)]):
+        assert any("EXT_unheard_of" in warning for warning in bdpt.load(file, allow_folder=folders).warnings)
+    with pytest.raises(bdpt.Error, match="EXT_unheard_of is unknown and ignored; --strict refuses this") as strict:
+        bdpt.load(file, allow_folder=tmp_path, strict=True)
+    assert strict.value.code == 5

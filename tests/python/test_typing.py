@@ -19,7 +19,7 @@ FUNCTIONS = {"load": bdpt.load, "render": bdpt.render, "save": bdpt.Render.save,
 # Options of `bdpt render` that only run() has: others express them differently, or they concern the files.
 OF_JOBS = {"output", "float", "stats", "profile", "save_rates", "strategies", "strategy_depth", "part",
                   "fps", "cameras", "full_paths"}
-NOT_IN_JOBS = {"denoiser_library", "ktx_library", "restart"}  # no file may state them
+NOT_IN_JOBS = {"allow_folder", "denoiser_library", "ktx_library", "restart"}  # no file may state them
 
 PROGRAM = '''
 import pathlib

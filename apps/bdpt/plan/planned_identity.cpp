@@ -79,7 +79,8 @@ Identity common_identity(const Identity& of_one, const RenderArguments& asked)
 Identity identity_of_files(const RenderArguments& asked)
 {
     Identity result;
-    for (const io::FileContent& file : io::gltf_file_contents(asked.file)) {
+    for (const io::FileContent& file :
+         io::gltf_file_contents(asked.file, {}, asked.scene.allowed_folders)) {
         result.components.push_back(file_component(file.name, file.hash));
     }
     const std::string environment = asked.environment.value_or("none");

@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-constexpr std::array<std::string_view, 6> of_a_process{"--plan",       "--task",  "--threads",
-                                                       "--max-memory", "--stats", "--ktx-library"};
+constexpr std::array<std::string_view, 7> of_a_process{
+    "--plan", "--task", "--threads", "--max-memory", "--stats", "--ktx-library", "--allow-folder"};
 constexpr std::array<std::string_view, 4> flags_of_a_process{"--restart", "-q", "--quiet",
                                                              "--json"};
 
@@ -62,7 +62,8 @@ void check_render_words(const Words& words)
         } else if (!has(of_a_process, parse_name(words[i])) && !has(flags_of_a_process, words[i])) {
             throw OptionError(
                 fmt::format("--plan cannot be combined with {}, only with --task, --threads, "
-                            "--max-memory, --stats, --ktx-library, --restart, --quiet and --json",
+                            "--max-memory, --stats, --ktx-library, --allow-folder, --restart, "
+                            "--quiet and --json",
                             words[i]));
         }
     }

@@ -61,7 +61,8 @@ std::vector<fs::path> named_files(const RenderArguments& arguments,
         return {};
     }
     try {
-        return io::read_gltf_files(arguments.file, arguments.scene.limits);
+        return io::read_gltf_files(arguments.file, arguments.scene.limits,
+                                   arguments.scene.allowed_folders);
     } catch (const Error&) {
         return {};  // what is wrong is said when the scene is loaded
     }

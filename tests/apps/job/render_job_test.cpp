@@ -136,8 +136,9 @@ TEST_CASE("a program decides what no file may decide", "[job]")
 {
     RenderJob job("cube.glb");
     job.set("restart", true).set("denoiser_library", "lib").set("ktx_library", "lib");
-    CHECK(job.settings().size() == 4);
-    for (const char* name : {"restart", "denoiser_library", "ktx_library"}) {
+    job.set("allow_folder", {"a", "b"});
+    CHECK(job.settings().size() == 5);
+    for (const char* name : {"restart", "denoiser_library", "ktx_library", "allow_folder"}) {
         CHECK(job.to_json().find(name) == std::string::npos);
         const json text{{"bdpt_job", 1}, {"file", "a.glb"}, {name, "x"}};
         CHECK_THROWS_AS(RenderJob::from_json(text.dump()), Error);

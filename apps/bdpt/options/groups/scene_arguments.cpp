@@ -48,6 +48,13 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
                     "Default: the system's libktx.so.4",
                     scene.ktx_library, some_text("a file or a folder"));
     library.uses.stated_in = StatedIn::programs;  // it is code
+    options
+        .add_repeated(
+            "--allow-folder", "DIR",
+            "Folder that the scene may name files in, beside its own: by .. or symbolic links. "
+            "Repeatable",
+            scene.allowed_folders, file_path())
+        .uses.stated_in = StatedIn::programs;  // it decides what the scene reads
     options.add_flag("--ignore-required",
                      "Render files that require unsupported extensions, or libktx where it is "
                      "missing, without these features",

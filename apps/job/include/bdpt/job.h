@@ -91,8 +91,9 @@ public:
                                              const std::filesystem::path& folder = {});
 
     /// Sets an option, replacing its value. Beside the options of job files there are those that no
-    /// file may state: `restart`, `denoiser_library` and `ktx_library`. Throws `Error`
-    /// (invalid_input) for an unknown name, and for a value of a wrong type or out of range.
+    /// file may state: `restart`, `denoiser_library`, `ktx_library` and `allow_folder`. Throws
+    /// `Error` (invalid_input) for an unknown name, and for a value of a wrong type or out of
+    /// range.
     RenderJob& set(std::string_view name, const JobValue& value);
 
     /// Returns the text of a job file in `folder`, to which relative paths are then relative.

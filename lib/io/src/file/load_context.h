@@ -1,12 +1,12 @@
 #pragma once
 
 #include "file/data_budget.h"
+#include "file/uri.h"
 #include "file/warnings.h"
 
 #include <bdpt/io/image_cache.h>
 #include <bdpt/io/read_limits.h>
 
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -16,7 +16,7 @@ class Ktx2Decoder;  // image/ktx2_decoder.h
 
 /// State shared by all steps of loading one file.
 struct LoadContext {
-    std::filesystem::path folder;  ///< base of relative URIs
+    SceneFolders folders{};
     ReadLimits limits{};
     std::shared_ptr<MemoryBudget> memory{};  ///< budget of the caller, if any
     DataBudget budget{limits, memory};

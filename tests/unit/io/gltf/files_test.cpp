@@ -11,6 +11,7 @@
 #include <map>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bdpt::test::files_test {
@@ -30,6 +31,16 @@ std::string with_buffer_uri(const std::string& uri, std::size_t byte_length = 42
 std::string triangle_bytes()
 {
     return GltfFixture::triangle().bin;
+}
+
+/// A data URI with lines of 20 base64 digits, as MIME has.
+std::string with_line_breaks(std::string_view bytes)
+{
+    std::string text = base64(bytes);
+    for (std::size_t at = 20; at < text.size(); at += 22) {
+        text.insert(at, "\r\n");
+    }
+    return "data:;base64," + text + "\n";
 }
 
 }  // namespace
@@ -105,7 +116,9 @@ TEST_CASE("data URIs hold base64 or percent-encoded bytes")
         escaped += digits[static_cast<unsigned char>(byte) & 15];
     }
     for (const std::string& uri : {"data:;base64," + base64(bytes), escaped,
-                                   "DATA:application/gltf-buffer;base64," + base64(bytes)}) {
+                                   "DATA:application/gltf-buffer;base64," + base64(bytes),
+                                   "data:application/octet-stream;BASE64," + base64(bytes),
+                                   "data:; Base64 ," + base64(bytes), with_line_breaks(bytes)}) {
         const auto file = folder.write("scene.gltf", with_buffer_uri(uri));
         CHECK(load_gltf(file).scene.meshes.at(0).positions.at(2) == Vec3(0, 1, 0));
     }
@@ -121,6 +134,7 @@ TEST_CASE("malformed data URIs are refused")
         return std::string(error.what());
     };
     CHECK(contains(message("data:;base64,AA*A"), "base64 digit 2: byte 0x2a"));
+    CHECK(contains(message("data:;base64,AA A\nA A"), "base64 text of 5 digits is truncated"));
     CHECK(contains(message("data:;base64,AAAAA"), "truncated"));
     CHECK(contains(message("data:;base64"), "without a comma"));
     CHECK(contains(message("data:;base64,AAAA"), "/byteLength: 42 bytes, but there are 3"));
@@ -149,7 +163,74 @@ TEST_CASE("nothing outside of the scene's folder is read")
     const Error error = load_error(folder.write("scene.gltf", fixture.text()));
     CHECK(error.code() == ErrorCode::invalid_input);
     CHECK(contains(error.what(), "/images/0/uri: "));
-    CHECK(contains(error.what(), "outside of the scene's folder"));
+    CHECK(contains(error.what(), "leads to \"" + std::filesystem::canonical(secret).string()));
+    CHECK(contains(error.what(), "outside of the scene's folder; --allow-folder allows others"));
+    const Error link = load_error(folder.write("scene.gltf", with_buffer_uri("link.bin")));
+    CHECK(contains(link.what(), "\"link.bin\": is a link to \"" +
+                                    std::filesystem::canonical(secret).string() + "\", outside"));
+}
+
+TEST_CASE("what lies in an allowed folder is read")
+{
+    const TempFolder store;
+    const auto mesh = store.write("data/mesh.bin", triangle_bytes());
+    const TempFolder folder;
+    std::filesystem::create_symlink(mesh, folder.path() / "link.bin");
+    const std::string up = "../" + store.path().filename().string() + "/data/mesh.bin";
+    for (const std::string& uri : {up, "link.bin"s}) {
+        CAPTURE(uri);
+        const auto file = folder.write("scene.gltf", with_buffer_uri(uri));
+        const auto code = [&file](const std::vector<std::filesystem::path>& allowed) {
+            GltfOptions options;
+            options.allowed_folders = allowed;
+            return load_error(file, options).code();
+        };
+        constexpr ErrorCode none = ErrorCode::internal;
+        CHECK(code({}) == ErrorCode::invalid_input);
+        CHECK(code({store.path()}) == none);
+        CHECK(code({folder.path(), store.path() / "other/../data"}) == ErrorCode::not_found);
+        CHECK(code({folder.path(), store.path() / "data/"}) == none);
+        CHECK(code({store.path() / "dat"}) == ErrorCode::not_found);
+        CHECK(code({mesh}) == ErrorCode::not_found);
+        CHECK(code({""}) == ErrorCode::not_found);
+        CHECK(code({folder.path()}) == ErrorCode::invalid_input);
+        CHECK_FALSE(gltf_file_contents(file)[1].hash);
+        CHECK(gltf_file_contents(file, {}, {store.path()})[1].hash == hash_of_file(mesh));
+    }
+    // An allowed folder is no base of URIs, and allows nothing but what is named by relative ones.
+    for (const std::string& uri : {"data/mesh.bin"s, mesh.string()}) {
+        GltfOptions options;
+        options.allowed_folders = {store.path()};
+        const Error error = load_error(folder.write("scene.gltf", with_buffer_uri(uri)), options);
+        CHECK_FALSE(std::string(error.what()).empty());
+    }
+}
+
+TEST_CASE("backslashes are slashes where only that leads to a file")
+{
+    const TempFolder folder;
+    folder.write("data/mesh.bin", triangle_bytes());
+    for (const char* uri : {"data\\mesh.bin", ".\\data\\mesh.bin", "data%5Cmesh.bin"}) {
+        CAPTURE(uri);
+        const LoadedScene loaded = load_gltf(folder.write("scene.gltf", with_buffer_uri(uri)));
+        CHECK(loaded.scene.instances.size() == 1);
+        REQUIRE(loaded.warnings.size() == 1);
+        CHECK(loaded.warnings[0] == "/buffers/0/uri: \"" + std::string(uri) +
+                                        "\": a backslash in a URI is read as a slash");
+        CHECK(loaded.files.at(0) == std::filesystem::canonical(folder.path() / "data/mesh.bin"));
+    }
+    const auto file = folder.write("scene.gltf", with_buffer_uri("data\\mesh.bin"));
+    folder.write("data\\mesh.bin", triangle_bytes());
+    CHECK(load_gltf(file).warnings.empty());
+    // Neither name, nor a way out of the folder.
+    const TempFolder outside;
+    outside.write("mesh.bin", triangle_bytes());
+    const std::string up = "..\\" + outside.path().filename().string() + "\\mesh.bin";
+    for (const std::string& uri : {"data\\no.bin"s, up}) {
+        const Error error = load_error(folder.write("scene.gltf", with_buffer_uri(uri)));
+        CHECK(error.code() == ErrorCode::not_found);
+        CHECK(contains(error.what(), "no such file"));
+    }
 }
 
 TEST_CASE("links within the scene's folder are followed")

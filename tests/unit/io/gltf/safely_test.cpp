@@ -133,7 +133,7 @@ TEST_CASE("of a buffer's file no more is read than the buffer needs")
     for (int i = 0; i < 3; ++i) {
         fixture.json["buffers"].push_back({{"byteLength", 10 + i}, {"uri", "large.bin"}});
     }
-    LoadContext context{.folder = folder.path()};
+    LoadContext context{.folders = {.own = folder.path()}};
     const CheckedGltf checked =
         read_checked_gltf(folder.write("scene.gltf", fixture.json.dump()), context);
     REQUIRE(checked.buffers.size() == 3);

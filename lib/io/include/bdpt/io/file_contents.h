@@ -34,10 +34,12 @@ struct FileContent {
                                                    const ReadLimits& limits = {});
 
 /// Hashes a .gltf or .glb file and then all files that it refers to, used or not, by name: buffers,
-/// images and light profiles. Equal contents load as equal scenes, at any time of their animations.
-/// Throws `Error`, whose message starts with the file's path: not_found, or invalid_input for a
-/// file that is no glTF document or over a limit.
+/// images and light profiles, also in the `allowed` folders (`GltfOptions::allowed_folders`). Equal
+/// contents load as equal scenes, at any time of their animations. Throws `Error`, whose message
+/// starts with the file's path: not_found, or invalid_input for a file that is no glTF document or
+/// over a limit.
 [[nodiscard]] BDPT_EXPORT std::vector<FileContent> gltf_file_contents(
-    const std::filesystem::path& file, const ReadLimits& limits = {});
+    const std::filesystem::path& file, const ReadLimits& limits = {},
+    const std::vector<std::filesystem::path>& allowed = {});
 
 }  // namespace bdpt::io

@@ -58,6 +58,9 @@ struct GltfOptions {
     /// Interval in which animated objects get a motion (bdpt/motion.h); none, or of no length: the
     /// image shows one moment.
     std::optional<Shutter> shutter{};
+    /// Folders that the scene may name files in, beside its own. Without them URIs and symbolic
+    /// links that lead out of the scene's folder are refused.
+    std::vector<std::filesystem::path> allowed_folders{};
     ReadLimits limits{};
     /// Budget that the scene's memory is taken from; null: `ReadLimits::memory_bytes` are for this
     /// scene alone.
@@ -159,8 +162,10 @@ struct LoadedScene {
                                                     const ReadLimits& limits = {});
 
 /// Returns all files that a document names, used or not, as `LoadedScene::files`, from its JSON
-/// alone. Throws `Error` as `read_gltf_facts`, and for URIs that `load_gltf` refuses.
+/// alone; `allowed` are `GltfOptions::allowed_folders`. Throws `Error` as `read_gltf_facts`, and for
+/// URIs that `load_gltf` refuses.
 [[nodiscard]] BDPT_EXPORT std::vector<std::filesystem::path> read_gltf_files(
-    const std::filesystem::path& file, const ReadLimits& limits = {});
+    const std::filesystem::path& file, const ReadLimits& limits = {},
+    const std::vector<std::filesystem::path>& allowed = {});
 
 }  // namespace bdpt::io

@@ -96,7 +96,7 @@ Json read_document(const std::filesystem::path& file, const ReadLimits& limits)
     const Bytes bytes = read_file(file, limits.file_bytes);
     ByteView text = bytes;
     if (is_glb(bytes)) {
-        LoadContext context{.folder = file.parent_path(), .limits = limits};
+        LoadContext context{.folders = {.own = file.parent_path()}, .limits = limits};
         const GlbChunks::Range json = find_glb_chunks(bytes, context).json;
         text = text.subspan(json.offset, json.size);
     }
@@ -120,11 +120,14 @@ GltfFacts read_gltf_facts(const std::filesystem::path& file, const ReadLimits& l
 }
 
 std::vector<std::filesystem::path> read_gltf_files(const std::filesystem::path& file,
-                                                   const ReadLimits& limits)
+                                                   const ReadLimits& limits,
+                                                   const std::vector<std::filesystem::path>& allowed)
 {
     return with_named_errors(file, [&] {
+        LoadContext context{.folders = {.own = file.parent_path(), .allowed = allowed},
+                            .limits = limits};
         const Json document = read_document(file, limits);
-        return checked_uris(JsonPlace(document), file.parent_path());
+        return checked_uris(JsonPlace(document), context);
     });
 }
 

@@ -67,7 +67,7 @@ std::set<std::string> read_uris(ByteView file, LoadContext& context)
 std::optional<ContentHash> hash_if_readable(const std::string& uri, const LoadContext& context)
 {
     try {
-        return hash_by_blocks(resolve_uri(context.folder, uri), context.limits.file_bytes);
+        return hash_by_blocks(resolve_uri(context.folders, uri), context.limits.file_bytes);
     } catch (const Error&) {
         return std::nullopt;
     }
@@ -84,10 +84,12 @@ ContentHash hash_of_file(const std::filesystem::path& file, const ReadLimits& li
 }
 
 std::vector<FileContent> gltf_file_contents(const std::filesystem::path& file,
-                                            const ReadLimits& limits)
+                                            const ReadLimits& limits,
+                                            const std::vector<std::filesystem::path>& allowed)
 {
     return with_named_errors(file, [&] {
-        LoadContext context{.folder = file.parent_path(), .limits = limits};
+        LoadContext context{.folders = {.own = file.parent_path(), .allowed = allowed},
+                            .limits = limits};
         const Bytes bytes = read_named(file, limits.file_bytes);
         std::vector<FileContent> result{
             {.name = file.filename().string(), .hash = hash_bytes(bytes)}};

@@ -278,7 +278,7 @@ Bytes read_source(const tinygltf::Model& model, const std::string& uri, int buff
     if (is_data_uri(uri)) {
         return decode_data_uri(uri, limit);
     }
-    const std::filesystem::path file = resolve_uri(context.folder, uri);
+    const std::filesystem::path file = resolve_uri(context.folders, uri);
     try {
         return read_file(file, limit);
     } catch (const Error& error) {

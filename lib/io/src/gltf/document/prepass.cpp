@@ -59,7 +59,7 @@ Bytes read_buffer(const JsonPlace& buffer, std::uint64_t length, const LoadConte
         if (is_data_uri(uri)) {
             return decode_data_uri(uri, context.limits.file_bytes);
         }
-        const std::filesystem::path file = resolve_uri(context.folder, uri);
+        const std::filesystem::path file = resolve_uri(context.folders, uri);
         try {
             return read_file(file, context.limits.file_bytes, length + 1, &context.budget.memory());
         } catch (const Error& error) {
@@ -110,9 +110,26 @@ std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
 
 using Paths = std::vector<std::filesystem::path>;
 
+/// Adds the file that `place` names.
+void add_file(Paths& files, const JsonPlace& place, LoadContext& context)
+{
+    const auto& uri = place.value().get_ref<const std::string&>();
+    if (is_data_uri(uri)) {
+        return;
+    }
+    files.push_back(resolve_uri(context.folders, uri));
+    const auto has_backslash = [](const std::string& text) {
+        return text.find('\\') != std::string::npos;
+    };
+    if (has_backslash(percent_decode(uri)) && !has_backslash(files.back().string())) {
+        context.warn("a backslash in a URI is read as a slash",
+                     fmt::format("{}: {}", place.pointer(), quote(uri)));
+    }
+}
+
 /// Adds the files of all images or light profiles, used or not: a document that points outside of
 /// its folder is refused as a whole.
-void add_checked_uris(Paths& files, const JsonPlace& holders, const std::filesystem::path& folder)
+void add_checked_uris(Paths& files, const JsonPlace& holders, LoadContext& context)
 {
     for (std::size_t i = 0; i < holders.size(); ++i) {
         const JsonPlace holder = holders.element(i);
@@ -123,12 +140,8 @@ void add_checked_uris(Paths& files, const JsonPlace& holders, const std::filesys
             continue;
         }
         const JsonPlace place = holder.member("uri");
-        const auto& uri = place.value().get_ref<const std::string&>();
-        if (is_data_uri(uri)) {
-            continue;
-        }
         try {
-            files.push_back(resolve_uri(folder, uri));
+            add_file(files, place, context);
         } catch (const Error& error) {
             place.fail(error.what(), error.code());
         }
@@ -137,7 +150,7 @@ void add_checked_uris(Paths& files, const JsonPlace& holders, const std::filesys
 
 /// Adds the files of buffers. Unreadable ones are refused when they are read, which never happens
 /// to fallback buffers.
-void add_buffers(Paths& files, const JsonPlace& buffers, const std::filesystem::path& folder)
+void add_buffers(Paths& files, const JsonPlace& buffers, LoadContext& context)
 {
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         const JsonPlace buffer = buffers.element(i);
@@ -145,11 +158,8 @@ void add_buffers(Paths& files, const JsonPlace& buffers, const std::filesystem::
             continue;
         }
         const JsonPlace place = buffer.member("uri");
-        const auto& uri = place.value().get_ref<const std::string&>();
         try {
-            if (!is_data_uri(uri)) {
-                files.push_back(resolve_uri(folder, uri));
-            }
+            add_file(files, place, context);
         } catch (const Error&) {
         }
     }
@@ -157,15 +167,14 @@ void add_buffers(Paths& files, const JsonPlace& buffers, const std::filesystem::
 
 }  // namespace
 
-std::vector<std::filesystem::path> checked_uris(const JsonPlace& root,
-                                                const std::filesystem::path& folder)
+std::vector<std::filesystem::path> checked_uris(const JsonPlace& root, LoadContext& context)
 {
     Paths files;
     if (root.has("buffers")) {
-        add_buffers(files, root.member("buffers"), folder);
+        add_buffers(files, root.member("buffers"), context);
     }
     if (root.has("images")) {
-        add_checked_uris(files, root.member("images"), folder);
+        add_checked_uris(files, root.member("images"), context);
     }
     if (!root.has("extensions")) {
         return files;
@@ -176,7 +185,7 @@ std::vector<std::filesystem::path> checked_uris(const JsonPlace& root,
     }
     const JsonPlace profiles = extensions.member("EXT_lights_ies");
     if (profiles.has("lights")) {
-        add_checked_uris(files, profiles.member("lights"), folder);
+        add_checked_uris(files, profiles.member("lights"), context);
     }
     return files;
 }
@@ -217,7 +226,7 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& co
     check_schema(root, context);
     check_layout(root, context);
     check_node_graph(root, context.limits);
-    result.files = checked_uris(root, context.folder);
+    result.files = checked_uris(root, context);
     result.buffers = read_buffers(root, std::move(bin), context);
     decode_meshopt_views(result.document, result.buffers, context);
     decode_draco_primitives(result.document, result.buffers, context);

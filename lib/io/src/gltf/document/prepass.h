@@ -26,9 +26,9 @@ struct CheckedGltf {
 [[nodiscard]] CheckedGltf read_checked_gltf(const std::filesystem::path& file,
                                             LoadContext& context);
 
-/// Returns the files that the URIs of a document in `folder` name, used or not. Throws `Error` for
-/// those that lead out of it.
+/// Returns the files that the URIs of a document name, used or not. Throws `Error` for those that
+/// lead out of its folders.
 [[nodiscard]] std::vector<std::filesystem::path> checked_uris(const JsonPlace& root,
-                                                              const std::filesystem::path& folder);
+                                                              LoadContext& context);
 
 }  // namespace bdpt::io

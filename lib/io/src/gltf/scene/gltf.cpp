@@ -18,8 +18,10 @@ namespace {
 
 LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
 {
-    LoadContext context{
-        .folder = file.parent_path(), .limits = options.limits, .memory = options.memory};
+    LoadContext context{.folders = {.own = file.parent_path(), .allowed = options.allowed_folders},
+                        .limits = options.limits,
+                        .memory = options.memory};
+    check_folders(context.folders);
     context.images = options.images.get();
     Ktx2Decoder ktx2(options.ktx_library);
     context.ktx2 = &ktx2;

@@ -82,13 +82,41 @@ TEST_CASE("an orthographic camera without an extent is skipped")
 {
     const LoadedScene loaded =
         with_cameras({orthographic(1, 0), orthographic(-1, 1), orthographic(1, 3e38),
-                      orthographic(1e-30, 1e30), orthographic(1, 1)})
+                      orthographic(1e-30, 1e30), orthographic(0, -1)})
             .load();
     CHECK(loaded.cameras.size() == 1);
     CHECK(warns(loaded.warnings, {"/cameras/0/orthographic: xmag 1, ymag 0", "and 3 more"}));
     Json half = orthographic(1, 1);
     half["orthographic"].erase("ymag");
     CHECK_THROWS_AS(with_cameras({half}).load(), Error);
+}
+
+TEST_CASE("negative extents of an orthographic camera turn its view upside down")
+{
+    GltfFixture fixture = with_cameras({orthographic(-3, -1.5)});
+    fixture.json["nodes"][0]["translation"] = {0, 0, 7};
+    const LoadedScene loaded = fixture.load({.strict = true});
+    REQUIRE(loaded.cameras.size() == 1);
+    const CameraDesc& camera = loaded.cameras[0];
+    CHECK(camera.vertical_extent == 3.0f);
+    CHECK(camera.aspect_ratio == 2.0f);
+    CHECK(camera.world_from_camera ==
+          Mat4(Vec4(-1, 0, 0, 0), Vec4(0, -1, 0, 0), Vec4(0, 0, 1, 0), Vec4(0, 0, 7, 1)));
+    CHECK(warns(loaded.warnings, {"/cameras/0/orthographic: xmag -3, ymag -1.5", "upside down"}));
+}
+
+TEST_CASE("a single negative extent of an orthographic camera is taken as positive")
+{
+    const GltfFixture fixture = with_cameras({orthographic(-3, 1.5), orthographic(3, -1.5)});
+    const LoadedScene loaded = fixture.load();
+    REQUIRE(loaded.cameras.size() == 2);
+    for (const CameraDesc& camera : loaded.cameras) {
+        CHECK(camera.vertical_extent == 3.0f);
+        CHECK(camera.aspect_ratio == 2.0f);
+        CHECK(camera.world_from_camera == Mat4(1.0f));
+    }
+    CHECK(warns(loaded.warnings, {"/cameras/0/orthographic: xmag -3, ymag 1.5", "and 1 more"}));
+    CHECK(fixture.error({.strict = true}).code() == ErrorCode::unsupported);
 }
 
 TEST_CASE("extras of a camera describe its lens")

@@ -107,7 +107,11 @@ TEST_CASE("broken framing is refused")
     CHECK(contains(refused(good.substr(0, good.size() - 1)), "the header promises"));
     CHECK(contains(refused(changed(4, 1), ErrorCode::unsupported), "container version 1"));
     CHECK(contains(refused(changed(8, 12)), "no JSON chunk"));
-    CHECK(contains(refused(changed(8, 4)), "no"));
+    for (const std::uint32_t length : {0U, 4U, 11U}) {
+        CHECK(contains(refused(changed(8, length)), "GLB: the header states a length of " +
+                                                        std::to_string(length) +
+                                                        " bytes, but has 12 itself"));
+    }
     CHECK(contains(refused(changed(8, 15)), "3 bytes at byte 12"));
     CHECK(contains(refused(changed(12, 0xFFFFFFFF)), "chunk at byte 12: 4294967295 bytes"));
     CHECK(contains(refused(changed(16, 0x004E4942)), "the first chunk has type"));

@@ -62,6 +62,10 @@ GlbChunks find_glb_chunks(ByteView file, LoadContext& context)
                     fmt::format("GLB: container version {}; only 2 is supported", version));
     }
     const std::size_t length = read_u32(file, 8);
+    if (length < header_size) {
+        fail(fmt::format("the header states a length of {} bytes, but has {} itself", length,
+                         header_size));
+    }
     if (length > file.size()) {
         fail(fmt::format("truncated: the header promises {} bytes, but there are {}", length,
                          file.size()));

@@ -32,14 +32,25 @@ std::optional<CameraDesc> read_perspective(const tinygltf::Camera& camera, const
 std::optional<CameraDesc> read_orthographic(const tinygltf::Camera& camera,
                                             const std::string& place, LoadContext& context)
 {
-    const double xmag = camera.orthographic.xmag;
-    const double ymag = camera.orthographic.ymag;
+    const double xmag = std::abs(camera.orthographic.xmag);
+    const double ymag = std::abs(camera.orthographic.ymag);
     if (!is_length(xmag) || !is_length(ymag) || !is_length(2.0 * ymag) || !is_length(xmag / ymag)) {
-        context.warn("an orthographic camera with an impossible extent is skipped",
-                     fmt::format("{}/orthographic: xmag {}, ymag {}", place, xmag, ymag));
+        context.warn(WarningKind::loss,
+                     "an orthographic camera with an impossible extent is skipped",
+                     fmt::format("{}/orthographic: xmag {}, ymag {}", place,
+                                 camera.orthographic.xmag, camera.orthographic.ymag));
         return std::nullopt;
     }
     CameraDesc desc;
+    if (camera.orthographic.xmag < 0.0 || camera.orthographic.ymag < 0.0) {
+        const bool both = camera.orthographic.xmag < 0.0 && camera.orthographic.ymag < 0.0;
+        context.warn(both ? WarningKind::harmless : WarningKind::loss,
+                     both ? "an orthographic camera of negative extent is turned upside down"
+                          : "the mirror image of an orthographic camera of negative extent is "
+                            "not made: the view is as of the positive one",
+                     fmt::format("{}/orthographic: xmag {}, ymag {}", place,
+                                 camera.orthographic.xmag, camera.orthographic.ymag));
+    }
     desc.projection = Projection::orthographic;
     desc.vertical_extent = static_cast<float>(2.0 * ymag);
     desc.aspect_ratio = static_cast<float>(xmag / ymag);
@@ -47,6 +58,15 @@ std::optional<CameraDesc> read_orthographic(const tinygltf::Camera& camera,
 }
 
 }  // namespace
+
+glm::dmat4 node_from_camera(const tinygltf::Camera& camera)
+{
+    const auto& extent = camera.orthographic;
+    const bool turned = camera.type == "orthographic" && extent.xmag < 0.0 && extent.ymag < 0.0;
+    return turned ? glm::dmat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, -1, 0, 0),
+                               glm::dvec4(0, 0, 1, 0), glm::dvec4(0, 0, 0, 1))
+                  : glm::dmat4(1.0);
+}
 
 std::optional<CameraDesc> read_camera(const tinygltf::Model& model, std::size_t node,
                                       const glm::dmat4& world_from_node, LoadContext& context)
@@ -69,7 +89,7 @@ std::optional<CameraDesc> read_camera(const tinygltf::Model& model, std::size_t 
         return std::nullopt;
     }
     desc->name = camera.name.empty() ? holder.name : camera.name;
-    desc->world_from_camera = Mat4(world_from_node);
+    desc->world_from_camera = Mat4(world_from_node * node_from_camera(camera));
     const Lens lens = read_lens(camera, *desc, place, context);
     desc->lens_radius = lens.radius;
     desc->focus_distance = lens.focus_distance;

@@ -4,13 +4,16 @@
 
 #include <bdpt/scene_desc.h>
 
-#include <glm/mat4x4.hpp>
 #include <tiny_gltf.h>
+#include <glm/mat4x4.hpp>
 
 #include <cstddef>
 #include <optional>
 
 namespace bdpt::io {
+
+/// Returns the pose of a camera in its node: upside down if both extents are negative.
+[[nodiscard]] glm::dmat4 node_from_camera(const tinygltf::Camera& camera);
 
 /// Reads the camera of a node; none if it has none, or, with a warning, one that cannot be
 /// rendered.

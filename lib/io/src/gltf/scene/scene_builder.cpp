@@ -106,6 +106,11 @@ private:
         if (std::optional<CameraDesc> camera =
                 read_camera(model_, node, transforms_.world(node), context_)) {
             camera->motion = camera_motion(motion_.world(node), node, context_);
+            const auto index = static_cast<std::size_t>(model_.nodes[node].camera);
+            const Mat4 turn(node_from_camera(model_.cameras[index]));
+            for (Mat4& pose : camera->motion) {
+                pose = pose * turn;
+            }
             result_.cameras.push_back(std::move(*camera));
         }
     }

@@ -194,14 +194,28 @@ TEST_CASE("the first layer with colours is read if none is unnamed")
     CHECK(warns(loaded.warnings, {"layer sky"}));
 }
 
-TEST_CASE("negative, infinite and NaN pixels become black with a warning")
+TEST_CASE("negative and NaN pixels are black, infinite ones as bright as can be, with warnings")
 {
-    const LoadedEnvironment loaded = load_exr(
-        box(0, 0, 1, 0), box(0, 0, 1, 0), Imf::FLOAT,
-        {{"R", {-1, NAN}}, {"G", {1, std::numeric_limits<float>::infinity()}}, {"B", {2, 3}}});
-    CHECK(loaded.light.radiance.at(0, 0) == Rgb(0, 1, 2));
-    CHECK(loaded.light.radiance.at(1, 0) == Rgb(0, 0, 3));
-    CHECK(warns(loaded.warnings, {"pixel (0, 0): -1", "and 2 more"}));
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT}) {
+        const bool compact = type == Imf::HALF;
+        const float greatest = compact ? 65504.0f : 4398046511104.0f;
+        const LoadedEnvironment loaded =
+            load_exr(box(0, 0, 1, 0), box(0, 0, 1, 0), type,
+                     {{"R", {-1, NAN}}, {"G", {1, infinity}}, {"B", {infinity, -infinity}}});
+        CHECK(loaded.light.radiance.at(0, 0) == Rgb(0, 1, greatest));
+        CHECK(loaded.light.radiance.at(1, 0) == Rgb(0, greatest, 0));
+        CHECK(loaded.warnings.size() == 2);
+        CHECK(warns(loaded.warnings, {"pixel (0, 0): -1",
+                                      "negative and NaN values are treated as 0", "and 2 more"}));
+        CHECK(warns(loaded.warnings,
+                    {"pixel (0, 0): inf", compact ? "treated as 65504" : "treated as 4.398e+12",
+                     "and 1 more"}));
+    }
+    // Halves that are read as floats, as their data does not fill the image.
+    const LoadedEnvironment part = load_exr(box(0, 0, 3, 1), box(0, 0, 0, 0), Imf::HALF,
+                                            {{"R", {infinity}}, {"G", {1}}, {"B", {1}}});
+    CHECK(part.light.radiance.at(0, 0) == Rgb(65504, 1, 1));
 }
 
 TEST_CASE("Radiance images are read")

@@ -42,10 +42,10 @@ struct LoadedEnvironment {
 
 /// Reads an equirectangular image in OpenEXR, Radiance HDR, TIFF, PNG, JPEG or WebP format, as its
 /// first bytes tell; "-" is the standard input. Colours of the last three are taken as
-/// sRGB-encoded, with white as 1 nit. Other pixels are taken as linear Rec. 709 [nit]; negative,
-/// infinite and NaN ones become 0, with a warning. TIFF images are of floats; OpenImageIO reads
-/// them, and is opened for the first one. The environment's memory is taken from `memory`, if
-/// given, until it lights a scene.
+/// sRGB-encoded, with white as 1 nit. Other pixels are taken as linear Rec. 709 [nit]. With a
+/// warning, negative and NaN values become 0, and infinite ones the greatest value: 65504 in images
+/// of halves, else 2^42. TIFF images are of floats; OpenImageIO reads them, and is opened for the
+/// first one.
 ///
 /// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable),
 /// invalid_input (broken, or over a limit), unsupported (another format or kind of pixels; TIFF

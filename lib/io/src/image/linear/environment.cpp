@@ -18,6 +18,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace bdpt::io {
 
@@ -28,8 +29,13 @@ std::uint64_t count_pixels(int width, int height)
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
-/// Makes the pixels of row `y` finite and non-negative.
-void mend_row(std::span<Rgb> row, int y, Warnings& warnings)
+/// The greatest values of texels [nit]. Converters leave infinity where a sun overflowed.
+constexpr float greatest_half = 65504.0f;
+constexpr float greatest_float =
+    0x1p42f;  // more is beyond what a film sums (`ExactSum::max_value`)
+
+/// Makes the pixels of row `y` finite and non-negative. Infinite ones become `greatest`.
+void mend_row(std::span<Rgb> row, int y, float greatest, Warnings& warnings)
 {
     for (std::size_t x = 0; x < row.size(); ++x) {
         for (int c = 0; c < 3; ++c) {
@@ -37,9 +43,11 @@ void mend_row(std::span<Rgb> row, int y, Warnings& warnings)
             if (std::isfinite(value) && value >= 0.0f) {
                 continue;
             }
-            warnings.add("negative, infinite and NaN values are treated as 0",
+            const bool overflowed = value > 0.0f;
+            warnings.add(overflowed ? fmt::format("infinite values are treated as {:.5g}", greatest)
+                                    : "negative and NaN values are treated as 0",
                          fmt::format("pixel ({}, {}): {}", x, y, value));
-            value = 0.0f;
+            value = overflowed ? greatest : 0.0f;
         }
     }
 }
@@ -68,7 +76,7 @@ CompactEnvironment read_compact(ByteView bytes, const ReadLimits& limits,
                            },
                        .add =
                            [&](std::span<Rgb> row) {
-                               mend_row(row, y++, result.warnings);
+                               mend_row(row, y++, greatest_half, result.warnings);
                                return builder->add_row(row);
                            }};
     const bool complete = is_exr(bytes) ? read_half_exr_rows(bytes, limits, result.warnings, sink)
@@ -79,22 +87,29 @@ CompactEnvironment read_compact(ByteView bytes, const ReadLimits& limits,
     return result;
 }
 
-Image read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
-               const MemoryBudget* memory)
+/// An image, and the greatest value of its texels.
+struct FloatImage {
+    Image image;
+    float greatest = greatest_float;
+};
+
+FloatImage read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
+                    const MemoryBudget* memory)
 {
     if (is_exr(bytes)) {
-        return read_exr(bytes, std::nullopt, limits, warnings, memory).image;
+        ExrImage exr = read_exr(bytes, std::nullopt, limits, warnings, memory);
+        return {std::move(exr.image), exr.halves ? greatest_half : greatest_float};
     }
     if (is_hdr(bytes)) {
-        return read_hdr(bytes, limits, warnings, memory);
+        return {read_hdr(bytes, limits, warnings, memory)};
     }
     if (is_tiff(bytes)) {
-        return read_tiff(bytes, limits, memory);
+        return {read_tiff(bytes, limits, memory)};
     }
     if (is_display_image(bytes)) {
         warnings.add("nothing in it is brighter than white (--env-intensity scales it)",
                      "an image for screens");
-        return read_display_image(bytes, limits, warnings, memory);
+        return {read_display_image(bytes, limits, warnings, memory)};
     }
     const auto kind = other_kind(bytes);
     throw Error(ErrorCode::unsupported,
@@ -105,11 +120,11 @@ Image read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
 Image read_floats(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
                   const MemoryBudget* memory)
 {
-    Image image = read_any(bytes, limits, warnings, memory);
+    auto [image, greatest] = read_any(bytes, limits, warnings, memory);
     const auto width = static_cast<std::size_t>(image.width);
     for (int y = 0; y < image.height; ++y) {
         mend_row(std::span(image.pixels).subspan(static_cast<std::size_t>(y) * width, width), y,
-                 warnings);
+                 greatest, warnings);
     }
     return image;
 }

@@ -277,6 +277,7 @@ ExrImage read(ByteView file, const std::optional<std::string>& layer, const Read
                                             : read_channels(input, colors, data, data_size);
     return {.image = place(std::move(pixels), data, display, data_size, size),
             .filled = filled_part(data, display),
+            .halves = colors.chroma || are_halves(header.channels(), colors),
             .attributes = read_attributes(header)};
 }
 

@@ -22,7 +22,8 @@ namespace bdpt::io {
 /// The display window of an OpenEXR file, black where there is no data.
 struct ExrImage {
     Image image;
-    PixelRect filled;  ///< region with data
+    PixelRect filled;     ///< region with data
+    bool halves = false;  ///< its values were half floats
     /// Names and values of texts and numbers in the header.
     std::vector<std::pair<std::string, std::string>> attributes{};
 };

@@ -212,14 +212,24 @@ std::string why_no_triangles(const std::vector<std::string>& warnings)
     return reasons.empty() ? "" : " (" + reasons + ")";
 }
 
-std::vector<VolumeDesc> load_volumes(const RenderArguments& arguments)
+/// Loads the volume, and adds its warnings. One without any density, such as the first frame of a
+/// simulation, is left out.
+std::vector<VolumeDesc> load_volumes(const RenderArguments& arguments,
+                                     std::vector<std::string>& warnings)
 {
     std::vector<VolumeDesc> volumes;
     if (arguments.volume) {
         io::VolumeOptions options = arguments.volume->options;
         options.limits = arguments.scene.limits;
         options.memory = arguments.scene.memory;
-        volumes.push_back(io::load_volume(arguments.volume->file, options));
+        io::LoadedVolume loaded = io::load_volume(arguments.volume->file, options);
+        for (const std::string& warning : loaded.warnings) {
+            warnings.push_back(fmt::format("{}: {}", arguments.volume->file.string(), warning));
+        }
+        const std::vector<float>& density = loaded.volume.density;
+        if (std::any_of(density.begin(), density.end(), [](float value) { return value > 0.0f; })) {
+            volumes.push_back(std::move(loaded.volume));
+        }
     }
     return volumes;
 }
@@ -235,10 +245,10 @@ PreparedScene prepare_scene(const RenderArguments& asked)
     const auto start = std::chrono::steady_clock::now();
     const std::string file = arguments.file.string();
     const ThreadLimit threads = limit_threads(arguments.options.system.threads);
-    std::vector<VolumeDesc> volumes = load_volumes(arguments);
+    std::vector<std::string> warnings;
+    std::vector<VolumeDesc> volumes = load_volumes(arguments, warnings);
     io::LoadedScene loaded = io::load_gltf(arguments.file, arguments.scene);
 
-    std::vector<std::string> warnings;
     if (threads.allowed < threads.wanted) {
         warnings.push_back(
             fmt::format("using {} of {} threads: the system limits how many this user or container "

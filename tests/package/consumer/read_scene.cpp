@@ -18,7 +18,7 @@ int main(int argc, char** argv)
         bdpt::io::LoadedScene loaded = bdpt::io::load_gltf(argv[1]);
         loaded.scene.lights.emplace_back(bdpt::io::load_environment(argv[2]).light);
         if (argc > 3) {
-            loaded.scene.volumes.push_back(bdpt::io::load_volume(argv[3]));
+            loaded.scene.volumes.push_back(bdpt::io::load_volume(argv[3]).volume);
         }
         bdpt::RenderOptions options;
         options.film.width = 8;

@@ -50,12 +50,33 @@ std::vector<Head>::const_iterator named(const std::vector<Head>& heads, const st
                         [&](const Head& head) { return head.name == name; });
 }
 
+/// Tests whether OpenVDB calls a grid `name`, or `name` with a number, as several have that name.
+bool is_one_of(const std::string& unique, const std::string& name)
+{
+    return unique == name || (unique.starts_with(name + "[") && unique.ends_with("]"));
+}
+
+/// Throws if several grids are called `name`.
+void check_unique(const std::vector<Head>& heads, const std::string& name)
+{
+    const auto count = std::count_if(heads.begin(), heads.end(),
+                                     [&](const Head& head) { return is_one_of(head.name, name); });
+    if (count > 1) {
+        throw Error(ErrorCode::invalid_input,
+                    std::to_string(count) + " grids are called \"" + plain(name) +
+                        "\", of which one must be named by its number (--volume-grid \"" +
+                        plain(name) + "[0]\"); it has " + list_grids(heads));
+    }
+}
+
 const Head& chosen(const std::vector<Head>& heads, const std::string& wanted)
 {
-    const auto found = named(heads, wanted.empty() ? "density" : wanted);
+    const std::string name = wanted.empty() ? "density" : wanted;
+    const auto found = named(heads, name);
     if (found != heads.end()) {
         return *found;
     }
+    check_unique(heads, name);
     if (!wanted.empty()) {
         throw Error(ErrorCode::invalid_input,
                     "no grid \"" + plain(wanted) + "\"; it has " + list_grids(heads));

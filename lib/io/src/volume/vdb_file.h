@@ -12,7 +12,7 @@ namespace bdpt::io {
 /// A grid as stored in a file.
 struct VdbGrid {
     VdbReply header;
-    std::vector<float> density;  ///< >= 0, x fastest
+    std::vector<float> density;  ///< x fastest
 };
 
 /// Reads a grid of an OpenVDB file, by a separate process. Throws `Error` as `load_volume` does,

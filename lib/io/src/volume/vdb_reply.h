@@ -17,13 +17,15 @@ namespace bdpt::io {
 constexpr const char* vdb_reader_name = "bdpt-read-vdb";
 
 /// Changes whenever anything in this file does.
-constexpr std::array<char, 8> vdb_reply_start{'b', 'd', 'p', 't', 'v', 'd', 'b', '2'};
+constexpr std::array<char, 8> vdb_reply_start{'b', 'd', 'p', 't', 'v', 'd', 'b', '3'};
 
-/// Header of the reply, followed by floats, one per voxel, x fastest.
+/// Header of the reply, followed by floats, one per voxel, x fastest, as they are in the file.
 struct VdbReply {
     std::array<char, 8> start = vdb_reply_start;
     std::array<std::int32_t, 3> first{};  ///< index of the first voxel, which is its centre
     std::array<std::uint32_t, 3> size{};  ///< voxels along x, y, z
+    /// 1: the grid has no active voxels, and a box of its inactive ones is passed; else 0.
+    std::uint32_t empty = 0;
     /// Affine, from voxel indices, column-major.
     std::array<double, 16> world_from_index{};
     std::array<char, 256> name{};  ///< name of the grid; ends with a zero byte

@@ -10,8 +10,14 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -51,10 +57,58 @@ Mat4 world_from_grid(const VdbReply& header, UpAxis up)
     return matrix;
 }
 
-VolumeDesc load(const std::filesystem::path& file, const VolumeOptions& options)
+std::string voxel_label(const VdbReply& header, std::size_t index)
+{
+    const std::size_t width = header.size[0];
+    const std::size_t height = header.size[1];
+    const std::array place{index % width, index / width % height, index / (width * height)};
+    std::array<std::int64_t, 3> voxel{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        voxel[axis] = header.first[axis] + static_cast<std::int64_t>(place[axis]);
+    }
+    return fmt::format("grid \"{}\": voxel ({}, {}, {})", header.name.data(), voxel[0], voxel[1],
+                       voxel[2]);
+}
+
+/// Makes densities finite and non-negative; returns the warnings about them.
+std::vector<std::string> mend(VdbGrid& grid)
+{
+    std::string first;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < grid.density.size(); ++i) {
+        float& value = grid.density[i];
+        if (value >= 0.0f && std::isfinite(value)) {
+            continue;
+        }
+        if (value > 0.0f) {
+            throw Error(ErrorCode::invalid_input,
+                        voxel_label(grid.header, i) + ": an infinite density");
+        }
+        if (count == 0) {
+            first = fmt::format("{}: {}", voxel_label(grid.header, i), value);
+        }
+        ++count;
+        value = 0.0f;
+    }
+    std::vector<std::string> warnings;
+    if (count > 0) {
+        warnings.push_back(
+            fmt::format("{}: negative and NaN densities are treated as 0{}", first,
+                        count > 1 ? fmt::format(" (and {} more of this kind)", count - 1) : ""));
+    }
+    if (grid.header.empty != 0) {
+        std::fill(grid.density.begin(), grid.density.end(), 0.0f);
+        warnings.push_back(fmt::format("grid \"{}\": it has no active voxels, so nothing is there",
+                                       grid.header.name.data()));
+    }
+    return warnings;
+}
+
+LoadedVolume load(const std::filesystem::path& file, const VolumeOptions& options)
 {
     VdbGrid grid = read_vdb(file, options);
-    VolumeDesc volume;
+    LoadedVolume loaded{.volume = {}, .warnings = mend(grid)};
+    VolumeDesc& volume = loaded.volume;
     volume.name = grid.header.name.data();
     volume.size = {grid.header.size[0], grid.header.size[1], grid.header.size[2]};
     volume.world_from_grid = world_from_grid(grid.header, options.up);
@@ -62,12 +116,12 @@ VolumeDesc load(const std::filesystem::path& file, const VolumeOptions& options)
     volume.extinction = options.extinction;
     volume.albedo = options.albedo;
     volume.anisotropy = options.anisotropy;
-    return volume;
+    return loaded;
 }
 
 }  // namespace
 
-VolumeDesc load_volume(const std::filesystem::path& file, const VolumeOptions& options)
+LoadedVolume load_volume(const std::filesystem::path& file, const VolumeOptions& options)
 {
     return with_named_errors(file, [&] { return load(file, options); });
 }

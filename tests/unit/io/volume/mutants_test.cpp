@@ -55,7 +55,7 @@ TEST_CASE("broken OpenVDB files are refused or read, and do no harm", "[volume]"
     for (int i = 0; i < 200; ++i) {
         const auto file = files.write(mutant(whole, random));
         try {
-            const VolumeDesc volume = io::load_volume(file, options);
+            const VolumeDesc volume = io::load_volume(file, options).volume;
             REQUIRE(volume.density.size() ==
                     std::size_t{volume.size.x} * volume.size.y * volume.size.z);
             REQUIRE(std::all_of(volume.density.begin(), volume.density.end(), [](float density) {

@@ -28,7 +28,7 @@ TEST_CASE("scenes/smoke.vdb is what this program writes", "[volume]")
 {
     openvdb::initialize();
     CHECK(std::filesystem::file_size(file) < 150'000);
-    const VolumeDesc volume = io::load_volume(file);
+    const VolumeDesc volume = io::load_volume(file).volume;
     const auto grid = test::smoke_plume();
     const auto box = grid->evalActiveVoxelBoundingBox();
     const auto side = [&](std::size_t axis) {

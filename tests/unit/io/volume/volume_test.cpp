@@ -7,7 +7,9 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "catch.hpp"
 #include "scene/volume.h"
@@ -81,9 +83,11 @@ TEST_CASE("voxels of an OpenVDB file have their values and their places", "[volu
 {
     VdbFiles files;
     const auto grid = askew_grid();
-    const VolumeDesc volume = io::load_volume(
-        files.write({grid}),
-        {.extinction = {3.0f, 2.0f, 1.0f}, .albedo = {0.1f, 0.2f, 0.3f}, .anisotropy = 0.4f});
+    const VolumeDesc volume =
+        io::load_volume(
+            files.write({grid}),
+            {.extinction = {3.0f, 2.0f, 1.0f}, .albedo = {0.1f, 0.2f, 0.3f}, .anisotropy = 0.4f})
+            .volume;
     CHECK(volume.name == "density");
     CHECK(volume.extinction == Rgb(3.0f, 2.0f, 1.0f));
     CHECK(volume.albedo == Rgb(0.1f, 0.2f, 0.3f));
@@ -101,7 +105,7 @@ TEST_CASE("a voxel of an OpenVDB file is where its index is", "[volume]")
     VdbFiles files;
     auto grid = density_grid({3, 5, 7}, {3, 5, 7}, [](openvdb::Coord) { return 8.0f; });
     grid->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
-    const VolumeDesc desc = io::load_volume(files.write({grid}));
+    const VolumeDesc desc = io::load_volume(files.write({grid})).volume;
     const Volume volume(desc);
     CHECK(volume.density({1.5f, 2.5f, 3.5f}) == 8.0f);
     CHECK(volume.density({1.75f, 2.5f, 3.5f}) == 4.0f);
@@ -109,7 +113,7 @@ TEST_CASE("a voxel of an OpenVDB file is where its index is", "[volume]")
     CHECK(volume.density({1.5f, 2.5f, 4.01f}) == 0.0f);
     // Blender's z is up, and its y leads away.
     const auto file = files.write({grid});
-    const VolumeDesc turned_desc = io::load_volume(file, {.up = io::UpAxis::z});
+    const VolumeDesc turned_desc = io::load_volume(file, {.up = io::UpAxis::z}).volume;
     const Volume turned(turned_desc);
     CHECK(turned.density({1.5f, 3.5f, -2.5f}) == 8.0f);
     CHECK(turned.density({1.5f, 2.5f, 3.5f}) == 0.0f);
@@ -123,7 +127,7 @@ TEST_CASE("double and half grids are read, and all linear transforms", "[volume]
     SECTION("half floats")
     {
         grid->setSaveFloatAsHalf(true);
-        const VolumeDesc volume = io::load_volume(files.write({grid}));
+        const VolumeDesc volume = io::load_volume(files.write({grid})).volume;
         check_lookups(volume, *grid, as_it_is);  // 0.25 to 166: exact in half precision to 0.1
     }
     SECTION("doubles")
@@ -134,34 +138,34 @@ TEST_CASE("double and half grids are read, and all linear transforms", "[volume]
             doubles->tree().setValue(i.getCoord(), static_cast<double>(*i));
         }
         doubles->setName("smoke");  // the only one of floats, of no class
-        check_lookups(io::load_volume(files.write({doubles, openvdb::Int32Grid::create()})),
+        check_lookups(io::load_volume(files.write({doubles, openvdb::Int32Grid::create()})).volume,
                       *doubles, as_it_is);
     }
     SECTION("scale alone")
     {
         grid->setTransform(openvdb::math::Transform::createLinearTransform(0.3));
-        check_lookups(io::load_volume(files.write({grid})), *grid, as_it_is);
+        check_lookups(io::load_volume(files.write({grid})).volume, *grid, as_it_is);
     }
     SECTION("translation alone")
     {
         auto transform = openvdb::math::Transform::createLinearTransform();
         transform->postTranslate(openvdb::Vec3d(5, 6, 7));
         grid->setTransform(transform);
-        check_lookups(io::load_volume(files.write({grid})), *grid, as_it_is);
+        check_lookups(io::load_volume(files.write({grid})).volume, *grid, as_it_is);
     }
     SECTION("a rotation alone")
     {
         grid->setTransform(
             openvdb::math::Transform::Ptr(new openvdb::math::Transform(openvdb::math::MapBase::Ptr(
                 new openvdb::math::UnitaryMap(openvdb::Vec3d(1, 2, 3), 0.7)))));
-        check_lookups(io::load_volume(files.write({grid})), *grid, as_it_is);
+        check_lookups(io::load_volume(files.write({grid})).volume, *grid, as_it_is);
     }
     SECTION("a mirror")
     {
         auto transform = openvdb::math::Transform::createLinearTransform();
         transform->postScale(openvdb::Vec3d(-0.5, 0.2, 0.4));
         grid->setTransform(transform);
-        check_lookups(io::load_volume(files.write({grid})), *grid, as_it_is);
+        check_lookups(io::load_volume(files.write({grid})).volume, *grid, as_it_is);
     }
 }
 
@@ -172,7 +176,7 @@ TEST_CASE("tiles of an OpenVDB file are filled with voxels", "[volume]")
     grid->setName("density");
     grid->fill(openvdb::CoordBBox({-8, 0, 0}, {23, 17, 15}), 1.5f);
     REQUIRE(grid->tree().activeTileCount() > 0);
-    const VolumeDesc volume = io::load_volume(files.write({grid}));
+    const VolumeDesc volume = io::load_volume(files.write({grid})).volume;
     REQUIRE(volume.size == UVec3(34, 20, 18));
     float sum = 0.0f;
     for (const float density : volume.density) {
@@ -180,6 +184,40 @@ TEST_CASE("tiles of an OpenVDB file are filled with voxels", "[volume]")
     }
     CHECK(sum == 1.5f * 32 * 18 * 16);
     check_lookups(volume, *grid, as_it_is);
+}
+
+TEST_CASE("negative and NaN densities of an OpenVDB file are 0, with one warning", "[volume]")
+{
+    VdbFiles files;
+    auto grid = small_grid();
+    grid->tree().setValue({1, 2, 3}, -1e-6f);
+    grid->tree().setValue({1, 2, 2}, std::numeric_limits<float>::quiet_NaN());
+    grid->tree().setValue({-1, 0, 0}, -std::numeric_limits<float>::infinity());
+    const io::LoadedVolume loaded = io::load_volume(files.write({grid}));
+    const openvdb::Coord first(-2, -1, -1);
+    for (const openvdb::Coord voxel : {openvdb::Coord(1, 2, 3), {1, 2, 2}, {-1, 0, 0}}) {
+        CHECK(at(loaded.volume, first, voxel) == 0.0f);
+    }
+    CHECK(at(loaded.volume, first, {0, 0, 0}) == 2.0f);
+    CHECK(loaded.warnings ==
+          std::vector<std::string>{"grid \"density\": voxel (-1, 0, 0): -inf: negative and NaN "
+                                   "densities are treated as 0 (and 2 more of this kind)"});
+    CHECK(io::load_volume(files.write({small_grid()})).warnings.empty());
+}
+
+TEST_CASE("in an OpenVDB grid without active voxels there is nothing", "[volume]")
+{
+    VdbFiles files;
+    auto nothing = openvdb::FloatGrid::create(0.0f);
+    nothing->setName("density");
+    nothing->tree().setValueOff({0, 0, 0}, 5.0f);
+    const io::LoadedVolume loaded = io::load_volume(files.write({nothing}));
+    CHECK(loaded.volume.density == std::vector<float>(27, 0.0f));
+    CHECK(loaded.warnings == std::vector<std::string>{
+                                 "grid \"density\": it has no active voxels, so nothing is there"});
+    SceneDesc desc;
+    desc.volumes.push_back(loaded.volume);
+    CHECK_NOTHROW(Scene(std::move(desc)));
 }
 
 TEST_CASE("one of several grids of an OpenVDB file is chosen by its name", "[volume]")
@@ -190,23 +228,24 @@ TEST_CASE("one of several grids of an OpenVDB file is chosen by its name", "[vol
     heat->setName("heat");
     heat->tree().setValue({0, 0, 0}, 7.0f);
     const auto both = files.write({heat, density});
-    CHECK(io::load_volume(both).name == "density");
-    const VolumeDesc volume = io::load_volume(both, {.grid = "heat"});
+    CHECK(io::load_volume(both).volume.name == "density");
+    const VolumeDesc volume = io::load_volume(both, {.grid = "heat"}).volume;
     CHECK(volume.name == "heat");
     CHECK(at(volume, {-1, -1, -1}, {0, 0, 0}) == 7.0f);
     // Two of one name are told apart by numbers.
     auto other = heat->deepCopy();
     other->tree().setValue({0, 0, 0}, 9.0f);
     const auto twins = files.write({heat, other});
-    CHECK(at(io::load_volume(twins, {.grid = "heat[0]"}), {-1, -1, -1}, {0, 0, 0}) == 7.0f);
-    CHECK(at(io::load_volume(twins, {.grid = "heat[1]"}), {-1, -1, -1}, {0, 0, 0}) == 9.0f);
+    CHECK(at(io::load_volume(twins, {.grid = "heat[0]"}).volume, {-1, -1, -1}, {0, 0, 0}) == 7.0f);
+    CHECK(at(io::load_volume(twins, {.grid = "heat[1]"}).volume, {-1, -1, -1}, {0, 0, 0}) == 9.0f);
 }
 
 TEST_CASE("a volume by OpenVDB has the image of the same densities by hand, to the bit", "[volume]")
 {
     VdbFiles files;
     const auto grid = small_grid();
-    const VolumeDesc loaded = io::load_volume(files.write({grid}), {.extinction = Rgb(0.25f)});
+    const VolumeDesc loaded =
+        io::load_volume(files.write({grid}), {.extinction = Rgb(0.25f)}).volume;
     VolumeDesc by_hand;
     by_hand.size = {6, 6, 6};
     for (int z = 0; z < 6; ++z) {

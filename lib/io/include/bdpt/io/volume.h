@@ -6,7 +6,7 @@
 /// @code{.cpp}
 /// bdpt::SceneDesc desc = bdpt::io::load_gltf("landscape.glb").scene;
 /// const bdpt::io::VolumeOptions options = {.extinction = bdpt::Rgb(0.1f)};
-/// desc.volumes.push_back(bdpt::io::load_volume("cloud.vdb", options));
+/// desc.volumes.push_back(bdpt::io::load_volume("cloud.vdb", options).volume);
 /// const bdpt::Scene scene(std::move(desc));
 /// @endcode
 
@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -42,20 +43,27 @@ struct VolumeOptions {
     std::shared_ptr<MemoryBudget> memory{};
 };
 
+/// The result of `load_volume`.
+struct LoadedVolume {
+    VolumeDesc volume;
+    std::vector<std::string> warnings;  ///< one line each, without the file's name
+};
+
 /// Reads the densities of a grid of an OpenVDB file [Museth 2013, "VDB: High-Resolution Sparse
 /// Volumes with Dynamic Topology"], as a dense box around its active voxels with one voxel more on
 /// each side, so that densities between voxels equal those of OpenVDB's trilinear sampler. Inactive
-/// voxels keep their stored values. The transform of the grid is taken as metres.
+/// voxels keep their stored values. A grid without active voxels gives a few voxels of density 0,
+/// and negative and NaN densities become 0, with warnings. The transform of the grid is taken as
+/// metres.
 ///
 /// The program bdpt-read-vdb reads the file, in a separate process with limits of memory and time,
 /// as OpenVDB is not hardened against untrusted files. Only this child process is waited for.
 ///
 /// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable),
-/// invalid_input (broken, over a limit, no such grid, a level set, no active voxels, a background
-/// other than 0, a density that is negative, infinite or NaN), unsupported (another format or a
-/// newer version of it, a grid without floats, a perspective transform; any file without
-/// bdpt-read-vdb).
-[[nodiscard]] BDPT_EXPORT VolumeDesc load_volume(const std::filesystem::path& file,
-                                                 const VolumeOptions& options = {});
+/// invalid_input (broken, over a limit, no such grid, a level set, a background other than 0, an
+/// infinite density), unsupported (another format or a newer version of it, a grid without floats,
+/// a perspective transform; any file without bdpt-read-vdb).
+[[nodiscard]] BDPT_EXPORT LoadedVolume load_volume(const std::filesystem::path& file,
+                                                   const VolumeOptions& options = {});
 
 }  // namespace bdpt::io

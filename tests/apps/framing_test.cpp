@@ -154,6 +154,40 @@ TEST_CASE("a turntable turns the camera, or the object in a light that stands st
     CHECK(eye(first).z > 1.0f + 1.0f / (0.8f * 0.36397023f) + 0.1f);
 }
 
+TEST_CASE("a note says that a camera of the file shows little of the scene")
+{
+    const ScratchFolder folder;
+    // From 60 m the cube of 2 m fills 2 m x 2 m of 101 m x 51 m, or none from behind.
+    const auto notes = [&](const std::string& translation, const Words& more) {
+        const std::string scene =
+            write_cube(
+                folder, "far",
+                {.cameras = R"({"name": "far", "camera": 0, "translation": )" + translation + "},",
+                 .camera_nodes = 1})
+                .string();
+        Words words{"render", scene,          "--size", "40x20", "--spp",
+                    "1",      "--integrator", "pt",     "-o",    (folder / "out.exr").string(),
+                    "--env",  "default"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = run(words);
+        CAPTURE(outcome.err);
+        CHECK(outcome.exit_code == 0);
+        return outcome.err;
+    };
+    const auto told = [](const std::string& text, const std::string& part) {
+        return text.find(part) != std::string::npos;
+    };
+    const std::string hint = "of the image (--camera auto frames it)";
+    const std::string far = notes("[0, 0, 60]", {});
+    CHECK(told(far, "far.gltf: camera far: the scene fills 0."));
+    CHECK(told(far, hint));
+    CHECK(told(notes("[0, 0, -60]", {}), "the scene fills 0 % of the image"));
+    CHECK_FALSE(told(notes("[0, 0, 5]", {}), hint));
+    CHECK_FALSE(told(notes("[0, 0, 60]", {"--camera", "0"}), hint));
+    CHECK_FALSE(told(notes("[0, 0, 60]", {"--camera", "auto"}), hint));
+    CHECK_FALSE(told(notes("[0, 0, 60]", {"--fov", "3"}), hint));
+}
+
 TEST_CASE("options of framing that contradict others are refused", "[framing]")
 {
     const CubeFolder folder;

@@ -23,6 +23,7 @@ ALLOWED = {
     "light_meter.cpp": "the exposure for a screen",
     "view_camera.cpp": "the place of a camera that words then say",
     "tone_curve.cpp": "the image for a screen",
+    "filled_share.cpp": "a note for people",
     "layers.cpp": "false colours",
     "tone_map.cpp": "the image for a screen",
 }

@@ -19,6 +19,7 @@
 
 #include "options/values/view.h"
 #include "stage/environment_change.h"
+#include "stage/filled_share.h"
 #include "stage/scene_memory.h"
 
 namespace bdpt::app {
@@ -200,6 +201,31 @@ std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
     return camera;
 }
 
+/// Adds a note if the camera of the file, which nobody has chosen, shows little of the scene.
+void note_small_picture(LitScene& lit, const Scene& scene, const CameraDesc& camera, float aspect,
+                        const RenderArguments& arguments)
+{
+    const ViewOverrides& view = arguments.view;
+    const bool is_chosen = arguments.camera || view.from || view.look_at || view.vertical_fov;
+    const bool is_medium = arguments.fog || !scene.description().volumes.empty();
+    if (is_chosen || is_medium || arguments.sequence || arguments.sequence_view) {
+        return;
+    }
+    constexpr double little = 0.05;
+    double share = 1.0;
+    try {
+        share = filled_share(scene, camera, aspect);
+    } catch (const Error&) {
+        // The renderer refuses this camera by name.
+    }
+    if (share < little) {
+        lit.notes.push_back(
+            fmt::format("{}: camera {}: the scene fills {:.2g} % of the image "
+                        "(--camera auto frames it)",
+                        arguments.file.string(), camera.name, 100.0 * share));
+    }
+}
+
 /// Returns what was left out of the meshes, in parentheses; empty if nothing was.
 std::string why_no_triangles(const std::vector<std::string>& warnings)
 {
@@ -294,6 +320,9 @@ PreparedScene prepare_scene(const RenderArguments& asked)
     CameraDesc camera =
         from_file ? apply(arguments.view, *from_file, std::nullopt)
                   : apply(arguments.view, framed(scene, aspect, arguments), center(scene.bounds()));
+    if (from_file) {
+        note_small_picture(lit, scene, camera, aspect, arguments);
+    }
     camera = with_lens(arguments.lens, std::move(camera), scene);
     const auto seconds = [](std::chrono::steady_clock::duration time) {
         return std::chrono::duration<double>(time).count();

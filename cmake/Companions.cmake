@@ -1,6 +1,10 @@
 # Companions of bdpt::io are files that it loads or starts only on demand: the module that reads TIFF images, and the
 # program that reads volumes. It looks for them next to itself (lib/io/src/file/companion.cpp).
 
+# Open Image Denoise is such a companion, too, in denoiser/lib.
+set(BDPT_DENOISER "" CACHE PATH
+    "Folder of which lib/ has libOpenImageDenoise.so.2, which builds, installations and the archive take; empty: none")
+
 # bdpt_add_companion(TARGET): builds TARGET with bdpt_io in a separate folder.
 function(bdpt_add_companion target)
   set_target_properties(${target} PROPERTIES
@@ -19,4 +23,8 @@ function(bdpt_put_companions_beside target)
       COMMAND ${CMAKE_COMMAND} -E create_symlink "$<TARGET_FILE:${companion}>"
               "$<TARGET_FILE_DIR:${target}>/$<TARGET_FILE_NAME:${companion}>" VERBATIM)
   endforeach()
+  if(BDPT_DENOISER)
+    add_custom_command(TARGET ${target} POST_BUILD
+      COMMAND ${CMAKE_COMMAND} -E create_symlink "${BDPT_DENOISER}" "$<TARGET_FILE_DIR:${target}>/denoiser" VERBATIM)
+  endif()
 endfunction()

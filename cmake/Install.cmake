@@ -48,6 +48,10 @@ if(BDPT_BUILD_IO)
   # The KTX reader links no library; it opens libktx at run time.
   install(TARGETS bdpt_ktx_reader RUNTIME DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
           COMPONENT bdpt_runtime)
+  if(BDPT_DENOISER)
+    install(DIRECTORY "${BDPT_DENOISER}/" DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt/denoiser"
+            COMPONENT bdpt_denoiser)
+  endif()
   if(BDPT_HAS_OPENVDB)
     install(TARGETS bdpt_vdb_reader RUNTIME DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
             COMPONENT bdpt_openvdb)

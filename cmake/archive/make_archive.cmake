@@ -1,6 +1,6 @@
 # Writes FOLDER/NAME.tar.xz: the COMPONENTS of the build in BUILD, installed into NAME/, and the shared libraries that
-# they need. Files find each other relative to themselves ($ORIGIN), so NAME/ runs wherever it is unpacked. LEVEL is the
-# compression level of xz.
+# they need. Files find each other relative to themselves ($ORIGIN), so NAME/ runs wherever it is unpacked. DENOISER is
+# a folder with Open Image Denoise in lib/, or empty. LEVEL is the compression level of xz.
 cmake_policy(VERSION 3.24)
 if(NOT DEFINED LEVEL)
   set(LEVEL 6)
@@ -35,11 +35,16 @@ file(GLOB of_programs "${libraries}/libbdpt_job.*")  # the command contains this
 file(REMOVE ${of_programs})
 set(programs "${root}/bin/bdpt")
 file(GLOB readers "${libraries}/bdpt/*")
+set(denoisers "")
+if(DENOISER)
+  file(COPY "${DENOISER}/" DESTINATION "${libraries}/bdpt/denoiser")
+  file(GLOB denoisers "${libraries}/bdpt/denoiser/lib/*.so*")
+endif()
 file(GLOB own_libraries "${libraries}/*.so*")
 
 # Excludes glibc, whose parts must match each other and the kernel. Includes libstdc++.
 set(glibc "^(ld-linux.*|lib(c|m|mvec|pthread|dl|rt|util|resolv|nsl|anl|BrokenLocale|thread_db|nss_.*))\\.so")
-file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} ${readers} LIBRARIES ${own_libraries}
+file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} ${readers} LIBRARIES ${own_libraries} ${denoisers}
   PRE_EXCLUDE_REGEXES "${glibc}" POST_EXCLUDE_REGEXES "^${root}/"
   RESOLVED_DEPENDENCIES_VAR needed UNRESOLVED_DEPENDENCIES_VAR missing CONFLICTING_DEPENDENCIES_PREFIX several)
 if(missing)
@@ -93,7 +98,7 @@ endif()
 file(GLOB all_libraries "${libraries}/*.so*")
 find_program(objdump_program objdump REQUIRED)
 set(newest 0)
-foreach(file IN LISTS programs readers all_libraries)
+foreach(file IN LISTS programs readers denoisers all_libraries)
   execute_process(COMMAND "${objdump_program}" -T "${file}" OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCHALL "GLIBC_[0-9.]+" versions "${symbols}")
   list(REMOVE_DUPLICATES versions)
@@ -106,6 +111,9 @@ foreach(file IN LISTS programs readers all_libraries)
 endforeach()
 file(WRITE "${notices}.txt" "The program needs glibc ${newest} or newer. The other libraries that it needs are here. They "
      "are from these Debian packages, whose licences are in libraries/.\n\n${inventory}")
+if(DENOISER)
+  file(APPEND "${notices}.txt" "${LIBDIR}/bdpt/denoiser: Open Image Denoise, see the README.txt there\n")
+endif()
 
 foreach(library IN LISTS all_libraries)
   if(NOT IS_SYMLINK "${library}")
@@ -114,6 +122,9 @@ foreach(library IN LISTS all_libraries)
 endforeach()
 foreach(reader IN LISTS readers)
   run("${patchelf_program}" --set-rpath "$ORIGIN/.." "${reader}")
+endforeach()
+foreach(library IN LISTS denoisers)
+  run("${patchelf_program}" --set-rpath "$ORIGIN:$ORIGIN/../../.." "${library}")
 endforeach()
 run("${patchelf_program}" --set-rpath "$ORIGIN/../${LIBDIR}" ${programs})
 

@@ -4,6 +4,7 @@ Unpacks it into FOLDER, away from the build, and runs it there; as root also in 
 OPENVDB is 1 if the build has the reader of volumes.
 """
 
+import json
 import os
 import pathlib
 import re
@@ -58,8 +59,9 @@ def render(command, scenes, out, volume, **how):
     """Renders to `out`; `command` has the words before those of bdpt."""
     words = ["render", f"{scenes}/cornell-box.gltf", "--size", "16x16", "--spp", "1", "--quiet", "-o", str(out)]
     words += ["--volume", f"{scenes}/smoke.vdb"] if volume else []
-    done = subprocess.run([*command, *words], env=BARE, capture_output=True, text=True, check=False, **how)
+    done = subprocess.run([*command, *words, "--json"], env=BARE, capture_output=True, text=True, check=False, **how)
     assert done.returncode == 0, (command, done.stdout, done.stderr)
+    assert json.loads(done.stdout)["denoised"] == [str(out)], (command, done.stdout)
 
 
 def check_tiff_is_refused(program, scenes, folder):

@@ -399,8 +399,10 @@ make_archive() {
   rm -rf "$folder"
   mkdir -p "$folder"
   [[ $OPENVDB != 1 ]] || components+=";bdpt_openvdb"
+  mkdir -p "$folder/denoiser/lib"
+  cp "$FAKE_OIDN" "$folder/denoiser/lib/libOpenImageDenoise.so.2"
   "$CMAKE" -DBUILD="$BUILD" -DCONFIG="$CONFIG" -DNAME="$name" -DCOMPONENTS="$components" -DLIBDIR="$LIBDIR" \
-    -DFOLDER="$folder" -DLEVEL=0 -P "$SOURCE/cmake/archive/make_archive.cmake"
+    -DFOLDER="$folder" -DDENOISER="$folder/denoiser" -DLEVEL=0 -P "$SOURCE/cmake/archive/make_archive.cmake"
   check_names "$BUILD/archive" "$BUILD" "$SOURCE" "$WORK"
   rm -rf "$BUILD/archive"
   "$PYTHON3" "$here/check_archive.py" "$folder/$name.tar.xz" "$folder" "$SOURCE/scenes" "$VERSION" "$OPENVDB"

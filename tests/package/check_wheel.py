@@ -7,6 +7,7 @@ library with the interface of Open Image Denoise. OTHER is the command of anothe
 
 import ast
 import importlib.metadata
+import os
 import pathlib
 import re
 import shutil
@@ -16,6 +17,7 @@ import sys
 import bdpt
 import numpy as np
 
+os.environ.pop("BDPT_DENOISER", None)  # so that the denoiser of the environment is found
 COMMAND = pathlib.Path(sys.executable).with_name("bdpt")
 PACKAGE = pathlib.Path(bdpt.__file__).resolve().parent
 SMALL = ["--size", "12x8", "--spp", "2", "--integrator", "bdpt", "--quiet"]

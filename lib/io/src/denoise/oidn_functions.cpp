@@ -7,8 +7,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <string>
-#include <vector>
 
 namespace bdpt::io {
 namespace {
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr const char* library_name = "libOpenImageDenoise.so.2";
 
 /// Returns the library of the Python package pyoidn, if this code is in a package beside it.
-std::optional<fs::path> library_of_environment()
+std::optional<fs::path> library_of_package()
 {
 #ifdef BDPT_IN_PYTHON_PACKAGE
     std::error_code error;
@@ -30,12 +30,29 @@ std::optional<fs::path> library_of_environment()
     return std::nullopt;
 }
 
-std::string file_to_open(const std::optional<fs::path>& library)
+/// Returns the library that comes with this code, without symbolic links: it finds its parts
+/// relative to itself.
+std::optional<fs::path> library_beside()
 {
     std::error_code error;
+    const std::optional<fs::path> file =
+        find_companion(std::string("denoiser/lib/") + library_name);
+    return file ? std::optional(fs::canonical(*file, error)) : library_of_package();
+}
+
+std::string file_to_open(std::optional<fs::path> library)
+{
+    std::error_code error;
+    const char* const chosen = std::getenv("BDPT_DENOISER");
+    if (!library && chosen != nullptr) {
+        library = chosen;
+        if (library->empty()) {
+            throw Error(ErrorCode::unsupported,
+                        "no denoiser is looked for: BDPT_DENOISER is empty");
+        }
+    }
     if (!library) {
-        const std::optional<fs::path> near = library_of_environment();
-        return near ? near->string() : library_name;
+        return library_beside().value_or(library_name).string();
     }
     const fs::path file = fs::is_directory(*library, error) ? *library / library_name : *library;
     // A name without a slash would be searched in the system's folders.

@@ -33,16 +33,27 @@ std::filesystem::path own_folder()
     return std::filesystem::canonical(own_file(), error).parent_path();
 }
 
-std::filesystem::path companion_file(std::string_view name)
+std::optional<std::filesystem::path> find_companion(std::string_view name)
 {
     std::error_code error;
     const std::filesystem::path here = own_folder();
-    std::string tried;
     for (const char* folder : {BDPT_COMPANION_FOLDERS}) {  // the most likely folder first
         const std::filesystem::path file = here / folder / name;
         if (here.is_absolute() && std::filesystem::exists(file, error)) {
             return file;
         }
+    }
+    return std::nullopt;
+}
+
+std::filesystem::path companion_file(std::string_view name)
+{
+    if (const std::optional<std::filesystem::path> file = find_companion(name)) {
+        return *file;
+    }
+    std::string tried;
+    for (const char* folder : {BDPT_COMPANION_FOLDERS}) {
+        const std::filesystem::path file = own_folder() / folder / name;
         tried += (tried.empty() ? "" : ", ") + file.lexically_normal().string();
     }
     throw Error(ErrorCode::unsupported, fmt::format("{} not found (tried {})", name, tried));

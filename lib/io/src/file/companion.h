@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,5 +15,8 @@ namespace bdpt::io {
 /// started on demand. Throws `Error` (unsupported) that names the searched places if it is at none
 /// of them.
 [[nodiscard]] std::filesystem::path companion_file(std::string_view name);
+
+/// Returns the path of such a file; none if it is at none of these places.
+[[nodiscard]] std::optional<std::filesystem::path> find_companion(std::string_view name);
 
 }  // namespace bdpt::io

@@ -21,6 +21,9 @@ std::vector<std::pair<std::string, std::string>> text_entries(const ImageMetadat
     if (metadata.frame) {
         entries.emplace_back("bdpt.frame", std::to_string(metadata.frame->number));
     }
+    if (!metadata.denoiser.empty()) {
+        entries.emplace_back("bdpt.denoiser", metadata.denoiser);
+    }
     if (!metadata.xmp.empty()) {
         entries.emplace_back("bdpt.xmp", metadata.xmp);
     }

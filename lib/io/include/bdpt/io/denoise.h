@@ -33,10 +33,12 @@ struct NoisyImage {
 /// run time: it is not linked, and programs that never denoise do not need it. Filters on the CPU.
 class BDPT_EXPORT Denoiser {
 public:
-    /// Opens `library`: a file, or a folder with libOpenImageDenoise.so.2; by default the library
-    /// that the system finds by that name, but in a Python wheel first the one of the package
-    /// pyoidn beside it. `threads`: maximum number of threads; 0: one per processor. Throws
-    /// `Error`: unsupported if there is no library, or it is not version 2; internal if it fails.
+    /// Opens `library`: a file, or a folder with libOpenImageDenoise.so.2; by default the one that
+    /// BDPT_DENOISER in the environment names (none if that is empty), else denoiser/lib/ beside
+    /// bdpt::io or in its folder bdpt/, in a Python wheel the package pyoidn beside it, else the
+    /// library that the system finds by that name. `threads`: maximum number of threads; 0: one per
+    /// processor. Throws `Error`: unsupported if there is no library, or it is not version 2;
+    /// internal if it fails.
     explicit Denoiser(const std::optional<std::filesystem::path>& library = {}, int threads = 0);
     Denoiser(Denoiser&&) noexcept;
     Denoiser& operator=(Denoiser&&) noexcept;

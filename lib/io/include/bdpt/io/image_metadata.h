@@ -44,11 +44,13 @@ struct ImageMetadata {
     CameraDesc camera;
     std::chrono::system_clock::time_point created{};
     std::optional<FrameNumber> frame{};  ///< none: a single image
+    /// Name and version of what denoised the image, or its layer "denoised"; empty: nothing.
+    std::string denoiser{};
     std::string xmp{};  ///< the scene's metadata about itself, JSON-LD; empty: none
 };
 
 /// Returns the text entries that all formats share: "bdpt.version", "bdpt.scene", "bdpt.settings",
-/// "bdpt.integrator" and "bdpt.seed"; "bdpt.frame" and "bdpt.xmp" if present.
+/// "bdpt.integrator" and "bdpt.seed"; "bdpt.frame", "bdpt.denoiser" and "bdpt.xmp" if present.
 [[nodiscard]] BDPT_EXPORT std::vector<std::pair<std::string, std::string>> text_entries(
     const ImageMetadata& metadata);
 

@@ -213,19 +213,18 @@ void with_file_options(const Render& render, SaveArguments asked, std::span<cons
     app::check_metered(asked.display.exposure, render.notes.metadata, "the render");
     const FilmLayout& layout = render.part.film.layout();
     const auto denoiser = app::open_denoiser(asked.denoise, files, 0);
-    write(app::ImageFileOptions{
-        .exr = {.type = asked.exr.channel_type,
-                .metadata = std::move(metadata),
-                .storage = asked.exr.storage,
-                .placement = io::ExrPlacement{.x = layout.region.x0,
-                                              .y = layout.region.y0,
-                                              .full_width = layout.width,
-                                              .full_height = layout.height},
-                .manifests = render.part.ids.manifests()},
-        .layers = all_layers(render.part),
-        .display = asked.display,
-        .denoiser = denoiser ? &*denoiser : nullptr,
-        .denoised_as = asked.denoise ? asked.denoise->as : app::DenoisedAs::image});
+    write(app::ImageFileOptions{.exr = {.type = asked.exr.channel_type,
+                                        .metadata = std::move(metadata),
+                                        .storage = asked.exr.storage,
+                                        .placement = io::ExrPlacement{.x = layout.region.x0,
+                                                                      .y = layout.region.y0,
+                                                                      .full_width = layout.width,
+                                                                      .full_height = layout.height},
+                                        .manifests = render.part.ids.manifests()},
+                                .layers = all_layers(render.part),
+                                .display = asked.display,
+                                .denoiser = denoiser ? &*denoiser : nullptr,
+                                .denoising = asked.denoise.kind});
 }
 
 /// Returns the pixels of the PNG file of save(), as an array.

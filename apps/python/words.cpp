@@ -28,7 +28,7 @@ struct SaveRequest {
     {
         options.section("", {.python_save = true});
         app::add_display_options(options, arguments.display);
-        app::add_denoise_options(options, denoise);
+        app::add_denoise_options(options, arguments.denoise);
         app::add_half_option(options, arguments.exr);
         app::add_tiled_option(options, arguments.exr);
     }
@@ -36,7 +36,6 @@ struct SaveRequest {
     SaveRequest& operator=(const SaveRequest&) = delete;
 
     SaveArguments arguments{};
-    app::DenoiseArguments denoise{};
     app::OptionList options{};
 };
 
@@ -336,7 +335,8 @@ Words to_words(const nb::kwargs& options, Call call)
             fail_unknown(keyword, call);
         }
         const app::Option& option = found->second;
-        if (value.is_none() || (option.is_flag() && value.ptr() == Py_False)) {
+        const bool is_off = option.is_flag() && value.ptr() == Py_False;
+        if (value.is_none() || (is_off && !option.default_is_chosen)) {
             continue;
         }
         if (option.repeats && has_items(value)) {
@@ -345,9 +345,10 @@ Words to_words(const nb::kwargs& options, Call call)
             }
             continue;
         }
-        const bool flag = option.is_flag() && value.ptr() == Py_True;
-        words.push_back(flag ? option.name()
-                             : fmt::format("{}={}", option.name(), to_text(option, value)));
+        const bool is_on = option.is_flag() && value.ptr() == Py_True;
+        words.push_back(
+            is_on ? option.name()
+                  : fmt::format("{}={}", option.name(), is_off ? "false" : to_text(option, value)));
     }
     return words;
 }
@@ -365,7 +366,8 @@ void set_options(RenderJob& job, const nb::kwargs& options)
         if (value.is_none()) {
             continue;
         }
-        const bool is_off = option.is_flag() && value.ptr() == Py_False;
+        const bool is_off =
+            option.is_flag() && value.ptr() == Py_False && !option.default_is_chosen;
         job.set(to_key(option), is_off ? JobValue(nullptr) : to_value(option, value));
     }
 }
@@ -383,7 +385,6 @@ SaveArguments understand_save(const Words& words)
 {
     SaveRequest save;
     app::parse(save.options, words);
-    save.arguments.denoise = checked(save.denoise, save.options);
     return save.arguments;
 }
 

@@ -47,7 +47,7 @@ void set_options(RenderJob& job, const nanobind::kwargs& options);
 /// Options of save().
 struct SaveArguments {
     app::DisplayArguments display{};
-    std::optional<app::DenoiseArguments> denoise{};
+    app::DenoiseArguments denoise{};
     app::ExrFormat exr{};
 };
 

@@ -1,4 +1,4 @@
-// bdpt render --denoise and bdpt merge --denoise, with a library that counts
+// Denoised images of bdpt render and bdpt merge, by a library that counts
 // (tests/support/fake_oidn.cpp): images become 2 * image + albedo + 1 + normal + 2.
 
 #include <algorithm>
@@ -139,6 +139,129 @@ TEST_CASE("before a backdrop denoised images have no noise in the alpha of surfa
     CHECK(chance > 0.5);
 }
 
+TEST_CASE("pictures are denoised by default, images of light never")
+{
+    const DenoiseFolder folder;
+    const Words look =
+        GENERATE(Words{}, Words{"--background", "transparent"},
+                 Words{"--aov", "albedo", "--background", "#204060", "--ground", "shadow"});
+    const auto render = [&](const std::string& name, const Words& more, const char* library) {
+        Words words{"-o", folder.path(name + ".exr"), "-o", folder.path(name + ".png"),
+                    "-o", folder.path(name + ".hdr")};
+        words.insert(words.end(), look.begin(), look.end());
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = folder.render(words, {{"BDPT_DENOISER", library}});
+        REQUIRE(outcome.exit_code == 0);
+    };
+    render("auto", {}, BDPT_FAKE_OIDN);
+    const std::string exposure = read_png(folder.path("auto.png")).text.at("bdpt.exposure");
+    render("asked", {"--denoise", "--exposure", exposure}, BDPT_FAKE_OIDN);
+    render("off", {"--denoise=false"}, BDPT_FAKE_OIDN);
+    render("absent", {}, "");
+    const auto picture = [&](const char* name) { return read_png(folder.path(name)); };
+    const PngFile denoised = picture("auto.png");
+    CHECK(denoised.values == picture("asked.png").values);
+    CHECK(denoised.text.at("bdpt.exposure") == picture("off.png").text.at("bdpt.exposure"));
+    CHECK(denoised.values != picture("off.png").values);
+    CHECK(denoised.text.at("bdpt.denoiser") == "Open Image Denoise 2.71.8");
+    // .exr files have neither the layers that guide the denoiser nor a word about it.
+    const ExrChannels raw = read_channels(folder.path("off.exr"));
+    CHECK(raw.count("normal.X") == 0);
+    CHECK(read_channels(folder.path("auto.exr")) == raw);
+    CHECK(read_text(folder.path("auto.exr")).find("denois") == std::string::npos);
+    CHECK(read_text(folder.path("auto.exr")).size() == read_text(folder.path("off.exr")).size());
+    CHECK(read_text(folder.path("auto.hdr")) != read_text(folder.path("asked.hdr")));
+    // Without the library the picture is that of --denoise=false.
+    CHECK(picture("absent.png").values == picture("off.png").values);
+    CHECK(picture("absent.png").text.count("bdpt.denoiser") == 0);
+    CHECK(read_channels(folder.path("absent.exr")) == raw);
+}
+
+TEST_CASE("what is denoised by default is said")
+{
+    const DenoiseFolder folder;
+    const auto render = [&](Words more, const char* library) {
+        Words words{"render", folder.path("cube.gltf"),
+                    "--size", "8x4",
+                    "--spp",  "4",
+                    "-o",     folder.path("a.png"),
+                    "-o",     folder.path("a.exr")};
+        words.insert(words.end(), more.begin(), more.end());
+        return run({.arguments = words, .environment = {{"BDPT_DENOISER", library}}});
+    };
+    const std::string hint = "denoised (--denoise=false writes it as it is)";
+    const std::string text = render({}, BDPT_FAKE_OIDN).err;
+    CHECK(text.find(hint) != std::string::npos);
+    CHECK(text.find(hint) == text.rfind(hint));  // of the .png file alone
+    CHECK(text.find("before denoising: more --time or --spp") != std::string::npos);
+    const std::string asked = render({"--denoise"}, BDPT_FAKE_OIDN).err;
+    CHECK(asked.find(", denoised\n") != asked.rfind(", denoised\n"));
+    CHECK(asked.find(hint) == std::string::npos);
+    const std::string absent = render({}, "").err;
+    CHECK(absent.find("denoised") == std::string::npos);
+    CHECK(absent.find("or install Open Image Denoise") != std::string::npos);
+    CHECK(render({"--denoise=false"}, "").err.find(", or --denoise\n") != std::string::npos);
+    const auto done = nlohmann::json::parse(render({"--json", "--quiet"}, BDPT_FAKE_OIDN).out);
+    CHECK(done["denoised"] == nlohmann::json::array({folder.path("a.png")}));
+    CHECK(nlohmann::json::parse(render({"--json", "--quiet"}, "").out)["denoised"].empty());
+}
+
+TEST_CASE("a picture that nobody wanted to be denoised is not lost with its denoiser")
+{
+    const DenoiseFolder folder;
+    const auto render = [&](const char* name, const Words& more, const char* fault) {
+        Words words{"-o", folder.path(name), "--denoiser-library", BDPT_FAKE_OIDN};
+        words.insert(words.end(), more.begin(), more.end());
+        return folder.render(words, {{"BDPT_FAKE_OIDN", fault}});
+    };
+    REQUIRE(render("noisy.png", {"--denoise=false"}, "").exit_code == 0);
+    const PngFile noisy = read_png(folder.path("noisy.png"));
+    const Outcome failed = render("a.png", {}, "fail");
+    CHECK(failed.exit_code == 0);
+    CHECK(failed.err.find("not denoised: the denoiser failed: it was asked to fail") !=
+          std::string::npos);
+    CHECK(read_png(folder.path("a.png")).values == noisy.values);
+    // There is too little memory for the denoiser.
+    const Outcome small = render("b.png", {"--max-memory", "60M"}, "");
+    CHECK(small.exit_code == 0);
+    CHECK(read_png(folder.path("b.png")).values == noisy.values);
+    // A library that is named has to be there.
+    CHECK(folder.render({"-o", folder.path("c.png"), "--denoiser-library", folder.path("none.so")})
+              .exit_code == 5);
+    CHECK_FALSE(folder.has("c.png"));
+}
+
+TEST_CASE("parts are what they are without a denoiser, and merged pictures denoised with layers")
+{
+    const DenoiseFolder folder;
+    const auto part = [&](const std::string& name, const Words& more, const char* library) {
+        Words words{"--part", folder.path(name + ".part.exr"), "-o", folder.path(name + ".png")};
+        words.insert(words.end(), more.begin(), more.end());
+        REQUIRE(folder.render(words, {{"BDPT_DENOISER", library}}).exit_code == 0);
+    };
+    const auto values = [&](const char* name) { return read_png(folder.path(name)).values; };
+    part("auto", {}, BDPT_FAKE_OIDN);
+    part("absent", {}, "");
+    CHECK(values("auto.png") == values("absent.png"));
+    // A part without layers goes on with and without the library.
+    const Words more{"--spp", "8"};
+    part("auto", more, "");
+    part("absent", more, BDPT_FAKE_OIDN);
+    CHECK(values("auto.png") == values("absent.png"));
+    part("layers", {"--aov", "albedo,normal"}, BDPT_FAKE_OIDN);
+    const auto merged = [&](const char* name, const char* library) {
+        REQUIRE(run({.arguments = {"merge", folder.path(name), "-o", folder.path("m.png"), "-o",
+                                   folder.path("m.exr"), "--quiet"},
+                     .environment = {{"BDPT_DENOISER", library}}})
+                    .exit_code == 0);
+        CHECK(read_channels(folder.path("m.exr")).count("noisy.R") == 0);
+        return values("m.png");
+    };
+    CHECK(merged("auto.part.exr", BDPT_FAKE_OIDN) == values("auto.png"));
+    CHECK(merged("layers.part.exr", BDPT_FAKE_OIDN) == values("layers.png"));
+    CHECK(merged("layers.part.exr", "") != values("layers.png"));
+}
+
 TEST_CASE("with --denoise=layer the denoised image is a layer")
 {
     const DenoiseFolder folder;
@@ -215,6 +338,7 @@ TEST_CASE("frames that are denoised have the same noise, unless that is switched
     fresh.push_back("--same-noise=false");
     CHECK_FALSE(are_equal(fresh));
     CHECK_FALSE(are_equal({"--same-noise=false"}));
+    CHECK_FALSE(are_equal({"-o", folder.path("f.#.png"), "--denoiser-library", BDPT_FAKE_OIDN}));
 }
 
 TEST_CASE("without a denoiser nothing is rendered")
@@ -225,9 +349,6 @@ TEST_CASE("without a denoiser nothing is rendered")
     CHECK(absent.exit_code == 5);
     CHECK(absent.err.find("none.so") != std::string::npos);
     CHECK_FALSE(folder.has("a.exr"));
-    const Outcome alone =
-        folder.render({"-o", folder.path("a.exr"), "--denoiser-library", BDPT_FAKE_OIDN});
-    CHECK(alone.exit_code == 2);
     const Outcome empty =
         folder.render({"-o", folder.path("a.exr"), "--denoise", "--denoiser-library", ""});
     CHECK(empty.exit_code == 2);

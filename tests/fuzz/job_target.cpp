@@ -28,7 +28,7 @@ void check_job(const std::string& file)
 {
     Options first;
     load_job(file, first.list);
-    fuzz::promise(!first.request.denoise.library, "a job loads no code");
+    fuzz::promise(!first.request.arguments.denoise.library, "a job loads no code");
     const std::string text = job_text(first.list, file);
     const fuzz::InputFile written;
     const auto again =

@@ -42,7 +42,7 @@ void check_render(const std::string& file)
     const RenderArguments asked = checked(request, options);
     fuzz::promise(asked.outputs.empty() && !asked.stats && !asked.viewer,
                   "a task writes no files that its plan names");
-    fuzz::promise(!asked.denoise || !asked.denoise->library, "a plan loads no code");
+    fuzz::promise(!asked.denoise.library, "a plan loads no code");
     fuzz::promise(!asked.part || is_in(asked.part->file, std::filesystem::path(file).parent_path()),
                   "a task writes into the folder of its plan");
 }
@@ -54,7 +54,7 @@ void check_merge(const std::string& file)
     add_merge_options(options, request);
     parse_with_plan(options, {"bdpt", "merge", "--plan", file});
     const MergeArguments asked = checked(request, options);
-    fuzz::promise(!asked.denoise || !asked.denoise->library, "a plan loads no code");
+    fuzz::promise(!asked.denoise.library, "a plan loads no code");
 }
 
 /// What is understood is written in the same words, and all that is asked of a plan has an answer.

@@ -181,7 +181,8 @@ int CommandLine::run(const ParsedLine& line, const std::vector<std::string>& wor
         return run_merge(checked(merge, options));
     }
     if (name == "develop") {
-        return run_develop(checked(develop, options));
+        check(develop, options);
+        return run_develop(develop);
     }
     if (name == "info") {
         return run_info(info, options);

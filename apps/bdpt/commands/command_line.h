@@ -30,7 +30,7 @@ struct CommandLine {
     PlanRequest plan;
     MergeRequest merge;
     InfoArguments info;
-    DevelopRequest develop;
+    DevelopArguments develop;
     CompareRequest compare;
     BenchRequest bench;
     VerifyRequest verify;

@@ -17,6 +17,7 @@
 #include "report/image/image_files.h"
 #include "report/image/layered_image.h"
 #include "report/image/shown_exposure.h"
+#include "report/values.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
 
@@ -77,8 +78,8 @@ int run_develop(const DevelopArguments& arguments)
     check_outputs(outputs, inputs);
     TerminalConsole console(arguments.printed.format, arguments.printed.verbosity);
     const SignalInterrupt interrupt(temporary_paths(outputs), [] {});
-    LayeredImage image =
-        read_layered_image(arguments.file, arguments.denoise ? Wanted::clean : Wanted::main);
+    LayeredImage image = read_layered_image(
+        arguments.file, arguments.denoise.kind == Denoising::none ? Wanted::main : Wanted::clean);
     for (const std::string& warning : image.warnings) {
         console.warning(fmt::format("{}: {}", file, warning));
     }
@@ -88,33 +89,41 @@ int run_develop(const DevelopArguments& arguments)
         check_not_read(outputs, FileSet({display.backdrop->photo}));
     }
     check_backplate(display);
-    const bool denoises = arguments.denoise && !image.is_denoised;
-    if (denoises && !has_layer(image, "albedo")) {
+    DenoiseArguments denoise = arguments.denoise;
+    if (image.is_denoised) {
+        denoise.kind = Denoising::none;
+    }
+    if (denoise.is_asked() && !has_layer(image, "albedo")) {
         console.warning(
             fmt::format("{}: denoised without the layers albedo and normal, which keep "
                         "edges (--aov albedo,normal)",
                         file));
     }
-    const std::optional<io::Denoiser> denoiser =
-        open_denoiser(denoises ? arguments.denoise : std::nullopt, outputs, 0);
+    const std::optional<io::Denoiser> denoiser = open_denoiser(denoise, outputs, 0);
     ImageFileOptions options{
         .exr = {.metadata = std::move(image.metadata), .placement = image.placement},
         .layers = std::move(image.layers),
         .display = display,
-        .denoiser = denoiser ? &*denoiser : nullptr};
+        .denoiser = denoiser ? &*denoiser : nullptr,
+        .denoising = denoise.kind};
     Attempts attempts;
     const WrittenImages written =
         write_image_files(outputs, image.image, std::move(options), attempts);
-    ordered_json names = ordered_json::array();
+    if (!written.why_noisy.empty()) {
+        console.warning(fmt::format("{}: not denoised: {}", file, written.why_noisy));
+    }
+    const bool are_denoised = image.is_denoised || !written.denoised.empty();
     for (const fs::path& output : written.files) {
-        console.note(fmt::format("wrote {}, exposure {:.2f} EV", output.string(),
-                                 written.exposure.value_or(0.0f)));
-        names.push_back(output.string());
+        console.note(fmt::format("wrote {}, exposure {:.2f} EV{}", output.string(),
+                                 written.exposure.value_or(0.0f),
+                                 are_denoised ? ", denoised" : ""));
     }
     attempts.finish();
-    console.event("done", {{"outputs", std::move(names)},
-                           {"exposure",
-                            written.exposure ? ordered_json(*written.exposure) : ordered_json()}});
+    console.event(
+        "done",
+        {{"outputs", names_json(written.files)},
+         {"denoised", names_json(are_denoised ? written.files : std::vector<fs::path>())},
+         {"exposure", written.exposure ? ordered_json(*written.exposure) : ordered_json()}});
     return 0;
 }
 

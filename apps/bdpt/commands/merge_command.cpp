@@ -29,6 +29,7 @@
 #include "report/part/part_command.h"
 #include "report/part/planned_outputs.h"
 #include "report/stats_file.h"
+#include "report/values.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
 #include "terminal/memory_limit.h"
@@ -175,7 +176,8 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
     }
     io::PartNotes notes = parts.front().notes;
     notes.goal = collection.goal;
-    write_merged_files(arguments, display, session.denoiser, sum, std::move(notes));
+    const std::vector<fs::path> denoised =
+        write_merged_files(arguments, display, session.denoiser, sum, std::move(notes));
 
     const SampleSet missing = collection.missing();
     if (!missing.empty()) {
@@ -184,14 +186,17 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
     ordered_json outputs = ordered_json::array();
     for (const fs::path& output : merged_files(arguments)) {
         outputs.push_back(output.string());
-        console.note(fmt::format("wrote {}: {} spp of {} parts, {:.1f} s of CPU time",
+        const bool is_denoised =
+            std::find(denoised.begin(), denoised.end(), output) != denoised.end();
+        console.note(fmt::format("wrote {}: {} spp of {} parts, {:.1f} s of CPU time{}",
                                  output.string(), sum.samples.count(), parts.size(),
-                                 sum.cpu_seconds));
+                                 sum.cpu_seconds, is_denoised ? ", denoised" : ""));
     }
     ordered_json fields{{"samples", sum.samples.count()},
                         {"missing", missing.text()},
                         {"cpu_seconds", sum.cpu_seconds},
-                        {"outputs", std::move(outputs)}};
+                        {"outputs", std::move(outputs)},
+                        {"denoised", names_json(denoised)}};
     fields.update(judge_noise(arguments, sum, parts.front(), console));
     console.event("done", fields);
 }

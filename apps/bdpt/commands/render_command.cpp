@@ -153,12 +153,13 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
     if (asked.viewer) {
         display.emplace(*asked.viewer, console);
     }
-    const std::optional<io::Denoiser> denoiser =
+    std::optional<io::Denoiser> denoiser =
         open_denoiser(asked.denoise, asked.outputs, asked.options.system.threads);
     std::optional<double> time = asked.scene.time;
     std::optional<Viewpoint> first;
-    std::optional<Scene> still;     // before its environment was turned
-    std::optional<float> exposure;  // by the light of the first frame, for all frames
+    std::optional<Scene> still;              // before its environment was turned
+    std::optional<float> exposure;           // by the light of the first frame, for all frames
+    std::optional<std::vector<Aov>> guides;  // of automatic denoising
     JobResult result;
     for (const SequenceView& view : views) {
         if (interrupt.stopped_by()) {
@@ -187,6 +188,7 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
             stage.reset();  // first, to avoid two scenes in memory
             first.reset();
             still.reset();
+            guides.reset();
             stage = load(image, console);
             time = image.scene.time;
         }
@@ -201,6 +203,21 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
             exposure = metered_exposure(*stage, *first);
         }
         image.light_exposure = exposure;
+        if (denoiser && asked.denoise.kind == Denoising::automatic && !guides) {
+            guides = spend_guides(stage->memory, asked);
+            if (!guides) {
+                console.note("not denoised: too little memory is left (--denoise denoises anyway)",
+                             Repeat::never);
+                denoiser.reset();
+                image.denoise.kind = Denoising::none;
+            }
+        }
+        if (guides) {
+            image.guides = *guides;
+            for (const Aov guide : *guides) {
+                image.options.film.aovs.insert(guide);
+            }
+        }
         Viewpoint seen = sequence_viewpoint(*stage, *first, image);
         if (view.turn && image.sequence->motion == TurntableMotion::object) {
             if (!still) {

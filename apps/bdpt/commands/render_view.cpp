@@ -28,6 +28,7 @@
 #include "report/render_settings.h"
 #include "report/stats_file.h"
 #include "report/strategy_files.h"
+#include "report/values.h"
 #include "stage/render_preparation.h"
 #include "terminal/text.h"
 
@@ -176,9 +177,10 @@ ImageFileOptions image_file_options(const RenderArguments& arguments, const Prep
                     .placement = placement,
                     .manifests = result.ids.manifests()},
             .layers = std::move(layers),
+            .guides = arguments.guides,
             .display = arguments.display,
             .denoiser = session.denoiser,
-            .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image};
+            .denoising = arguments.denoise.kind};
 }
 
 ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json& settings,
@@ -190,25 +192,43 @@ ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json&
     return stats;
 }
 
+/// Returns the end of an advice about noise: how to denoise.
+const char* denoising_advice(const RenderArguments& arguments, const WrittenImages& images)
+{
+    if (!images.denoised.empty()) {
+        return "";
+    }
+    const bool has_pictures = std::any_of(images.files.begin(), images.files.end(), is_for_screens);
+    return arguments.denoise.kind == Denoising::automatic && has_pictures && !arguments.part &&
+                   images.why_noisy.empty()
+               ? ", or install Open Image Denoise (\"Denoising\" in docs/render.md)"
+               : ", or --denoise";
+}
+
 /// Prints advice about visible remaining noise.
-void note_noise(Console& console, const RenderArguments& arguments, double noise)
+void note_noise(Console& console, const RenderArguments& arguments, double noise,
+                const WrittenImages& images)
 {
     constexpr double preview = 0.05;
     if (std::isfinite(noise) && noise > preview && !arguments.goal.noise &&
         !arguments.outputs.empty()) {
         console.detail(fmt::format("noise {}{}: more --time or --spp{}", noise_text(noise),
-                                   arguments.denoise ? " before denoising" : "",
-                                   arguments.denoise ? "" : ", or --denoise"));
+                                   images.denoised.empty() ? "" : " before denoising",
+                                   denoising_advice(arguments, images)));
     }
 }
 
 /// Returns ", exposure 1.25 EV" for a file that has one.
 std::string exposure_text(const std::filesystem::path& file, const std::optional<float>& exposure)
 {
-    const std::optional<ImageType> type = find_type(file);
-    return exposure && type && is_for_screens(*type)
-               ? fmt::format(", exposure {:.2f} EV", *exposure)
-               : "";
+    return exposure && is_for_screens(file) ? fmt::format(", exposure {:.2f} EV", *exposure) : "";
+}
+
+/// Returns ", denoised" for a file that is.
+std::string denoised_text(const std::filesystem::path& file, const WrittenImages& images)
+{
+    const auto& denoised = images.denoised;
+    return std::find(denoised.begin(), denoised.end(), file) != denoised.end() ? ", denoised" : "";
 }
 
 /// Prints the written files: a line per file or, for a sequence, one line.
@@ -220,8 +240,11 @@ void note_done(Console& console, const RenderArguments& arguments, const RenderR
         fmt::format("{} spp in {:.1f} s", result.film.sample_count(), result.seconds);
     if (!is_one_of_many(arguments)) {
         for (const std::filesystem::path& file : files) {
-            console.note(fmt::format("wrote {}: {}{}", file.string(), work,
-                                     exposure_text(file, images.exposure)));
+            const std::string denoised = denoised_text(file, images);
+            const bool was_asked = denoised.empty() || arguments.denoise.is_asked();
+            console.note(fmt::format("wrote {}: {}{}{}{}", file.string(), work,
+                                     exposure_text(file, images.exposure), denoised,
+                                     was_asked ? "" : " (--denoise=false writes it as it is)"));
         }
         return;
     }
@@ -230,7 +253,8 @@ void note_done(Console& console, const RenderArguments& arguments, const RenderR
     }
     std::string names;
     for (const std::filesystem::path& file : files) {
-        names += (names.empty() ? "" : ", ") + file.string() + exposure_text(file, images.exposure);
+        names += (names.empty() ? "" : ", ") + file.string() +
+                 exposure_text(file, images.exposure) + denoised_text(file, images);
     }
     console.note(fmt::format("{}: {}: wrote {}", label_text(make_label(arguments)), work, names));
 }
@@ -239,15 +263,12 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
                  double noise, const WrittenImages& images,
                  const std::optional<std::string>& stopped_by)
 {
-    ordered_json outputs = ordered_json::array();
-    for (const std::filesystem::path& output : images.files) {
-        outputs.push_back(output.string());
-    }
     ordered_json fields{{"samples", result.film.sample_count()},
                         {"seconds", result.seconds},
-                        {"outputs", std::move(outputs)}};
+                        {"outputs", names_json(images.files)},
+                        {"denoised", names_json(images.denoised)}};
     fields["noise"] = noise_json(noise);
-    note_noise(console, arguments, noise);
+    note_noise(console, arguments, noise, images);
     const std::optional<double> goal = arguments.goal.noise;
     if (goal && !std::isfinite(noise)) {
         const auto samples = static_cast<std::size_t>(result.film.sample_count());
@@ -359,6 +380,9 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
     const ImageFileOptions options =
         image_file_options(arguments, stage, result, metadata, session);
     WrittenImages images = write_image_files(arguments.outputs, image, options, attempts);
+    if (!images.why_noisy.empty()) {
+        console.warning(fmt::format("not denoised: {}", images.why_noisy));
+    }
     if (arguments.strategies && !arguments.strategies->both().empty()) {
         const bool written = attempts.run([&] {
             write_strategy_files(

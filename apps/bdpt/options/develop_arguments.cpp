@@ -19,9 +19,8 @@ const char* const develop_footer = R"(Examples:
 Writes the pictures that bdpt render would write with the same options. --background needs an .exr
 that was rendered with --background; --denoise works best with --aov albedo,normal.)";
 
-void add_develop_options(OptionList& options, DevelopRequest& request)
+void add_develop_options(OptionList& options, DevelopArguments& arguments)
 {
-    DevelopArguments& arguments = request.arguments;
     options
         .add("file", "FILE", "The image: .exr, with layers; - is the standard input",
              arguments.file, file_path({"-"}))
@@ -33,29 +32,24 @@ void add_develop_options(OptionList& options, DevelopRequest& request)
                          "directory",
                          arguments.outputs, file_path(standard_output_names()));
     add_display_options(options, arguments.display);
-    add_denoise_options(options, request.denoise);
+    add_denoise_options(options, arguments.denoise);
     add_quiet_option(options, arguments.printed);
     add_json_option(options, arguments.printed,
                     "Print one JSON object per line on stdout: warning, done, error");
 }
 
-DevelopArguments checked(const DevelopRequest& request, const OptionList& options)
+void check(const DevelopArguments& arguments, const OptionList& options)
 {
-    DevelopArguments result = request.arguments;
-    result.denoise = checked(request.denoise, options);
-    if (result.denoise && result.denoise->as == DenoisedAs::layer) {
+    if (arguments.denoise.kind == Denoising::layer) {
         options.reject_value("--denoise", "no value: a picture has no layers");
     }
-    for (const std::filesystem::path& output : result.outputs) {
-        const std::optional<ImageType> type = find_type(output);
-        if (type && !is_for_screens(*type)) {
-            throw OptionError(
-                fmt::format("{}: develop writes display images: name it .png, .jpg or .webp",
-                            output.string()));
+    for (const std::filesystem::path& output : arguments.outputs) {
+        if (find_type(output) && !is_for_screens(output)) {
+            throw OptionError(fmt::format(
+                "{}: develop writes display images: name it .png, .jpg or .webp", output.string()));
         }
     }
-    check_pipes(std::array{result.file}, result.outputs, result.printed.format);
-    return result;
+    check_pipes(std::array{arguments.file}, arguments.outputs, arguments.printed.format);
 }
 
 }  // namespace bdpt::app

@@ -16,22 +16,16 @@ struct DevelopArguments {
     std::filesystem::path file{};  ///< .exr
     std::vector<std::filesystem::path> outputs{};
     DisplayArguments display{};
-    std::optional<DenoiseArguments> denoise{};
-    Printed printed{};
-};
-
-/// Options of `bdpt develop`, as given.
-struct DevelopRequest {
-    DevelopArguments arguments{};
     DenoiseArguments denoise{};
+    Printed printed{};
 };
 
 extern const char* const develop_footer;
 
 /// Adds the options of `bdpt develop`.
-void add_develop_options(OptionList& options, DevelopRequest& request);
+void add_develop_options(OptionList& options, DevelopArguments& arguments);
 
-/// Checks and converts the options. Throws `OptionError` for incompatible ones.
-[[nodiscard]] DevelopArguments checked(const DevelopRequest& request, const OptionList& options);
+/// Throws `OptionError` for incompatible options.
+void check(const DevelopArguments& arguments, const OptionList& options);
 
 }  // namespace bdpt::app

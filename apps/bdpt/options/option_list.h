@@ -80,6 +80,8 @@ struct Option {
     OptionUses uses{};
     bool required = false;
     bool repeats = false;  ///< true: all given values count; false: the last one
+    /// A flag that is neither on nor off unless it is given, so "false" is a value.
+    bool default_is_chosen = false;
     ValueInfo info{};
     /// Parses a text and stores its value. Returns false if the text is not as `expected`.
     std::function<bool(const std::string&)> store;

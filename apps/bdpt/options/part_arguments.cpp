@@ -147,7 +147,7 @@ void add_merge_options(OptionList& options, MergeRequest& request)
                              "Write the strategy images stored in the parts, and their contact "
                              "sheet, as bdpt render --strategies does");
     add_display_options(options, arguments.display);
-    add_denoise_options(options, request.denoise);
+    add_denoise_options(options, arguments.denoise);
     add_half_option(options, arguments.exr);
     add_tiled_option(options, arguments.exr);
     add_quiet_option(options, arguments.printed);
@@ -169,7 +169,6 @@ MergeArguments checked(const MergeRequest& request, const OptionList& options)
         result.strategies = request.strategies.layers;
     }
     check_pipes({}, result.outputs, result.printed.format);
-    result.denoise = checked(request.denoise, options);
     return result;
 }
 

@@ -75,7 +75,7 @@ struct MergeArguments {
     std::optional<double> noise{};          ///< requested noise, as by estimate_noise()
     Incomplete incomplete = Incomplete::refuse;
     DisplayArguments display{};
-    std::optional<DenoiseArguments> denoise{};  ///< set if images are to be denoised
+    DenoiseArguments denoise{};
     ExrFormat exr{};
     Printed printed{};
 };
@@ -84,7 +84,6 @@ struct MergeArguments {
 struct MergeRequest {
     MergeArguments arguments{};
     StrategyFiles strategies{};
-    DenoiseArguments denoise{};
 };
 
 /// Tests whether `file` is named as a part of a render: NAME.part.exr.

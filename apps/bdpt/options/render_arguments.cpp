@@ -39,13 +39,14 @@ void add_how(OptionList& options, RenderRequest& request)
                     "Image size. Default: the largest with the camera's aspect ratio within "
                     "1280x720");
     const Choices<Adaptivity> adaptivity{{{"true", Adaptivity::on}, {"false", Adaptivity::off}}};
-    options.add_flag(
-        "--adaptive",
-        "Adaptive sampling: 1/4 to 4 times --spp samples, by the noise in a test render "
-        "of 8 samples per pixel; --spp is the mean, a multiple of 8. Unbiased. Not for "
-        "lt and vcm. By default, --integrator auto gives pixels 1/2 to 2 times "
-        "--spp where that helps; --adaptive=false gives all equally many",
-        request.adaptive, adaptivity.type());
+    options
+        .add_flag("--adaptive",
+                  "Adaptive sampling: 1/4 to 4 times --spp samples, by the noise in a test render "
+                  "of 8 samples per pixel; --spp is the mean, a multiple of 8. Unbiased. Not for "
+                  "lt and vcm. By default, --integrator auto gives pixels 1/2 to 2 times "
+                  "--spp where that helps; --adaptive=false gives all equally many",
+                  request.adaptive, adaptivity.type())
+        .default_is_chosen = true;
     options
         .add("--rates", "FILE",
              "Adaptive sampling by an .exr of --save-rates, without a test render",
@@ -83,7 +84,7 @@ void add_image_output(OptionList& options, RenderRequest& request)
             arguments.outputs, file_path(standard_output_names()))
         .uses = {.stated_in = StatedIn::own_folder};
     add_display_options(options, arguments.display);
-    add_denoise_options(options, request.denoise);
+    add_denoise_options(options, arguments.denoise);
     add_half_option(options, arguments.exr);
     const Choices<io::ExrChannelType> types{
         {{"true", io::ExrChannelType::single_float}, {"false", io::ExrChannelType::half_float}}};
@@ -273,7 +274,9 @@ std::vector<Essential> render_essentials()
         {"--background",
          "Shown instead of the environment, which still lights the scene: transparent, a colour or "
          "a photograph"},
-        {"--denoise", "Denoise the image with Open Image Denoise 2"},
+        {"--denoise",
+         "Denoise the image with Open Image Denoise 2. Default: .png, .jpg and .webp, if it is "
+         "found; --denoise=false: none"},
         {"--spp"},
         {"--size", "Image size. Default: the largest within 1280x720"},
         {"--time", "Render time, like 90s, 2m or 1.5h"},
@@ -402,12 +405,13 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
         result.options.film.aovs.insert(Aov::alpha);
     }
     result.options.film = with_ground(request.ground, result.options.film, options);
-    result.denoise = checked(request.denoise, options);
-    if (result.denoise) {
-        result.options.film.aovs.insert(Aov::albedo);
-        result.options.film.aovs.insert(Aov::normal);
-        if (result.display.backdrop) {
-            result.options.film.aovs.insert(Aov::opacity);
+    if (result.denoise.is_asked()) {
+        AovSet& aovs = result.options.film.aovs;
+        for (const Aov guide : missing_guides(aovs, result.display.backdrop)) {
+            aovs.insert(guide);
+        }
+        if (result.sequence && !options.given("--same-noise")) {
+            result.sequence->noise = SequenceNoise::same;
         }
     }
     result.strategies = checked(request.strategies, result.options, options);

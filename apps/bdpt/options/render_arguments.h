@@ -79,7 +79,9 @@ struct RenderArguments {
     DisplayArguments display{};
     /// Exposure of a white card [EV], if the light was metered.
     std::optional<float> light_exposure{};
-    std::optional<DenoiseArguments> denoise{};  ///< set if images are to be denoised
+    DenoiseArguments denoise{};
+    /// Layers of the film that only guide the denoiser: no file has them.
+    std::vector<Aov> guides{};
     ExrFormat exr{};
     std::optional<std::filesystem::path> stats{};  ///< file for statistics of the render
     Profiling profiling = Profiling::off;
@@ -109,7 +111,6 @@ struct RenderRequest {
     Adaptivity adaptive = Adaptivity::automatic;
     MediumDesc fog{};
     VolumeChoice volume{};
-    DenoiseArguments denoise{};
     RatesChoice rates{};
     StrategyFiles strategies{};
     PartChoice part{};

@@ -3,9 +3,11 @@
 #include <bdpt/types.h>
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
+#include <vector>
 
 namespace bdpt::app {
 
@@ -23,6 +25,17 @@ namespace bdpt::app {
 [[nodiscard]] inline nlohmann::ordered_json to_json(Vec3 v)
 {
     return nlohmann::ordered_json::array({v.x, v.y, v.z});
+}
+
+/// Returns the names of `files` as an array.
+[[nodiscard]] inline nlohmann::ordered_json names_json(
+    const std::vector<std::filesystem::path>& files)
+{
+    nlohmann::ordered_json names = nlohmann::ordered_json::array();
+    for (const std::filesystem::path& file : files) {
+        names.push_back(file.string());
+    }
+    return names;
 }
 
 }  // namespace bdpt::app

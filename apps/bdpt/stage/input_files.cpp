@@ -27,8 +27,8 @@ std::vector<fs::path> input_files(const RenderArguments& arguments)
     if (arguments.part && arguments.part->plan) {
         files.push_back(*arguments.part->plan);
     }
-    if (arguments.denoise && arguments.denoise->library) {
-        files.push_back(*arguments.denoise->library);
+    if (arguments.denoise.library) {
+        files.push_back(*arguments.denoise.library);
     }
     if (arguments.scene.ktx_library) {
         files.push_back(*arguments.scene.ktx_library);

@@ -100,6 +100,12 @@ bool is_seen_from_outside(const PreparedScene& stage)
     return glm::any(glm::lessThan(eye, bounds.min)) || glm::any(glm::greaterThan(eye, bounds.max));
 }
 
+/// Returns the size of the image or, without --size, the largest that it may get.
+Size largest_size(const RenderArguments& arguments)
+{
+    return arguments.size.value_or(default_size(std::nullopt));
+}
+
 }  // namespace
 
 std::uint64_t image_cache_bytes(const RenderArguments& arguments)
@@ -124,6 +130,27 @@ void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Si
                  film_bytes(options, size));
 }
 
+std::optional<std::vector<Aov>> spend_guides(io::MemoryBudget& memory,
+                                             const RenderArguments& arguments)
+{
+    RenderOptions options = arguments.options;
+    std::vector<Aov> guides;
+    if (!arguments.part) {
+        guides = missing_guides(options.film.aovs, arguments.display.backdrop);
+    }
+    const Size size = largest_size(arguments);
+    const std::uint64_t before = film_bytes(options, size);
+    for (const Aov guide : guides) {
+        options.film.aovs.insert(guide);
+    }
+    const std::uint64_t more = film_bytes(options, size) - before;
+    if (more + denoiser_bytes(options, size) > memory.left()) {
+        return std::nullopt;
+    }
+    memory.spend("the layers that guide the denoiser", more);
+    return guides;
+}
+
 PreparedScene prepare_with_progress(const RenderArguments& arguments, Console& console)
 {
     return prepare_scene(with_progress(arguments, console));
@@ -133,9 +160,7 @@ PreparedScene prepare_within_memory(const RenderArguments& asked, Console& conso
 {
     RenderArguments arguments = asked;
     arguments.scene.memory = std::make_shared<io::MemoryBudget>(asked.memory);
-    // Without --size, the maximum size.
-    spend_film(*arguments.scene.memory, asked.options,
-               asked.size.value_or(default_size(std::nullopt)));
+    spend_film(*arguments.scene.memory, asked.options, largest_size(asked));
     if (asked.scene.images) {
         arguments.scene.memory->spend("the images of other frames", image_cache_bytes(asked));
     }

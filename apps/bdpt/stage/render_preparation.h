@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 #include "options/render_arguments.h"
 #include "stage/prepared_scene.h"
@@ -26,6 +27,12 @@ void tell_findings(Console& console, const PreparedScene& stage);
 /// Charges the memory of the film of a render of `size` and its layers. Throws `Error` if that is
 /// too much.
 void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Size& size);
+
+/// Returns the layers that guide automatic denoising and that `arguments` do not ask for, and
+/// charges their memory; none if that would leave too little for the denoiser. A part has no
+/// further layers.
+[[nodiscard]] std::optional<std::vector<Aov>> spend_guides(io::MemoryBudget& memory,
+                                                           const RenderArguments& arguments);
 
 /// Loads the scene within the memory that the film and the cache of images, if any, leave of
 /// `arguments.memory`, and shows the progress on the console. Throws `Error`.

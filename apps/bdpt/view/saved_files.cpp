@@ -47,7 +47,7 @@ ImageFileOptions file_options(const LiveRender& render, const PreparedScene& sta
             .layers = develop_layers(part.film, part.aovs, part.ids),
             .display = arguments.display,
             .denoiser = denoiser ? &*denoiser : nullptr,
-            .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image};
+            .denoising = arguments.denoise.kind};
 }
 
 }  // namespace

@@ -152,9 +152,11 @@ def list_options(scene):
 
 
 def denoiser_words(scene):
-    """Returns the options of `bdpt render` that denoise, if the scene asks for it."""
+    """Returns the options of `bdpt render` that decide whether it denoises, as the scene asks."""
+    if not scene.bdpt.denoise:
+        return ["--denoise=false"]
     library = denoiser_of_blender()
-    return ["--denoise", *(["--denoiser-library", str(library)] if library else [])] if scene.bdpt.denoise else []
+    return ["--denoise", *(["--denoiser-library", str(library)] if library else [])]
 
 
 def denoiser_of_blender():

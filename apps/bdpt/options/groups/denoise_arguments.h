@@ -1,28 +1,43 @@
 #pragma once
 
+#include <bdpt/aov.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
+#include "options/groups/display_arguments.h"
 #include "options/option_list.h"
 
 namespace bdpt::app {
 
-/// Place of the denoised image in .exr files: it is the main image or a layer; the noisy image is
-/// the other one.
-enum class DenoisedAs : std::uint8_t { image, layer };
+/// Which images are denoised. Pictures are files for screens: .png, .jpg, .webp.
+enum class Denoising : std::uint8_t {
+    automatic,  ///< pictures, where the denoiser and the layers that guide it are found
+    none,
+    image,  ///< all images; .exr files have the noisy one as a layer
+    layer,  ///< pictures; .exr files have the denoised image as a layer
+};
 
 /// Options of denoising.
 struct DenoiseArguments {
-    DenoisedAs as = DenoisedAs::image;
-    std::optional<std::filesystem::path> library{};  ///< none: the one that the system finds
+    Denoising kind = Denoising::automatic;
+    std::optional<std::filesystem::path> library{};  ///< none: the one that `io::Denoiser` finds
+
+    /// Tests whether the user asked for denoised images.
+    [[nodiscard]] bool is_asked() const
+    {
+        return kind == Denoising::image || kind == Denoising::layer;
+    }
 };
 
 /// Adds --denoise and --denoiser-library.
 void add_denoise_options(OptionList& options, DenoiseArguments& denoise);
 
-/// Returns `denoise` if --denoise is given. Throws `OptionError` for the other option alone.
-[[nodiscard]] std::optional<DenoiseArguments> checked(const DenoiseArguments& denoise,
-                                                      const OptionList& options);
+/// Returns the layers that guide the denoiser, with opacity if the image has a `backdrop`, except
+/// those in `known`.
+[[nodiscard]] std::vector<Aov> missing_guides(const AovSet& known,
+                                              const std::optional<Backdrop>& backdrop);
 
 }  // namespace bdpt::app

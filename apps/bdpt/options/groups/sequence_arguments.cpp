@@ -129,9 +129,6 @@ std::optional<Sequence> checked(Sequence sequence, const OptionList& options)
     if (!options.given("--frames") && !options.given("--orbit") && !options.given("--cameras")) {
         return std::nullopt;
     }
-    if (options.given("--denoise") && !options.given("--same-noise")) {
-        sequence.noise = SequenceNoise::same;
-    }
     if (sequence.frames && sequence.orbit > 0 &&
         (sequence.frames->first < 1 || sequence.frames->last > sequence.orbit)) {
         options.reject_value("--frames",

@@ -91,10 +91,7 @@ void check_patterns(const RenderArguments& arguments)
 std::optional<std::string> warning_of_flicker(const RenderArguments& arguments, FramesBy by)
 {
     const bool writes_pictures =
-        std::any_of(arguments.outputs.begin(), arguments.outputs.end(), [](const fs::path& output) {
-            const std::optional<ImageType> type = find_type(output);
-            return type && is_for_screens(*type);
-        });
+        std::any_of(arguments.outputs.begin(), arguments.outputs.end(), is_for_screens);
     if (!arguments.sequence || !arguments.sequence->frames || !writes_pictures) {
         return std::nullopt;
     }

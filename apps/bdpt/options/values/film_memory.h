@@ -12,4 +12,7 @@ namespace bdpt::app {
 /// developed to [bytes].
 [[nodiscard]] std::uint64_t film_bytes(const RenderOptions& options, const Size& size);
 
+/// Returns the memory that Open Image Denoise takes for a render of `size` [bytes].
+[[nodiscard]] std::uint64_t denoiser_bytes(const RenderOptions& options, const Size& size);
+
 }  // namespace bdpt::app

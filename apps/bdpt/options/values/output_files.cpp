@@ -45,9 +45,10 @@ std::optional<ImageType> find_type(const fs::path& output)
     return std::nullopt;
 }
 
-bool is_for_screens(ImageType type)
+bool is_for_screens(const fs::path& output)
 {
-    return type != ImageType::exr && type != ImageType::hdr;
+    const std::optional<ImageType> type = find_type(output);
+    return type && type != ImageType::exr && type != ImageType::hdr;
 }
 
 bool has_extension(const fs::path& file, std::string_view extension)

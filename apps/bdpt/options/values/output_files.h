@@ -14,11 +14,12 @@ namespace bdpt::app {
 /// Types of images that bdpt writes.
 enum class ImageType : std::uint8_t { exr, hdr, png, jpeg, webp };
 
-/// Tests whether images of the type are tone-mapped for screens, not linear radiance.
-[[nodiscard]] bool is_for_screens(ImageType type);
-
 /// Returns the type by the name of `output`; none: unknown.
 [[nodiscard]] std::optional<ImageType> find_type(const std::filesystem::path& output);
+
+/// Tests whether `output` is named as an image that is tone-mapped for screens, not as linear
+/// radiance.
+[[nodiscard]] bool is_for_screens(const std::filesystem::path& output);
 
 /// Tests whether the name of `file` ends with `extension`, such as ".exr", in small or capital
 /// letters.

@@ -1,10 +1,13 @@
 #include "report/image/denoised.h"
 
+#include <bdpt/error.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <string_view>
 #include <vector>
 
+#include "options/values/output_files.h"
 #include "report/image/visible_values.h"
 
 namespace bdpt::app {
@@ -19,14 +22,30 @@ const Layer* find(std::span<const Layer> layers, std::string_view name)
 
 }  // namespace
 
-std::optional<io::Denoiser> open_denoiser(const std::optional<DenoiseArguments>& asked,
+std::optional<io::Denoiser> open_denoiser(const DenoiseArguments& asked,
                                           std::span<const std::filesystem::path> outputs,
                                           int threads)
 {
-    if (!asked || outputs.empty()) {
+    const bool is_automatic = asked.kind == Denoising::automatic;
+    const bool is_needed = is_automatic
+                               ? std::any_of(outputs.begin(), outputs.end(), is_for_screens)
+                               : asked.is_asked() && !outputs.empty();
+    if (!is_needed) {
         return std::nullopt;
     }
-    return io::Denoiser(asked->library, threads);
+    try {
+        return io::Denoiser(asked.library, threads);
+    } catch (const Error&) {
+        if (is_automatic && !asked.library) {
+            return std::nullopt;
+        }
+        throw;
+    }
+}
+
+bool has_guides(std::span<const Layer> layers)
+{
+    return find(layers, "albedo") != nullptr && find(layers, "normal") != nullptr;
 }
 
 Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const Layer> layers)

@@ -12,10 +12,13 @@
 
 namespace bdpt::app {
 
-/// Opens the requested denoiser, if there are images for it. Throws as its constructor does.
+/// Opens the denoiser, if there are images for it. Throws as its constructor does, but returns none
+/// if nobody asked for it and it is not found.
 [[nodiscard]] std::optional<io::Denoiser> open_denoiser(
-    const std::optional<DenoiseArguments>& asked, std::span<const std::filesystem::path> outputs,
-    int threads);
+    const DenoiseArguments& asked, std::span<const std::filesystem::path> outputs, int threads);
+
+/// Tests whether the layers that guide the denoiser are among `layers`.
+[[nodiscard]] bool has_guides(std::span<const Layer> layers);
 
 /// Returns `image` denoised, guided by albedo and normal if they are among the layers.
 [[nodiscard]] Image denoised(const io::Denoiser& denoiser, const Image& image,

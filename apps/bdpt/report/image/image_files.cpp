@@ -26,6 +26,7 @@ struct Picture {
     const Image& image;
     Matte matte;
     std::optional<Image> backplate{};
+    std::string denoiser{};  ///< that made it; empty: none
 };
 
 /// Returns the pixels of files of that type.
@@ -48,8 +49,11 @@ void write_picture(const fs::path& file, ImageType type, const Picture& picture,
                    const ImageFileOptions& options)
 {
     const DisplayArguments& display = options.display;
-    const io::PngOptions file_options{
+    io::PngOptions file_options{
         .exposure = exposure, .metadata = options.exr.metadata, .curve = display.curve};
+    if (!picture.denoiser.empty()) {
+        file_options.metadata.denoiser = picture.denoiser;
+    }
     const TexelImage texels = make_texels(picture, type, exposure, display);
     if (type == ImageType::png) {
         io::write_png(file, texels, file_options);
@@ -58,6 +62,14 @@ void write_picture(const fs::path& file, ImageType type, const Picture& picture,
     } else {
         io::write_webp(file, texels);
     }
+}
+
+/// Returns the image by which the exposure is chosen. With automatic denoising, pictures have the
+/// exposure that they have without.
+const Image& metered_image(const Image& noisy, const Picture& picture,
+                           const ImageFileOptions& options)
+{
+    return options.denoising == Denoising::automatic ? noisy : picture.image;
 }
 
 WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& linear_image,
@@ -73,15 +85,20 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
             io::write_hdr(file, linear_image, options.exr.metadata);
         } else {
             if (!report.exposure) {
-                report.exposure =
-                    shown_exposure(options.display.exposure, options.exr.metadata, picture.image);
+                report.exposure = shown_exposure(options.display.exposure, options.exr.metadata,
+                                                 metered_image(linear_image, picture, options));
             }
             write_picture(file, type, picture, *report.exposure, options);
         }
     };
     for (const fs::path& output : outputs) {
-        if (attempts.run([&] { write(written_file(output), *find_type(output)); })) {
-            report.files.push_back(output);
+        if (!attempts.run([&] { write(written_file(output), *find_type(output)); })) {
+            continue;
+        }
+        report.files.push_back(output);
+        if (!picture.denoiser.empty() &&
+            (is_for_screens(output) || options.denoising == Denoising::image)) {
+            report.denoised.push_back(output);
         }
     }
     return report;
@@ -98,6 +115,43 @@ Image clean_image(const Image& image, const Matte& noisy, const ImageFileOptions
                : denoised(*options.denoiser, image, options.layers);
 }
 
+/// What the denoiser makes of an image.
+struct Cleaned {
+    std::optional<Image> image{};  ///< none: it is not denoised
+    Matte matte{};
+    std::string failure{};  ///< message of automatic denoising that failed
+};
+
+/// Denoises `image` with the matte `noisy`, if the options say so. Throws `Error`.
+Cleaned cleaned(const Image& image, const Matte& noisy, const ImageFileOptions& options)
+{
+    const bool is_automatic = options.denoising == Denoising::automatic;
+    if (options.denoiser == nullptr || (is_automatic && !has_guides(options.layers))) {
+        return {};
+    }
+    try {
+        return {.image = clean_image(image, noisy, options),
+                .matte = denoised(*options.denoiser, noisy, options.layers)};
+    } catch (const Error& error) {
+        if (!is_automatic) {
+            throw;
+        }
+        return {.failure = error.what()};
+    }
+}
+
+/// Removes the layers that only guide the denoiser.
+void drop_guides(ImageFileOptions& options)
+{
+    std::erase_if(options.layers, [&options](const Layer& layer) {
+        return std::any_of(aov_layers.begin(), aov_layers.end(), [&](const AovLayer& aov) {
+            return aov.layer == layer.name &&
+                   std::find(options.guides.begin(), options.guides.end(), aov.aov) !=
+                       options.guides.end();
+        });
+    });
+}
+
 }  // namespace
 
 std::vector<Layer> develop_layers(const Film& film, const AovFilm& aovs, const IdFilm& ids)
@@ -111,44 +165,53 @@ std::vector<Layer> develop_layers(const Film& film, const AovFilm& aovs, const I
 WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& image,
                                 ImageFileOptions options, Attempts& attempts)
 {
+    if (outputs.empty()) {
+        return {};
+    }
     const Matte noisy = find_matte(options.layers);
-    const bool is_shown = std::any_of(outputs.begin(), outputs.end(), [](const fs::path& output) {
-        return is_for_screens(*find_type(output));
-    });
+    const bool is_shown = std::any_of(outputs.begin(), outputs.end(), is_for_screens);
     std::optional<Image> behind =
         is_shown ? backplate(options.display, image, options.exr.placement) : std::nullopt;
-    if (options.denoiser == nullptr || outputs.empty()) {
-        return write_as_they_are(outputs, image, {image, noisy, std::move(behind)}, options,
-                                 attempts);
+    Cleaned clean = cleaned(image, noisy, options);
+    drop_guides(options);
+    if (!clean.image) {
+        WrittenImages written = write_as_they_are(
+            outputs, image, {.image = image, .matte = noisy, .backplate = std::move(behind)},
+            options, attempts);
+        written.why_noisy = std::move(clean.failure);
+        return written;
     }
-    const Image clean = clean_image(image, noisy, options);
-    const Matte clean_matte = denoised(*options.denoiser, noisy, options.layers);
-    const bool clean_first = options.denoised_as == DenoisedAs::image;
-    if (clean_first) {
-        put(clean_matte, noisy, {.alpha = "noisyAlpha", .shadow = "noisyShadow"}, options.layers);
+    const std::string denoiser = "Open Image Denoise " + options.denoiser->version();
+    if (options.denoising == Denoising::image) {
+        put(clean.matte, noisy, {.alpha = "noisyAlpha", .shadow = "noisyShadow"}, options.layers);
         options.layers.push_back(to_layer(image, "noisy"));
-    } else {
-        put(noisy, clean_matte, {.alpha = "denoisedAlpha", .shadow = "denoisedShadow"},
+        options.exr.metadata.denoiser = denoiser;
+    } else if (options.denoising == Denoising::layer) {
+        put(noisy, clean.matte, {.alpha = "denoisedAlpha", .shadow = "denoisedShadow"},
             options.layers);
-        options.layers.push_back(to_layer(clean, "denoised"));
+        options.layers.push_back(to_layer(*clean.image, "denoised"));
+        options.exr.metadata.denoiser = denoiser;
     }
-    return write_as_they_are(outputs, clean_first ? clean : image,
-                             {clean, clean_matte, std::move(behind)}, options, attempts);
+    return write_as_they_are(outputs, options.denoising == Denoising::image ? *clean.image : image,
+                             {.image = *clean.image,
+                              .matte = std::move(clean.matte),
+                              .backplate = std::move(behind),
+                              .denoiser = denoiser},
+                             options, attempts);
 }
 
 TexelImage screen_image(const Image& image, const ImageFileOptions& options)
 {
     const Matte noisy = find_matte(options.layers);
-    const auto texels = [&options](const Picture& picture) {
-        const float exposure =
-            shown_exposure(options.display.exposure, options.exr.metadata, picture.image);
+    const auto texels = [&](const Picture& picture) {
+        const float exposure = shown_exposure(options.display.exposure, options.exr.metadata,
+                                              metered_image(image, picture, options));
         return make_texels(picture, ImageType::png, exposure, options.display);
     };
     std::optional<Image> behind = backplate(options.display, image, options.exr.placement);
-    return options.denoiser == nullptr
-               ? texels({image, noisy, std::move(behind)})
-               : texels({clean_image(image, noisy, options),
-                         denoised(*options.denoiser, noisy, options.layers), std::move(behind)});
+    const Cleaned clean = cleaned(image, noisy, options);
+    return clean.image ? texels({*clean.image, clean.matte, std::move(behind)})
+                       : texels({image, noisy, std::move(behind)});
 }
 
 }  // namespace bdpt::app

@@ -104,6 +104,7 @@ io::ImageMetadata metadata_in(const Attributes& attributes)
     metadata.scene = text_in(attributes, "bdpt.scene");
     metadata.settings = text_in(attributes, "bdpt.settings");
     metadata.integrator = text_in(attributes, "bdpt.integrator");
+    metadata.denoiser = text_in(attributes, "bdpt.denoiser");
     metadata.xmp = text_in(attributes, "bdpt.xmp");
     metadata.seed = number_in<std::uint64_t>(attributes, "bdpt.seed");
     metadata.samples_per_pixel = number_in<std::int64_t>(attributes, "bdpt.spp");
@@ -159,6 +160,9 @@ LayeredImage read_layered_image(const fs::path& file, Wanted wanted)
         result.image = std::move(*clean);
         result.is_denoised = true;
         result.layers = with_clean_matte(file, std::move(result.layers));
+    }
+    if (!result.is_denoised) {
+        result.metadata.denoiser.clear();
     }
     if (const std::optional<Image> opacity = layer_in(file, "opacity")) {
         result.layers.push_back(alpha_layer(*opacity, "opacity"));

@@ -95,8 +95,8 @@ void check_merged_files(std::span<const MergeArguments> images)
         if (image.plan) {
             inputs.add(*image.plan);
         }
-        if (image.denoise && image.denoise->library) {
-            inputs.add(*image.denoise->library);
+        if (image.denoise.library) {
+            inputs.add(*image.denoise.library);
         }
         if (image.display.backdrop && !image.display.backdrop->photo.empty()) {
             inputs.add(image.display.backdrop->photo);
@@ -135,8 +135,10 @@ std::vector<fs::path> merged_files(const MergeArguments& arguments)
     return files;
 }
 
-void write_merged_files(const MergeArguments& arguments, const DisplayArguments& display,
-                        const io::Denoiser* denoiser, const RenderResult& part, io::PartNotes notes)
+std::vector<fs::path> write_merged_files(const MergeArguments& arguments,
+                                         const DisplayArguments& display,
+                                         const io::Denoiser* denoiser, const RenderResult& part,
+                                         io::PartNotes notes)
 {
     notes.metadata.samples_per_pixel = part.samples.count();
     notes.metadata.render_seconds = part.cpu_seconds;
@@ -154,7 +156,7 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
     }
     if (images.empty() && !arguments.strategies) {
         attempts.finish();
-        return;
+        return {};
     }
     const FilmLayout& layout = part.film.layout();
     const io::ExrPlacement placement{.x = layout.region.x0,
@@ -162,17 +164,16 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
                                      .full_width = layout.width,
                                      .full_height = layout.height};
     const Image image = part.image();
-    const ImageFileOptions options{
-        .exr = {.type = arguments.exr.channel_type,
-                .metadata = std::move(notes.metadata),
-                .storage = arguments.exr.storage,
-                .placement = placement,
-                .manifests = part.ids.manifests()},
-        .layers = develop_layers(part.film, part.aovs, part.ids),
-        .display = display,
-        .denoiser = denoiser,
-        .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image};
-    write_image_files(images, image, options, attempts);
+    const ImageFileOptions options{.exr = {.type = arguments.exr.channel_type,
+                                           .metadata = std::move(notes.metadata),
+                                           .storage = arguments.exr.storage,
+                                           .placement = placement,
+                                           .manifests = part.ids.manifests()},
+                                   .layers = develop_layers(part.film, part.aovs, part.ids),
+                                   .display = display,
+                                   .denoiser = denoiser,
+                                   .denoising = arguments.denoise.kind};
+    WrittenImages written = write_image_files(images, image, options, attempts);
     if (arguments.strategies) {
         attempts.run([&] {
             write_strategy_files(StrategyFiles::named(*arguments.strategies), image,
@@ -181,6 +182,7 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
         });
     }
     attempts.finish();
+    return std::move(written.denoised);
 }
 
 }  // namespace bdpt::app

@@ -29,9 +29,11 @@ void check_strategies(const MergeArguments& arguments, const io::PartInfo& part)
 [[nodiscard]] std::vector<std::filesystem::path> merged_files(const MergeArguments& arguments);
 
 /// Writes `part` to the files of `arguments`, images by `display`, denoised if there is a denoiser.
-/// Throws `Error` (output).
-void write_merged_files(const MergeArguments& arguments, const DisplayArguments& display,
-                        const io::Denoiser* denoiser, const RenderResult& part,
-                        io::PartNotes notes);
+/// Returns the files that are denoised. Throws `Error` (output).
+std::vector<std::filesystem::path> write_merged_files(const MergeArguments& arguments,
+                                                      const DisplayArguments& display,
+                                                      const io::Denoiser* denoiser,
+                                                      const RenderResult& part,
+                                                      io::PartNotes notes);
 
 }  // namespace bdpt::app

@@ -185,10 +185,9 @@ use_pkg_config() {
   done
 }
 
-# Builds the libraries as a part of a project: static, with bdpt::io, and as quickly as possible (as a unity build,
-# which some projects use). Keeps the last build. Must not look for the libraries of the tests. Everything has
-# sanitizers, and the targets of tests/fuzz are built too, with libFuzzer if a compiler has it, for tests that run them;
-# they need parts of the command.
+# Builds the libraries as a part of a project: static, with bdpt::io, and as a unity build, by default. Keeps the last
+# build. Must not look for the libraries of the tests. Everything has sanitizers, and the targets of tests/fuzz are built
+# too, with libFuzzer if a compiler has it, for tests that run them; they need parts of the command.
 use_add_subdirectory() {
   local unneeded=() package
   for package in Catch2 Python3 benchmark; do
@@ -204,8 +203,8 @@ use_add_subdirectory() {
   build_consumer "$folder" programs -DBDPT_SOURCE="$SOURCE" -DBDPT_BUILD_IO=ON -DBDPT_BUILD_EVAL=ON \
     -DBDPT_BUILD_APPS=ON -DBDPT_BUILD_FUZZERS=ON \
     -DBDPT_SANITIZE=address,undefined -DCMAKE_EXE_LINKER_FLAGS=-fsanitize=address,undefined \
-    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 "${unneeded[@]}"
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 "${unneeded[@]}"
+  [[ -n $(find "$folder/bdpt" -name 'unity_0_cxx.cxx' -print -quit) ]] || fail "not a unity build"
   expect_version "$folder/render_box"
   write_tiff >"$folder/sky.tif"
   local files=("$SOURCE/scenes/cornell-box.gltf" "$folder/sky.tif")

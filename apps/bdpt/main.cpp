@@ -32,7 +32,7 @@ int run(const std::vector<std::string>& given)
         const std::vector<std::string> words = with_planned_words(given);
         const ParsedLine parsed = parse(line.program, {words.begin() + 1, words.end()});
         if (parsed.text) {
-            print_text(*parsed.text);
+            put_help(*parsed.text);
             return 0;
         }
         return line.run(parsed, words);

@@ -103,7 +103,8 @@ std::string format_synopsis(const CommandInfo& command)
 /// The paragraphs of the footer that are neither examples nor exit codes, as they come.
 std::string description(const CommandInfo& command)
 {
-    std::string result = ".SH DESCRIPTION\n" + escaped(command.text) + ".\n";
+    std::string result =
+        ".SH DESCRIPTION\n" + escaped(command.text) + (command.text.ends_with('.') ? "\n" : ".\n");
     for (const std::string& paragraph : command.footer) {
         if (!paragraph.starts_with(codes) && !paragraph.starts_with(examples)) {
             result += ".PP\n" + escaped(paragraph) + "\n";

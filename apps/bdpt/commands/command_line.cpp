@@ -26,6 +26,7 @@
 #include "stage/input_files.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
+#include "terminal/standard_streams.h"
 
 namespace bdpt::app {
 namespace {
@@ -53,7 +54,7 @@ int run_help(Program& program, const std::string& topic)
     if (!topic.empty() && program.find(topic) == nullptr) {
         throw Error(ErrorCode::usage, unknown_command(program, topic, "bdpt --help"));
     }
-    print_text(help_text(program, topic));
+    put_help(help_text(program, topic));
     return 0;
 }
 

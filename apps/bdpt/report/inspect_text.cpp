@@ -104,15 +104,15 @@ std::string inspect_text(const InspectedSample& sample, const PixelSample& which
     if (!sample.light_path.empty()) {
         text += path_text("light path", sample.light_path);
     }
-    text += fmt::format("\n{:<8} {:<28} {:>10} {:<28}  {}\n", "strategy", "alone [nit]", "weight",
-                        "  brings [nit]", "shares by balance");
+    constexpr const char* row = "{:<8} {:<30} {:>10}   {:<30} {}\n";  // three numbers take up to 29
+    text += "\n" + fmt::format(row, "strategy", "alone [nit]", "weight", "brings [nit]",
+                               "shares by balance");
     std::vector<InspectedContribution> sorted = sample.contributions;
     std::stable_sort(sorted.begin(), sorted.end(),
                      [](const auto& a, const auto& b) { return brightness(a) > brightness(b); });
     for (const InspectedContribution& found : sorted) {
-        text += fmt::format("{:<8} {:<28} {:>10.4g}   {:<28}{}\n",
-                            fmt::format("s{}t{}", found.strategy.s, found.strategy.t),
-                            color_text(found.unweighted), found.weight,
+        text += fmt::format(row, fmt::format("s{}t{}", found.strategy.s, found.strategy.t),
+                            color_text(found.unweighted), fmt::format("{:.4g}", found.weight),
                             color_text(found.weight * found.unweighted), shares_text(found));
     }
     return text + (sorted.empty() ? "no contributions\n" : "");

@@ -16,6 +16,7 @@ namespace {
 /// errno of the first failure on a stream; 0: none.
 struct StreamFailure {
     std::atomic<int> error_number{0};
+    std::atomic<bool> may_lose_reader{false};
 
     void note(int number)
     {
@@ -40,7 +41,7 @@ bool close(std::FILE* stream)
     if (std::fclose(stream) != 0 || had_failed) {
         failure.note(errno);
     }
-    return failure.error_number == 0;
+    return failure.error_number == 0 || (failure.error_number == EPIPE && failure.may_lose_reader);
 }
 
 }  // namespace
@@ -63,6 +64,12 @@ void put(std::FILE* stream, std::string_view text)
         std::fflush(stream) != 0) {
         find_failure(stream).note(errno);
     }
+}
+
+void put_help(std::string_view text)
+{
+    find_failure(stdout).may_lose_reader = true;
+    put(stdout, text);
 }
 
 std::optional<int> output_columns()

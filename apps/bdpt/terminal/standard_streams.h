@@ -15,6 +15,9 @@ void guard_standard_streams();
 /// `finish_standard_streams` reports them at the end.
 void put(std::FILE* stream, std::string_view text);
 
+/// Prints help on the standard output. A reader that leaves early, such as head, is no failure.
+void put_help(std::string_view text);
+
 /// Returns the width of the standard output's terminal; none: it is no terminal.
 [[nodiscard]] std::optional<int> output_columns();
 

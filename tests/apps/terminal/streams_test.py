@@ -50,6 +50,13 @@ def checks(folder):
     yield "a full standard error", done.returncode == 6
     done = bdpt(["render", "-", *HOW, "-o", "a.exr"], "<&-", folder)
     yield f"a closed input: {done.stderr}", done.returncode == 3
+    # A reader that is gone before it starts, as "head" may be.
+    for words in (["--help"], ["plan", "--help"], ["render", "--help-all"], ["help", "render"]):
+        reader, writer = os.pipe()
+        os.close(reader)
+        done = subprocess.run([COMMAND, *words], stdin=subprocess.DEVNULL, stdout=writer, stderr=subprocess.PIPE, check=False)
+        os.close(writer)
+        yield f"{' '.join(words)} to a closed pipe: {done.stderr}", done.returncode == 0 and not done.stderr
     # The reader closes the pipe; the image must survive.
     (folder / "a.exr").unlink(missing_ok=True)
     done = bdpt([*QUIET, "--json"], "| true", folder)

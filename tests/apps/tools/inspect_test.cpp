@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "image_files.h"
+#include "report/inspect_text.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -41,6 +42,19 @@ TEST_CASE("inspect tells the paths of a sample and what strategies bring", "[ins
         sum += found["weight"].get<double>() * found["unweighted"][0].get<double>();
     }
     CHECK(sum == Approx(report["value"][0].get<double>()));
+}
+
+TEST_CASE("columns of long numbers do not run together", "[inspect]")
+{
+    InspectedSample sample;
+    sample.contributions.push_back({.strategy = {.s = 1, .t = 2},
+                                    .unweighted = Rgb(1.236e-5f),
+                                    .weight = 1.0f,
+                                    .shares = {0.0f, 1.0f}});
+    const std::string text = app::inspect_text(sample, {});
+    CAPTURE(text);
+    CHECK(text.find(" 1.236e-05 s=1 1") != std::string::npos);
+    CHECK(text.find("1.236e-05          1 ") != std::string::npos);
 }
 
 TEST_CASE("inspect draws the directions at a vertex", "[inspect]")

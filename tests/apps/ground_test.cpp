@@ -137,6 +137,49 @@ TEST_CASE("a colour of --background is darkened by the shadow on the ground")
     CHECK(dark > 10);
 }
 
+TEST_CASE("without --background the visible environment is darkened by the shadow on the ground")
+{
+    const GroundFolder folder;
+    const Words more{"--exposure", "0", "--tone-map", "none"};
+    const auto write = [&](const Words& how, const std::string& name) {
+        GroundFolder::check(
+            folder.render(joined(joined(more, how), {"-o", folder.path(name + ".exr"), "-o",
+                                                     folder.path(name + ".png")})));
+    };
+    write({}, "plain");
+    write({"--ground", "shadow"}, "shaded");
+    const std::vector<float> shadow = folder.channel("shaded.exr", "shadow.A");
+    const std::vector<Rgb> plain = read_exr(folder.path("plain.exr")).image.pixels;
+    const std::vector<Rgb> shaded = read_exr(folder.path("shaded.exr")).image.pixels;
+    REQUIRE(shadow.size() == plain.size());
+    for (std::size_t i = 0; i < shadow.size(); ++i) {
+        REQUIRE(shaded[i].g == Approx(plain[i].g * (1.0f - shadow[i])).margin(1e-6));
+    }
+    CHECK(*std::max_element(shadow.begin(), shadow.end()) > 0.2f);
+    // What is made of the .exr, or of parts, is the same.
+    const std::vector<std::uint16_t> shown = read_png(folder.path("shaded.png")).values;
+    CHECK(shown != read_png(folder.path("plain.png")).values);
+    GroundFolder::check(run(
+        joined({"develop", folder.path("shaded.exr"), "-o", folder.path("developed.png")}, more)));
+    CHECK(read_png(folder.path("developed.png")).values == shown);
+    GroundFolder::check(
+        folder.render({"--ground", "shadow", "--part", folder.path("all.part.exr")}));
+    GroundFolder::check(
+        run(joined({"merge", folder.path("all.part.exr"), "-o", folder.path("merged.png")}, more)));
+    CHECK(read_png(folder.path("merged.png")).values == shown);
+}
+
+TEST_CASE("a shadow that nothing shows is told")
+{
+    const GroundFolder folder;
+    Words words = folder.words(
+        {"--ground", "shadow", "--env", "none", "--spp", "1", "-o", folder.path("black.png")});
+    std::erase(words, "--quiet");
+    const Outcome outcome = run(words);
+    GroundFolder::check(outcome);
+    CHECK(outcome.err.find("the shadow on the ground is not visible") != std::string::npos);
+}
+
 TEST_CASE("option --ground-height moves the ground")
 {
     const GroundFolder folder;
@@ -179,7 +222,6 @@ TEST_CASE("words about a ground that make no sense are refused by name")
     refused(joined(clear, {"--ground-height", "2"}), "--ground-height", "--ground shadow");
     refused(joined(clear, {"--ground", "none", "--ground-height", "2"}), "--ground-height",
             "--ground shadow");
-    refused({"--ground", "shadow"}, "--ground", "--background");
 }
 
 TEST_CASE("parts of a shadow on the ground are merged to the one of a render")

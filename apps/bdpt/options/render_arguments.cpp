@@ -281,7 +281,7 @@ std::vector<Essential> render_essentials()
         {"--size", "Image size. Default: the largest within 1280x720"},
         {"--time", "Render time, like 90s, 2m or 1.5h"},
         {"--noise", "Stop at this noise, like 2%"},
-        {"--ground", "shadow: shadow catcher below the scene; needs --background"},
+        {"--ground", "shadow: shadow catcher, an invisible ground below the scene"},
         {"--camera"},
         {"--view",
          "Frame the whole scene: front, right, back, left, top, bottom, three-quarter, or angles "

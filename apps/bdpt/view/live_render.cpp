@@ -64,6 +64,14 @@ Matte shown_matte(const RenderArguments& arguments, const RenderResult& part)
     return arguments.display.backdrop ? find_matte(part.aovs.develop(part.film)) : Matte{};
 }
 
+Image shown_image(const RenderArguments& arguments, const RenderResult& part)
+{
+    const bool has_shadow =
+        !arguments.display.backdrop && arguments.options.film.aovs.contains(Aov::shadow);
+    return has_shadow ? with_shadow(part.image(), find_matte(part.aovs.develop(part.film)).shadow)
+                      : part.image();
+}
+
 std::optional<CoarsePicture> coarse_picture(const RenderArguments& arguments,
                                             const PreparedScene& stage, const Size& size,
                                             const std::stop_token& now)

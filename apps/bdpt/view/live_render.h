@@ -50,6 +50,9 @@ private:
 /// empty without one.
 [[nodiscard]] Matte shown_matte(const RenderArguments& arguments, const RenderResult& part);
 
+/// Returns the image of `part` as its files have it.
+[[nodiscard]] Image shown_image(const RenderArguments& arguments, const RenderResult& part);
+
 struct CoarsePicture {
     Image image;
     Matte matte{};  ///< without the shadow on the ground

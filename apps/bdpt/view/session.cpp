@@ -393,7 +393,8 @@ void Session::restart()
             }
         }
         if (renders_[0] && renders_[0]->renderer().samples() > 0) {
-            meter(renders_[0]->renderer().image(), &*renders_[0]);
+            meter(shown_image(renders_[0]->arguments(), renders_[0]->renderer().result()),
+                  &*renders_[0]);
         }
         scene_.show(words_);
         tell(false);

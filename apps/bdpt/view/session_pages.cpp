@@ -99,7 +99,7 @@ void Session::show(std::size_t slot)
             send(slot, rates_image(*rates, film.region()), {}, grid, film.region(), samples);
         }
     } else {
-        const Image image = film.develop();
+        const Image image = shown_image(render->arguments(), render->renderer().result());
         if (slot == 0) {
             meter(image, &*render);
             tell(true);

@@ -107,8 +107,8 @@ void add_ground_option(OptionList& options, Ground& ground)
     const Choices<Ground> grounds{{{"shadow", Ground::shadow}, {"none", Ground::none}}};
     options.add("--ground", "shadow|none",
                 "shadow: shadow catcher, a horizontal ground that is invisible itself, also in "
-                "reflections. The shadow is black and adds to the alpha of --background, which is "
-                "required; .exr also gets it as layer shadow.A. Default: none",
+                "reflections. The shadow is black: it darkens the visible environment, or adds to "
+                "the alpha of --background; .exr also gets it as layer shadow.A. Default: none",
                 ground, grounds.type());
 }
 
@@ -120,11 +120,8 @@ FilmOptions with_ground(Ground ground, FilmOptions film, const OptionList& optio
         }
         return film;
     }
-    static constexpr std::array needs{
-        Need{"--ground", "--background", "the shadow adds to its alpha"}};
     static constexpr std::array conflicts{Conflict{"--ground", "--fog"},
                                           Conflict{"--ground", "--volume"}};
-    check(needs, options);
     check(conflicts, options);
     film.aovs.insert(Aov::shadow);
     return film;

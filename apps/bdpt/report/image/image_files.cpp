@@ -104,6 +104,13 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
     return report;
 }
 
+/// Returns the image as files have it: a shadow on the ground darkens the visible environment.
+/// Without a visible environment it is part of alpha.
+Image shown_image(const Image& image, const Matte& matte, const DisplayArguments& display)
+{
+    return display.backdrop ? image : with_shadow(image, matte.shadow);
+}
+
 /// Returns the image denoised; the options have a denoiser.
 Image clean_image(const Image& image, const Matte& noisy, const ImageFileOptions& options)
 {
@@ -162,13 +169,14 @@ std::vector<Layer> develop_layers(const Film& film, const AovFilm& aovs, const I
     return layers;
 }
 
-WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& image,
+WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& rendered,
                                 ImageFileOptions options, Attempts& attempts)
 {
     if (outputs.empty()) {
         return {};
     }
     const Matte noisy = find_matte(options.layers);
+    const Image image = shown_image(rendered, noisy, options.display);
     const bool is_shown = std::any_of(outputs.begin(), outputs.end(), is_for_screens);
     std::optional<Image> behind =
         is_shown ? backplate(options.display, image, options.exr.placement) : std::nullopt;
@@ -200,9 +208,10 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
                              options, attempts);
 }
 
-TexelImage screen_image(const Image& image, const ImageFileOptions& options)
+TexelImage screen_image(const Image& rendered, const ImageFileOptions& options)
 {
     const Matte noisy = find_matte(options.layers);
+    const Image image = shown_image(rendered, noisy, options.display);
     const auto texels = [&](const Picture& picture) {
         const float exposure = shown_exposure(options.display.exposure, options.exr.metadata,
                                               metered_image(image, picture, options));

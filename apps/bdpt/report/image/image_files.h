@@ -44,10 +44,11 @@ struct WrittenImages {
 /// and, if that was asked for, EXR files have both images; automatic denoising needs layers that
 /// guide it. A file for screens with a backdrop needs the layer with alpha. Failures are collected
 /// in `attempts`, but those of automatic denoising leave the image noisy.
-WrittenImages write_image_files(std::span<const std::filesystem::path> outputs, const Image& image,
-                                ImageFileOptions options, Attempts& attempts);
+WrittenImages write_image_files(std::span<const std::filesystem::path> outputs,
+                                const Image& rendered, ImageFileOptions options,
+                                Attempts& attempts);
 
 /// Returns the pixels of the PNG file that `write_image_files` would write.
-[[nodiscard]] TexelImage screen_image(const Image& image, const ImageFileOptions& options);
+[[nodiscard]] TexelImage screen_image(const Image& rendered, const ImageFileOptions& options);
 
 }  // namespace bdpt::app

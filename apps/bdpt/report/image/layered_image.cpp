@@ -149,10 +149,11 @@ LayeredImage read_layered_image(const fs::path& file, Wanted wanted)
     if (alpha) {
         result.layers.push_back(alpha_layer(*alpha, ""));
     }
-    if (const std::optional<Image> shadow = layer_in(file, "shadow")) {
+    result.backdrop = find_backdrop(result.metadata, alpha.has_value());
+    // An image that shows the environment is already darkened by the shadow.
+    if (const auto shadow = result.backdrop ? layer_in(file, "shadow") : std::nullopt) {
         result.layers.push_back(alpha_layer(*shadow, "shadow"));
     }
-    result.backdrop = find_backdrop(result.metadata, alpha.has_value());
     result.is_denoised = layer_in(file, "noisy").has_value();
     std::optional<Image> clean =
         wanted == Wanted::clean ? layer_in(file, "denoised") : std::nullopt;

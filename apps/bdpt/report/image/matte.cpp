@@ -81,6 +81,14 @@ Matte denoised(const io::Denoiser& denoiser, const Matte& noisy, std::span<const
     return result;
 }
 
+Image with_shadow(Image image, std::span<const float> shadow)
+{
+    for (std::size_t i = 0; i < shadow.size(); ++i) {
+        image.pixels[i] *= 1.0f - std::clamp(shadow[i], 0.0f, 1.0f);
+    }
+    return image;
+}
+
 void put(const Matte& matte, const Matte& other, const MatteNames& names_of_other,
          std::vector<Layer>& layers)
 {

@@ -29,6 +29,10 @@ struct Matte {
 [[nodiscard]] Matte denoised(const io::Denoiser& denoiser, const Matte& noisy,
                              std::span<const Layer> layers);
 
+/// Returns `image`, which shows the environment, with the black `shadow` of the ground over it, by
+/// the opacity of each pixel; an empty shadow changes nothing.
+[[nodiscard]] Image with_shadow(Image image, std::span<const float> shadow);
+
 /// Layer names for the values of a matte that are replaced in the main layers.
 struct MatteNames {
     const char* alpha;

@@ -15,7 +15,7 @@ public:
 
 private:
     void show_event(std::string_view /*name*/, const nlohmann::ordered_json& /*fields*/) override {}
-    void show_note(std::string_view message) override { tell(MessageKind::note, message); }
+    void show_note(const app::Note& note) override { tell(MessageKind::note, note.text); }
     void show_warning(std::string_view message) override { tell(MessageKind::warning, message); }
     void show_progress(const Progress& progress, const app::Goal& goal) override
     {

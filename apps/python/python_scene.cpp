@@ -56,10 +56,11 @@ PythonScene load_bytes(const nb::bytes& contents, const Words& words)
     write_bytes(file, contents);
     try {
         PythonScene scene = load_file(file, words);
-        for (std::vector<std::string>* texts : {&scene.stage.warnings, &scene.stage.notes}) {
-            for (std::string& text : *texts) {
-                text = renamed(text, file.string(), name);
-            }
+        for (std::string& warning : scene.stage.warnings) {
+            warning = renamed(warning, file.string(), name);
+        }
+        for (app::Note& note : scene.stage.notes) {
+            note.text = renamed(note.text, file.string(), name);
         }
         scene.file = name;
         scene.origin.reset();

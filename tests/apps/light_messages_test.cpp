@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,83 @@ TEST_CASE("the lights that are counted are those of the file and of --env")
     CHECK(contains(said(folder, write_cube(folder, "lamp", one_lamp)), "12 triangles, 1 light;"));
     const std::filesystem::path bright =
         write_cube(folder, "bright", {.material = emissive_material, .cameras = two_cameras});
-    CHECK(contains(said(folder, bright), "12 triangles, 12 lights;"));
+    CHECK(contains(said(folder, bright), "12 triangles (12 emissive), 0 lights;"));
+}
+
+/// The codes of the events "note" in lines of JSON.
+std::vector<std::string> codes_of_notes(const std::string& lines)
+{
+    std::vector<std::string> codes;
+    std::istringstream stream(lines);
+    for (std::string line; std::getline(stream, line);) {
+        const auto event = nlohmann::json::parse(line);
+        if (event.at("event") == "note") {
+            CHECK_FALSE(event.at("message").get<std::string>().empty());
+            codes.push_back(event.at("code").get<std::string>());
+        }
+    }
+    return codes;
+}
+
+TEST_CASE("programs get what was added to a scene as notes with codes")
+{
+    using Codes = std::vector<std::string>;
+    const ScratchFolder folder;
+    const std::filesystem::path bare = write_cube(folder, "bare", {});
+    CHECK(codes_of_notes(said(folder, bare, {"--json"})) == Codes{"default_sky", "framed"});
+    CHECK(codes_of_notes(said(folder, bare, {"--json", "--quiet"})).empty());
+    CHECK(codes_of_notes(said(folder, write_cube(folder, "lit", one_lamp), {"--json"})).empty());
+    CHECK(codes_of_notes(said(folder, bare, {"--json", "--view", "front", "--clamp", "0.001"})) ==
+          Codes{"default_sky", "clamped"});
+}
+
+TEST_CASE("how a render was set up is told with --verbose, once for all images")
+{
+    const ScratchFolder folder;
+    const std::filesystem::path scene = write_cube(folder, "lit", one_lamp);
+    const std::vector<std::string> adaptive{"--adaptive",
+                                            "--spp",
+                                            "8",
+                                            "--integrator",
+                                            "mis",
+                                            "--orbit",
+                                            "2",
+                                            "-o",
+                                            (folder / "t.#.exr").string()};
+    const std::string told = "noisy pixels get more samples";
+    const auto run_with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"render", scene.string(), "--size", "16x8"};
+        words.insert(words.end(), adaptive.begin(), adaptive.end());
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = run(words);
+        CAPTURE(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return outcome.err;
+    };
+    CHECK_FALSE(contains(run_with({}), told));
+    const std::string verbose = run_with({"-v"});
+    CHECK(contains(verbose, told));
+    CHECK(verbose.find(told) == verbose.rfind(told));
+}
+
+TEST_CASE("options that no output takes are named")
+{
+    const ScratchFolder folder;
+    const std::filesystem::path scene = write_cube(folder, "lit", one_lamp);
+    const std::string png = (folder / "only.png").string();
+    const auto said_of = [&](const std::string& output, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"render", scene.string(), "--size", "16x8", "--spp",
+                                       "1",      "-o",           output};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words).err;
+    };
+    CHECK(contains(said_of(png, {"--half"}), "--half has no effect: no output is .exr"));
+    CHECK(contains(said_of(png, {"--tiled"}), "--tiled has no effect"));
+    CHECK_FALSE(contains(said_of(png, {"--png-bits", "16"}), "no effect"));
+    const std::string exr = (folder / "only.exr").string();
+    CHECK_FALSE(contains(said_of(exr, {"--half", "--tiled"}), "no effect"));
+    CHECK(contains(said_of(exr, {"--png-bits", "16"}), "--png-bits 16 has no effect"));
+    CHECK(contains(said_of(exr, {"--tone-map", "agx"}), "--tone-map has no effect"));
 }
 
 /// A grey cube, and behind it where the camera sees none of its light a tiny one that shines.

@@ -227,7 +227,7 @@ MergedImage merge_image(const MergeArguments& arguments, const MergeSession& ses
     }
     const PartCollection collection = collect_parts(arguments, session.plan, console);
     for (const std::string& note : collection.notes) {
-        console.note(note);
+        console.note({"part_skipped", note});
     }
     for (const std::string& fault : collection.faults) {
         console.warning(fault);

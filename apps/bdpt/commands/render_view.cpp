@@ -54,9 +54,8 @@ void announce(Console& console, const RenderArguments& arguments, const Prepared
     if (is_one_of_many(arguments) && arguments.sequence_view->index > 0) {
         return;  // about the same for all images
     }
-    console.note(fmt::format("{}: {}, {}; {}x{}, {}, camera {}", arguments.file.string(),
-                             counted(counts.instanced_triangles, "triangle"),
-                             counted(stage.lights, "light"), stage.size.width, stage.size.height,
+    console.note(fmt::format("{}: {}; {}x{}, {}, camera {}", arguments.file.string(),
+                             size_text(stage), stage.size.width, stage.size.height,
                              integrator_text(arguments.options, settings.contains("chosen_by")),
                              stage.camera.name));
 }
@@ -272,14 +271,15 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
     const std::optional<double> goal = arguments.goal.noise;
     if (goal && !std::isfinite(noise)) {
         const auto samples = static_cast<std::size_t>(result.film.sample_count());
-        console.note(fmt::format("the noise is not known after {} per pixel (--noise)",
-                                 counted(samples, "sample")));
+        console.note(
+            {"noise_unknown", fmt::format("the noise is not known after {} per pixel (--noise)",
+                                          counted(samples, "sample"))});
     } else if (goal && noise > *goal) {
         const std::int64_t samples = samples_for_noise(noise, result.film.sample_count(), *goal);
-        console.note(
-            fmt::format("the noise is {}, more than {} (--noise): about {} samples per pixel are "
-                        "needed",
-                        noise_text(noise), noise_text(*goal), samples));
+        console.note({"noise_above_goal",
+                      fmt::format("the noise is {}, more than {} (--noise): about {} samples per "
+                                  "pixel are needed",
+                                  noise_text(noise), noise_text(*goal), samples)});
     }
     fields["exposure"] = images.exposure ? ordered_json(*images.exposure) : ordered_json();
     fields["stopped_by"] = stopped_by ? ordered_json(*stopped_by) : ordered_json();
@@ -350,12 +350,14 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
     interrupt.allow_stop();
     announce(console, arguments, stage, settings);
     tell_findings(console, stage);
+    tell_of_no_effect(console, arguments, stage);
     const bool is_first = !is_one_of_many(arguments) || arguments.sequence_view->index == 0;
     if (light_beyond > 0.0 && is_first) {  // about the same for all images
         console.note(
-            fmt::format("about {:.2g} % of the light is missing: its paths have more than {} edges "
-                        "(--max-depth)",
-                        100.0 * light_beyond, arguments.options.transport.max_depth));
+            {"light_beyond_max_depth",
+             fmt::format("about {:.2g} % of the light is missing: its paths have more than {} "
+                         "edges (--max-depth)",
+                         100.0 * light_beyond, arguments.options.transport.max_depth)});
     }
     const io::ImageMetadata metadata = make_metadata(arguments, stage, settings);
     if (arguments.rates && arguments.rates->saved) {

@@ -67,10 +67,8 @@ int run_verify(const VerifyArguments& arguments)
     interrupt.allow_stop();
     const std::string file = what.file.string();
     tell_findings(console, stage);
-    console.note(fmt::format("{}: {}, {}; {}x{}, camera {}", file,
-                             counted(stage.scene.counts().instanced_triangles, "triangle"),
-                             counted(stage.lights, "light"), stage.size.width, stage.size.height,
-                             stage.camera.name));
+    console.note(fmt::format("{}: {}; {}x{}, camera {}", file, size_text(stage), stage.size.width,
+                             stage.size.height, stage.camera.name));
     const eval::VerifyOptions options = options_for(arguments, stage, console);
     eval::VerifyControl control;
     control.stop = interrupt.stop_token();

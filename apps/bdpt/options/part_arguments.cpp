@@ -52,7 +52,8 @@ void add_part_options(OptionList& options, PartChoice& part)
     options
         .add("--plan", "FILE",
              "Render one task of this plan (bdpt plan), which sets all but --threads, "
-             "--max-memory, --stats, --ktx-library, --allow-folder, --restart, --quiet and --json",
+             "--max-memory, --stats, --ktx-library, --allow-folder, --restart, --quiet, --verbose and "
+             "--json",
              part.plan, any_text())
         .uses.stated_in = StatedIn::command_line;
     options

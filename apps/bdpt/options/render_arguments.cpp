@@ -99,9 +99,15 @@ void add_image_output(OptionList& options, RenderRequest& request)
                   arguments.path_names, names.type())
         .uses = {.plan_render = true};
     add_quiet_option(options, arguments.printed);
+    const Choices<Verbosity> verbosities{
+        {{"true", Verbosity::verbose}, {"false", Verbosity::normal}}};
+    options
+        .add_flag("-v,--verbose", "Print also how the render was set up",
+                  arguments.printed.verbosity, verbosities.type())
+        .uses = {.job = false};
     add_json_option(options, arguments.printed,
-                    "Print one JSON object per line on stdout: start, progress, warning, done, "
-                    "error. With --quiet only done and error");
+                    "Print one JSON object per line on stdout: start, progress, note, warning, "
+                    "done, error. With --quiet only done and error");
 }
 
 /// Adds options of a single rendering process, not of the render as such.
@@ -219,7 +225,8 @@ void check_combinations(const OptionList& options, const std::optional<std::stri
     static constexpr std::array conflicts{
         Conflict{"--samples", "--spp"},
         Conflict{"--noise", "--samples", "a range of samples cannot decide when to stop"},
-        Conflict{"--adaptive", "--rates"}, Conflict{"--half", "--float"}};
+        Conflict{"--adaptive", "--rates"}, Conflict{"--half", "--float"},
+        Conflict{"--quiet", "--verbose"}};
     static constexpr std::array needs{Need{"--save-rates", "--adaptive|--rates"}};
     check(conflicts, options);
     check(needs, options);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "options/arguments.h"
+#include "options/option_list.h"
 #include "plan/plan_file.h"
 #include "plan/planned_files.h"
 
@@ -22,8 +23,8 @@ using Words = std::vector<std::string>;
 
 constexpr std::array<std::string_view, 7> of_a_process{
     "--plan", "--task", "--threads", "--max-memory", "--stats", "--ktx-library", "--allow-folder"};
-constexpr std::array<std::string_view, 4> flags_of_a_process{"--restart", "-q", "--quiet",
-                                                             "--json"};
+constexpr std::array<std::string_view, 6> flags_of_a_process{"--restart", "-q",        "--quiet",
+                                                             "-v",        "--verbose", "--json"};
 
 template <typename Names>
 bool has(const Names& names, std::string_view word)
@@ -63,7 +64,7 @@ void check_render_words(const Words& words)
             throw OptionError(
                 fmt::format("--plan cannot be combined with {}, only with --task, --threads, "
                             "--max-memory, --stats, --ktx-library, --allow-folder, --restart, "
-                            "--quiet and --json",
+                            "--quiet, --verbose and --json",
                             words[i]));
         }
     }

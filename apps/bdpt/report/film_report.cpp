@@ -31,9 +31,10 @@ void report_clamp(Console& console, const Film& film, const Image& image)
         left += sum(pixel) / static_cast<double>(image.pixels.size());
     }
     const double taken = sum(loss.radiance);
-    console.note(fmt::format("clamping at {:g} nit removed {:.2f} % of the light: {} contributions",
-                             film.layout().clamp, 100.0 * taken / (left + taken),
-                             loss.contributions));
+    console.note(
+        {"clamped",
+         fmt::format("clamping at {:g} nit removed {:.2f} % of the light: {} contributions",
+                     film.layout().clamp, 100.0 * taken / (left + taken), loss.contributions)});
 }
 
 Layer time_layer(const TimeProfile& profile)

@@ -21,6 +21,7 @@
 #include "stage/environment_change.h"
 #include "stage/filled_share.h"
 #include "stage/scene_memory.h"
+#include "terminal/text.h"
 
 namespace bdpt::app {
 namespace {
@@ -38,7 +39,7 @@ struct LitScene {
     Sky sky = Sky::none;
     std::string environment_name = "none";
     std::vector<std::string> warnings{};
-    std::vector<std::string> notes{};
+    std::vector<Note> notes{};
     std::size_t added = 0;  ///< default lights that were added
 };
 
@@ -126,22 +127,24 @@ void add_lights(LitScene& lit, DefaultLights missing, const FramedView& framed,
     }
     if (lit.sky == Sky::if_wanted) {
         lit.notes.push_back(
-            has_light(lit.desc)
-                ? fmt::format("{}: no light but emissive materials: lit by the default "
-                              "environment, a soft sky (--env none disables it)",
-                              file)
-                : fmt::format("{}: no light: lit by the default environment, a soft sky (--env "
-                              "chooses another)",
-                              file));
+            {"default_sky",
+             has_light(lit.desc)
+                 ? fmt::format("{}: no light but emissive materials: lit by the default "
+                               "environment, a soft sky (--env none disables it)",
+                               file)
+                 : fmt::format("{}: no light: lit by the default environment, a soft sky (--env "
+                               "chooses another)",
+                               file)});
         ++lit.added;
     }
     lit.environment_name = "default";
     lit.desc.lights.emplace_back(default_environment());
     if (missing == DefaultLights::sky_and_lamp) {
-        lit.notes.push_back(fmt::format(
-            "{}: a closed room without light: a lamp was added at {:.3g},{:.3g},{:.3g} (--env none "
-            "removes it)",
-            file, framed.lamp_position.x, framed.lamp_position.y, framed.lamp_position.z));
+        lit.notes.push_back(
+            {"default_lamp", fmt::format("{}: a closed room without light: a lamp was added at "
+                                         "{:.3g},{:.3g},{:.3g} (--env none removes it)",
+                                         file, framed.lamp_position.x, framed.lamp_position.y,
+                                         framed.lamp_position.z)});
         lit.desc.lights.emplace_back(default_lamp(framed));
         ++lit.added;
     }
@@ -313,9 +316,9 @@ PreparedScene prepare_scene(const RenderArguments& asked)
     warnings.insert(warnings.end(), lit.warnings.begin(), lit.warnings.end());
     if (!from_file && !arguments.camera && !arguments.view.from && !arguments.view.frames()) {
         lit.notes.push_back(
-            fmt::format("{}: no camera: the whole scene is framed (--view, or --from and "
-                        "--look-at, choose another view)",
-                        file));
+            {"framed", fmt::format("{}: no camera: the whole scene is framed (--view, or --from "
+                                   "and --look-at, choose another view)",
+                                   file)});
     }
     CameraDesc camera =
         from_file ? apply(arguments.view, *from_file, std::nullopt)
@@ -364,6 +367,17 @@ Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments
     return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene),
             .size = size,
             .is_framed = !from_file.has_value()};
+}
+
+std::string size_text(const PreparedScene& stage)
+{
+    const SceneCounts counts = stage.scene.counts();
+    const std::string emissive = counts.emissive_triangles > 0
+                                     ? fmt::format(" ({} emissive)", counts.emissive_triangles)
+                                     : "";
+    return fmt::format(
+        "{}{}, {}", counted(counts.instanced_triangles, "triangle"), emissive,
+        counted(stage.lights - std::min(stage.lights, counts.emissive_triangles), "light"));
 }
 
 bool has_environment(const PreparedScene& stage)

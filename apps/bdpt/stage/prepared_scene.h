@@ -10,6 +10,7 @@
 
 #include "options/arguments.h"
 #include "options/render_arguments.h"
+#include "terminal/console.h"
 
 namespace bdpt::app {
 
@@ -20,7 +21,7 @@ struct PreparedScene {
     std::string environment_name;  ///< for people: its file, "scene", "default", "studio" or "none"
     Size size;
     std::vector<std::string> warnings;  ///< one line each
-    std::vector<std::string> notes{};   ///< one line each: additions to a file that lacks something
+    std::vector<Note> notes{};          ///< additions to a file that lacks something
     double load_seconds = 0.0;          ///< reading files
     double build_seconds = 0.0;         ///< building the scene
     std::string xmp{};                  ///< the file's metadata about itself
@@ -31,6 +32,9 @@ struct PreparedScene {
     std::vector<std::filesystem::path> files{};  ///< that the scene names
     io::MemoryBudget memory;                     ///< the scene's memory is already charged
 };
+
+/// Returns "36 triangles (2 emissive), 1 light".
+[[nodiscard]] std::string size_text(const PreparedScene& stage);
 
 /// Tests whether an environment lights the scene.
 [[nodiscard]] bool has_environment(const PreparedScene& stage);

@@ -16,9 +16,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "options/values/film_memory.h"
+#include "options/values/output_files.h"
 #include "options/values/strategy_depth.h"
 
 namespace bdpt::app {
@@ -75,10 +77,12 @@ std::shared_ptr<const SampleRates> prepare_rates(const RenderArguments& argument
         auto rates = std::make_shared<const SampleRates>(
             sample_rates(stage.scene, stage.camera, arguments.options));
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-        console.note(fmt::format(
-            "adaptive: {} to {} samples per pixel and round, {:.3f} on average, by a test render "
-            "of {} samples in {:.1f} s",
-            rates->least(), rates->greatest(), rates->mean(), rate_pilot_samples, passed.count()));
+        console.verbose(
+            {"adaptive",
+             fmt::format("noisy pixels get more samples and others fewer: {} to {} times --spp, "
+                         "{:.3f} on average, by a test render of {} samples in {:.1f} s",
+                         rates->least(), rates->greatest(), rates->mean(), rate_pilot_samples,
+                         passed.count())});
         return rates;
     }
     const std::filesystem::path& file = *arguments.rates->file;
@@ -116,11 +120,47 @@ std::uint64_t image_cache_bytes(const RenderArguments& arguments)
 
 void tell_findings(Console& console, const PreparedScene& stage)
 {
-    for (const std::string& note : stage.notes) {
+    for (const Note& note : stage.notes) {
         console.note(note, Repeat::never);
     }
     for (const std::string& warning : stage.warnings) {
         console.warning(warning);
+    }
+}
+
+void tell_of_no_effect(Console& console, const RenderArguments& arguments,
+                       const PreparedScene& stage)
+{
+    if (arguments.options.film.aovs.contains(Aov::shadow) && !arguments.display.backdrop &&
+        !has_environment(stage)) {
+        console.note(
+            Note{"ground_not_visible",
+                 "the shadow on the ground is not visible: there is no environment behind it "
+                 "(--env, or --background)"},
+            Repeat::never);
+    }
+    const auto writes = [&arguments](const auto& is_it) {
+        return std::any_of(arguments.outputs.begin(), arguments.outputs.end(),
+                           [&](const auto& output) { return is_it(*find_type(output)); });
+    };
+    const auto tell = [&console](std::string_view option, std::string_view types) {
+        console.note({"no_effect", fmt::format("{} has no effect: no output is {}", option, types)},
+                     Repeat::never);
+    };
+    if (!arguments.strategies && !writes_exr(arguments.outputs)) {
+        if (arguments.exr.channel_type == io::ExrChannelType::half_float) {
+            tell("--half", ".exr");
+        }
+        if (arguments.exr.storage == io::ExrStorage::tiles) {
+            tell("--tiled", ".exr");
+        }
+    }
+    if (arguments.display.type == TexelType::unorm16 &&
+        !writes([](ImageType type) { return type == ImageType::png; })) {
+        tell("--png-bits 16", ".png");
+    }
+    if (arguments.display.curve != io::ToneCurve::filmic && !writes(is_for_screens)) {
+        tell("--tone-map", ".png, .jpg or .webp");
     }
 }
 
@@ -185,10 +225,11 @@ RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stag
     arguments.options = choice.options;
     if (arguments.may_adapt && choice.rates) {
         arguments.options.sampling.rates = choice.rates;
-        console.note(fmt::format(
-            "adaptive: pixels take {} to {} times --spp samples, by their noise (--adaptive=false: "
-            "all the same)",
-            choice.rates->least(), choice.rates->greatest()));
+        console.verbose(
+            {"adaptive",
+             fmt::format("noisy pixels get more samples and others fewer: {} to {} times --spp "
+                         "(--adaptive=false: all the same)",
+                         choice.rates->least(), choice.rates->greatest())});
     } else if (arguments.rates && !arguments.options.sampling.rates) {
         arguments.options.sampling.rates = prepare_rates(arguments, stage, console);
     }

@@ -24,6 +24,11 @@ namespace bdpt::app {
 /// Prints warnings and notes from the preparation of the scene, each once.
 void tell_findings(Console& console, const PreparedScene& stage);
 
+/// Prints notes about options that change nothing: those of files that are not written, and a
+/// ground whose shadow is not visible.
+void tell_of_no_effect(Console& console, const RenderArguments& arguments,
+                       const PreparedScene& stage);
+
 /// Charges the memory of the film of a render of `size` and its layers. Throws `Error` if that is
 /// too much.
 void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Size& size);

@@ -122,9 +122,22 @@ void Console::event(std::string_view name, const ordered_json& fields)
 
 void Console::note(std::string_view message, Repeat repeat)
 {
+    note(Note{.code = "", .text = std::string(message)}, repeat);
+}
+
+void Console::note(const Note& note, Repeat repeat)
+{
     const std::lock_guard lock(mutex_);
-    if (repeat == Repeat::always || told_.emplace(message).second) {
-        show_note(message);
+    if (told_.insert(note.text).second || repeat == Repeat::always) {
+        show_note(note);
+    }
+}
+
+void Console::verbose(const Note& note)
+{
+    const std::lock_guard lock(mutex_);
+    if (told_.emplace(note.code).second) {
+        show_verbose(note);
     }
 }
 
@@ -194,15 +207,27 @@ void TerminalConsole::put_event(std::string_view name, const ordered_json& field
 
 void TerminalConsole::show_event(std::string_view name, const ordered_json& fields)
 {
-    if (format_ == Format::json && (verbosity_ == Verbosity::normal || name == "done")) {
+    if (format_ == Format::json && (verbosity_ != Verbosity::quiet || name == "done")) {
         put_event(name, fields);
     }
 }
 
-void TerminalConsole::show_note(std::string_view message)
+void TerminalConsole::show_note(const Note& note)
 {
-    if (format_ == Format::text && verbosity_ == Verbosity::normal) {
-        print_line("bdpt: ", message);
+    if (verbosity_ == Verbosity::quiet) {
+        return;
+    }
+    if (format_ == Format::text) {
+        print_line("bdpt: ", note.text);
+    } else if (!note.code.empty()) {
+        put_event("note", {{"code", note.code}, {"message", one_line(note.text)}});
+    }
+}
+
+void TerminalConsole::show_verbose(const Note& note)
+{
+    if (verbosity_ == Verbosity::verbose) {
+        show_note(note);
     }
 }
 

@@ -17,7 +17,7 @@
 
 namespace bdpt::app {
 
-enum class Verbosity : std::uint8_t { normal, quiet };
+enum class Verbosity : std::uint8_t { normal, quiet, verbose };
 enum class Format : std::uint8_t {
     text,  ///< lines for people on stderr
     json,  ///< one JSON object per line on stdout, for programs
@@ -65,6 +65,12 @@ struct ImageLabel {
 /// Estimates the seconds left until `goal` by `progress`; none if nothing is done yet.
 [[nodiscard]] std::optional<double> time_left(const Progress& progress, const Goal& goal);
 
+/// A line for people that programs get, too.
+struct Note {
+    std::string_view code;  ///< its kind, such as "default_sky"; stable
+    std::string text;
+};
+
 /// Receives the messages and the progress of a command, and decides which of them are news.
 /// Thread-safe.
 class Console {
@@ -76,8 +82,12 @@ public:
 
     /// Emits an event for programs. `fields` is a JSON object, to which "event" is added.
     void event(std::string_view name, const nlohmann::ordered_json& fields);
-    /// Shows a line for people.
+    /// Shows a line for people; programs have an event that says the same.
     void note(std::string_view message, Repeat repeat = Repeat::always);
+    /// Shows a line for people, and emits it as an event "note" for programs.
+    void note(const Note& note, Repeat repeat = Repeat::always);
+    /// Shows the first note of its code, with --verbose only.
+    void verbose(const Note& note);
     /// Shows a line for people, if there is only one image.
     void detail(std::string_view message);
     void warning(std::string_view message, Repeat repeat = Repeat::never);
@@ -96,7 +106,8 @@ protected:
 private:
     // Called by one thread at a time.
     virtual void show_event(std::string_view name, const nlohmann::ordered_json& fields) = 0;
-    virtual void show_note(std::string_view message) = 0;
+    virtual void show_note(const Note& note) = 0;
+    virtual void show_verbose(const Note& /*note*/) {}
     virtual void show_warning(std::string_view message) = 0;
     virtual void show_progress(const Progress& progress, const Goal& goal) = 0;
     virtual void show_task(const TaskProgress& progress) = 0;
@@ -117,8 +128,9 @@ private:
     /// Prints nothing if the format is text; if quiet, only the event "done". Events of one of
     /// several images get its "frame" and "camera".
     void show_event(std::string_view name, const nlohmann::ordered_json& fields) override;
-    /// Prints nothing if the format is JSON.
-    void show_note(std::string_view message) override;
+    /// In JSON, prints nothing for a note without a code.
+    void show_note(const Note& note) override;
+    void show_verbose(const Note& note) override;
     void show_warning(std::string_view message) override;
     /// Rate-limited, however often it is called.
     void show_progress(const Progress& progress, const Goal& goal) override;

@@ -93,7 +93,7 @@ void Session::load_first()
     watch_.watch(scene_.files());
     coarse_.restart(scene_.stage().size);
     ++generation_;
-    for (const std::string& note : scene_.stage().notes) {
+    for (const Note& note : scene_.stage().notes) {
         console_.note(note);
     }
     for (const std::string& warning : scene_.stage().warnings) {

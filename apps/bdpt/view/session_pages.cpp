@@ -221,7 +221,9 @@ ViewState Session::state()
         state.slots.push_back(slot_state(1));
     }
     state.warnings = stage.warnings;
-    state.warnings.insert(state.warnings.end(), stage.notes.begin(), stage.notes.end());
+    for (const Note& note : stage.notes) {
+        state.warnings.push_back(note.text);
+    }
     const std::int64_t samples = state.slots.front().samples;
     state.command = words_of_slot(0).command(samples > 0 ? samples : arguments.samples.end);
     return state;

@@ -119,8 +119,8 @@ void PartKeeper::write(const RenderResult& part)
     const std::chrono::duration<double> taken = last_ - start;
     interval_ = std::max(min_write_interval, interval_of_writes * taken);
     if (write == io::PartWrite::kept) {
-        console_.note(
-            fmt::format("{}: has more samples by now and is kept", choice_.file.string()));
+        console_.note({"part_kept", fmt::format("{}: has more samples by now and is kept",
+                                                choice_.file.string())});
         return;
     }
     old_ = io::OldPart::keep_if_more;  // from now on the file is ours

@@ -99,9 +99,9 @@ def check_light(window):
 
 
 def read_command_words(window, bdpt):
-    """Returns the words of the copied command, with the program under test."""
-    window.press("c")
-    words = shlex.split(window.run("return document.getElementById('command').value;"))
+    """Returns the words of the command for what is seen, with the program under test."""
+    window.press("v")
+    words = shlex.split(window.run("return window.bdptView.state.command;"))
     expect(words[:2] == ["bdpt", "render"], f"the page shows a command: {' '.join(words)[:150]}")
     return [bdpt, *words[1:]]
 

@@ -335,11 +335,9 @@ Download Session::saved(const std::string& name, int slot)
     const bool is_there = place < renders_.size() && renders_[place] &&
                           renders_[place]->renderer().samples() > 0 && !is_stale_;
     if (name == "save.json") {
-        const std::int64_t samples =
-            is_there ? renders_[place]->renderer().samples() : scene_.arguments().samples.end;
         return {.type = "application/json",
                 .name = fmt::format("{}.json", scene_.arguments().file.stem().string()),
-                .content = words_of_slot(place).job(std::max<std::int64_t>(samples, 1))};
+                .content = words_of_slot(place).final_job()};
     }
     if (!is_there) {
         return {.status = 503,

@@ -225,7 +225,9 @@ ViewState Session::state()
         state.warnings.push_back(note.text);
     }
     const std::int64_t samples = state.slots.front().samples;
-    state.command = words_of_slot(0).command(samples > 0 ? samples : arguments.samples.end);
+    const ViewWords words = words_of_slot(0);
+    state.command = words.command(samples > 0 ? samples : arguments.samples.end);
+    state.final_command = words.final_command();
     return state;
 }
 

@@ -87,6 +87,7 @@ void add_picture(ordered_json& json, const ViewState& state)
     }
     json["warnings"] = state.warnings;
     json["command"] = state.command;
+    json["final_command"] = state.final_command;
 }
 
 }  // namespace

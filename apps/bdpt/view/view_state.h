@@ -53,6 +53,7 @@ struct ViewState {
     std::vector<SlotState> slots;
     std::vector<std::string> warnings;
     std::string command;
+    std::string final_command;
 };
 
 /// Returns the state as JSON.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "options/job_file.h"
+#include "options/view_arguments.h"
 #include "terminal/text.h"
 
 namespace bdpt::app {
@@ -28,7 +29,8 @@ ViewWords::ViewWords(const OptionList& given)
         }
     }
     // Views show any number of samples, and rates that auto chooses need multiples of a group.
-    if (!has("--adaptive") && !has("--rates")) {
+    sets_adaptive_ = !has("--adaptive") && !has("--rates");
+    if (sets_adaptive_) {
         set("--adaptive", "false");
     }
 }
@@ -69,7 +71,8 @@ void ViewWords::give_to(OptionList& options) const
 RenderArguments ViewWords::arguments() const
 {
     RenderOptionList render;
-    give_to(render.options);
+    const bool is_unlimited = !has("--spp") && !has("--noise");
+    (is_unlimited ? ending_after(view_samples) : *this).give_to(render.options);
     return checked(render.request, render.options);
 }
 
@@ -81,10 +84,29 @@ ViewWords ViewWords::ending_after(std::int64_t samples) const
     return result;
 }
 
+ViewWords ViewWords::final_words() const
+{
+    ViewWords result = *this;
+    if (sets_adaptive_) {
+        result.remove("--adaptive");
+    }
+    return result;
+}
+
 std::string ViewWords::command(std::int64_t samples) const
 {
+    return ending_after(samples).line();
+}
+
+std::string ViewWords::final_command() const
+{
+    return final_words().line();
+}
+
+std::string ViewWords::line() const
+{
     RenderOptionList render;
-    ending_after(samples).give_to(render.options);
+    give_to(render.options);
     std::string line = "bdpt render";
     for (const std::string& word : to_words(render.options)) {
         line += " " + shell_word(word);
@@ -92,10 +114,10 @@ std::string ViewWords::command(std::int64_t samples) const
     return line;
 }
 
-std::string ViewWords::job(std::int64_t samples) const
+std::string ViewWords::final_job() const
 {
     RenderOptionList render;
-    ViewWords absolute = ending_after(samples);
+    ViewWords absolute = final_words();
     for (const Option& option : render.options.all()) {
         const auto found = absolute.texts_.find(option.name());
         if (found == absolute.texts_.end() || !option.info.is_path) {

@@ -25,14 +25,18 @@ public:
     /// Returns the text of an option; empty: not given.
     [[nodiscard]] std::string text(std::string_view option) const;
 
-    /// Parses the words. Throws `OptionError` for texts that are invalid, alone or together.
+    /// Parses the words; without --spp and --noise, for `view_samples`. Throws `OptionError` for
+    /// texts that are invalid, alone or together.
     [[nodiscard]] RenderArguments arguments() const;
-    /// Returns the command line that renders the same with `samples` per pixel, as one line for a
-    /// shell.
+    /// Returns the command line that renders the picture with `samples` per pixel to the bit, as
+    /// one line for a shell.
     [[nodiscard]] std::string command(std::int64_t samples) const;
-    /// Returns the equivalent job (options/job_file.h). All its paths are absolute, as it may be
-    /// saved anywhere.
-    [[nodiscard]] std::string job(std::int64_t samples) const;
+    /// Returns the command line of the final render: with --spp, --noise and --adaptive as given to
+    /// `bdpt view`, else by the defaults of `bdpt render`.
+    [[nodiscard]] std::string final_command() const;
+    /// Returns the job of the final render (options/job_file.h). All its paths are absolute, as it
+    /// may be saved anywhere.
+    [[nodiscard]] std::string final_job() const;
 
     [[nodiscard]] bool operator==(const ViewWords&) const = default;
 
@@ -41,7 +45,10 @@ private:
     void give_to(OptionList& options) const;
     /// Returns the words with --spp instead of all options that end a render.
     [[nodiscard]] ViewWords ending_after(std::int64_t samples) const;
+    [[nodiscard]] ViewWords final_words() const;
+    [[nodiscard]] std::string line() const;
 
+    bool sets_adaptive_ = false;  ///< --adaptive was not given
     std::map<std::string, std::vector<std::string>, std::less<>> texts_;  ///< by name of option
 };
 

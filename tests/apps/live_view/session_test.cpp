@@ -237,6 +237,41 @@ TEST_CASE("what is seen has the bits of the command that can be copied", "[live_
     CHECK(frame->sequences.at(me) == static_cast<std::uint32_t>(viewing.sequence()));
 }
 
+TEST_CASE("a picture is finished after the samples that the help names", "[live_view]")
+{
+    app::ViewRequest request;
+    app::OptionList options;
+    app::add_view_command_options(options, request);
+    Viewing viewing({"--size=4x4", "--integrator=pt"});
+    const json samples = viewing.finished().at("slots").at(0).at("samples");
+    CHECK(options.at("--spp").help.ends_with("Default: " + samples.dump()));
+    CHECK(samples > 64);
+}
+
+TEST_CASE("the command and the job of the final render end as asked, not where the picture is",
+          "[live_view]")
+{
+    const auto has = [](const json& state, const std::string& word) {
+        return state.at("final_command").get<std::string>().find(word) != std::string::npos;
+    };
+    const auto job = [](Viewing& viewing) {
+        return json::parse(text_of(viewing.saved("save.json")));
+    };
+    {
+        Viewing viewing({"--noise=60%", "--spp=16"});
+        const json state = viewing.finished();
+        CHECK(has(state, "--noise=60%"));
+        CHECK(has(state, "--spp=16"));
+        CHECK_FALSE(has(state, "--adaptive"));
+        CHECK(job(viewing).at("noise") == "60%");
+    }
+    Viewing viewing({"--size=4x4", "--integrator=pt"});
+    const json state = viewing.finished();
+    CHECK_FALSE(has(state, "--spp"));
+    CHECK_FALSE(job(viewing).contains("spp"));
+    CHECK(state.at("command").get<std::string>().find("--spp=") != std::string::npos);
+}
+
 TEST_CASE("two integrators have the same view and samples of their own", "[live_view]")
 {
     Viewing viewing({"--spp=4", "--integrator=mis"});
@@ -275,7 +310,7 @@ TEST_CASE("settings that cannot be are refused, and change nothing", "[live_view
     const json after =
         viewing.listener().state([](const json& state) { return state.at("curve") == "agx"; });
     for (const auto& [key, value] : before.items()) {
-        if (key != "curve" && key != "command") {
+        if (key != "curve" && key != "command" && key != "final_command") {
             CAPTURE(key);
             CHECK(after.at(key) == value);
         }

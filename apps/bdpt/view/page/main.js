@@ -158,17 +158,27 @@ const save = {
   job: () => download("save.json"),
 };
 
-async function copyCommand() {
-  const field = byId("command");
+/** Copies a command and tells so on the button `id`, whose label returns after a moment. */
+async function copyCommand(id, command) {
+  const button = byId(id);
+  const label = button.dataset.label || button.textContent;
+  button.dataset.label = label;
   try {
-    await navigator.clipboard.writeText(field.value);
+    await navigator.clipboard.writeText(command);
   } catch (error) {
+    const field = byId("command");
+    const shown = field.value;
+    field.value = command;
     field.select();
     document.execCommand("copy");
+    field.value = shown;
   }
-  byId("copy").textContent = "Copied";
-  setTimeout(() => { byId("copy").textContent = "Copy command"; }, 1500);
+  button.textContent = "Copied";
+  setTimeout(() => { button.textContent = label; }, 1500);
 }
+
+const copyFinal = () => state && copyCommand("copy", state.final_command);
+const copySeen = () => state && copyCommand("copy-seen", state.command);
 
 function setExposure(value) {
   changeLook({ exposure: Math.min(Math.max(Math.round(10 * value) / 10, -20), 20) });
@@ -216,7 +226,8 @@ const KEYS = [
   ["S, E, J", "save PNG, EXR, job", ["s"], save.png],
   [null, null, ["e"], save.exr],
   [null, null, ["j"], save.job],
-  ["C", "copy the command", ["c"], copyCommand],
+  ["C", "copy the command for the final render", ["c"], copyFinal],
+  ["V", "copy the command of what is seen now", ["v"], copySeen],
   ["?", "this list", ["?"], () => byId("keys").showModal()],
 ];
 
@@ -250,7 +261,8 @@ function bindButtons() {
   byId("save-png").addEventListener("click", save.png);
   byId("save-exr").addEventListener("click", save.exr);
   byId("save-job").addEventListener("click", save.job);
-  byId("copy").addEventListener("click", copyCommand);
+  byId("copy").addEventListener("click", copyFinal);
+  byId("copy-seen").addEventListener("click", copySeen);
 }
 
 byId("stage-box").prepend(stage.canvas);

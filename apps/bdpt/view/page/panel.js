@@ -62,7 +62,7 @@ class Panel {
       byId("message").textContent = state.message || "";
     }
     this.showNotes(state.warnings || []);
-    byId("command").value = state.command;
+    byId("command").value = state.final_command;
     byId("status").replaceChildren(...state.slots.flatMap((slot) => createStatus(slot, state.slots.length > 1)));
   }
 

@@ -89,12 +89,14 @@ TEST_CASE("without libktx a file that requires it is refused, or rendered withou
     const std::string none = lantern.path("none.so");
     const Outcome refused = lantern.render({"--ktx-library", none});
     CHECK(refused.exit_code == 5);
-    CHECK(refused.err ==
-          "bdpt: error: " + lantern.path("cube.gltf") +
-              ": /extensionsRequired/0: the file requires \"KHR_texture_basisu\", KTX2 textures: "
-              "libktx was not found: " +
-              none + ": cannot open shared object file: No such file or directory. libktx 4 is " +
-              "part of https://github.com/KhronosGroup/KTX-Software\n");
+    CHECK(
+        refused.err ==
+        "bdpt: error: " + lantern.path("cube.gltf") +
+            ": /extensionsRequired/0: the file requires \"KHR_texture_basisu\", KTX2 textures: "
+            "libktx was not found: " +
+            none + ": cannot open shared object file: No such file or directory. libktx 4 is " +
+            "part of https://github.com/KhronosGroup/KTX-Software (--ignore-required renders it " +
+            "without)\n");
     const Outcome ignored = lantern.render({"--ktx-library", none, "--ignore-required"});
     CHECK(ignored.exit_code == 0);
     CHECK(contains(ignored.err, "warning: " + lantern.path("cube.gltf") +

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "options/foreign_words.h"
 #include "options/job_file.h"
 #include "options/values/default_output.h"
 #include "options/values/file_pattern.h"
@@ -37,6 +38,7 @@ void check_scenes(const std::vector<fs::path>& scenes, const OptionList& options
         }
     }
     for (const fs::path& scene : scenes) {
+        check_scene_word(scene.string(), options);
         if (scene == "-" || is_job(scene)) {
             throw OptionError(
                 fmt::format("{}: only scene files can be rendered together", scene.string()));

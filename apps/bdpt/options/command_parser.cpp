@@ -10,6 +10,7 @@
 #include <sstream>
 #include <utility>
 
+#include "options/foreign_words.h"
 #include "terminal/standard_streams.h"
 #include "terminal/text.h"
 
@@ -207,6 +208,7 @@ std::string explain(const Program& program, const CLI::App& app, const CLI::App*
                           : fmt::format("{}; see \"{}\"", complaint(error), help);
     }
     const std::string& word = extras.front();
+    const Command* const known = command != nullptr ? program.find(command->get_name()) : nullptr;
     if (!word.starts_with("-")) {
         const bool is_scene = word.ends_with(".gltf") || word.ends_with(".glb");
         if (command == nullptr && is_scene) {
@@ -217,13 +219,21 @@ std::string explain(const Program& program, const CLI::App& app, const CLI::App*
                    ? unknown_command(program, word, help)
                    : fmt::format("unexpected argument \"{}\"; see \"{}\"", word, help);
     }
+    const std::string name = word.substr(0, word.find('='));
+    if (const auto advice =
+            advice_for_option(name, known != nullptr ? known->options : OptionList())) {
+        return fmt::format("unknown option {}: {}; see \"{}\"", name, *advice, help);
+    }
+    if (known != nullptr && known->options.find(name) != nullptr) {
+        return fmt::format("{} comes after the command, as in bdpt {} {}; see \"{}\"", name,
+                           known->name, word, help);
+    }
     std::vector<std::string> names;
     for (const CLI::Option* option : (command != nullptr ? *command : app).get_options()) {
-        for (const std::string& name : option->get_lnames()) {
-            names.push_back("--" + name);
+        for (const std::string& long_name : option->get_lnames()) {
+            names.push_back("--" + long_name);
         }
     }
-    const std::string name = word.substr(0, word.find('='));
     const std::optional<std::string> meant = closest(name, names);
     return fmt::format("unknown option {}{}; see \"{}\"", name,
                        meant ? fmt::format(" (did you mean {}?)", *meant) : "", help);
@@ -242,17 +252,26 @@ const Command* Program::find(std::string_view wanted) const
 std::string unknown_command(const Program& program, const std::string& word,
                             const std::string& help)
 {
-    return fmt::format("unknown command \"{}\": expected {}; see \"{}\"", word,
+    std::vector<std::string> names;
+    for (const Command& command : program.commands) {
+        names.push_back(command.name);
+    }
+    const std::optional<std::string> near = closest(word, names);
+    const std::optional<std::string_view> same = command_for(word);
+    return fmt::format("unknown command \"{}\"{}: expected {}; see \"{}\"", word,
+                       same || near ? fmt::format(" (did you mean {}?)", same ? *same : *near) : "",
                        command_names(program), help);
 }
 
 ParsedLine parse(Program& program, const std::vector<std::string>& words)
 {
     const auto end = std::find(words.begin(), words.end(), "--");
-    const auto all = std::find(words.begin(), end, help_all);
-    if (all != end && program.find(words.front()) != nullptr &&
-        !program.find(words.front())->essentials.empty()) {
-        return {.text = help_text(program, words.front(), HelpDetail::all)};
+    const Command* const first = program.find(words.front());
+    if (std::find(words.begin(), end, help_all) != end) {
+        return {.text = help_text(program, first != nullptr ? first->name : "", HelpDetail::all)};
+    }
+    if (first != nullptr) {
+        check_dashes(words, first->options);
     }
     // Errors name options that the short help hides, too.
     CommandLineParser parser(program, HelpDetail::all);

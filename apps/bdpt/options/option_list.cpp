@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "options/arguments.h"
+#include "options/foreign_words.h"
 
 namespace bdpt::app {
 namespace {
@@ -84,11 +85,21 @@ std::string Option::word() const
 
 std::string Option::spelled(std::string text) const
 {
+    if (info.respelled) {
+        text = info.respelled(std::move(text));
+    }
     const auto word = std::find_if(info.words.begin(), info.words.end(),
                                    [small = lower_case(text)](const std::string& known) {
                                        return lower_case(known) == small;
                                    });
     return word != info.words.end() ? *word : text;
+}
+
+std::optional<std::string> Option::meant(const std::string& text) const
+{
+    const std::string small = lower_case(text);
+    const std::optional<std::string_view> known = value_for(name(), small);
+    return known ? std::string(*known) : closest(small, info.words);
 }
 
 void OptionList::section(std::string title, OptionUses uses)
@@ -143,6 +154,7 @@ void OptionList::reject_value(std::string_view name, std::string_view expected) 
 void OptionList::store_given()
 {
     for (Option& option : options_) {
+        const std::vector<std::string> typed = option.texts;
         for (std::string& text : option.texts) {
             text = option.spelled(std::move(text));
         }
@@ -153,7 +165,9 @@ void OptionList::store_given()
         const std::size_t first = option.repeats || !option.given() ? 0 : option.texts.size() - 1;
         for (std::size_t i = first; i < option.texts.size(); ++i) {
             if (!option.store(option.texts[i])) {
-                reject(option.name(), option.texts[i], option.expected);
+                const std::optional<std::string> meant = option.meant(typed[i]);
+                reject(option.name(), typed[i],
+                       option.expected + (meant ? fmt::format(" (did you mean {}?)", *meant) : ""));
             }
         }
     }

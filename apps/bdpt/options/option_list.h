@@ -41,6 +41,9 @@ struct ValueInfo {
     bool may_be_number = false;        ///< a text that JSON may give as a number
     /// Between several numbers, which may be an array in JSON; 0: a single value.
     char separator = '\0';
+    /// Returns the documented spelling of a text that clearly means the same, such as 1000 for 1e3;
+    /// any other text unchanged. Null: there is none.
+    std::function<std::string(std::string)> respelled{};
 };
 
 /// Conversion of a text to a value.
@@ -101,8 +104,11 @@ struct Option {
     [[nodiscard]] bool given() const { return !texts.empty(); }
     /// Returns the option with its value as one equivalent word: "--spp=64", "--half".
     [[nodiscard]] std::string word() const;
-    /// Returns `text`, or the word of `info.words` that it equals up to capital letters.
+    /// Returns `text` as documented: with the capital letters of `info.words`, and as
+    /// `info.respelled` returns it.
     [[nodiscard]] std::string spelled(std::string text) const;
+    /// Returns the value that the invalid `text` probably meant, if any.
+    [[nodiscard]] std::optional<std::string> meant(const std::string& text) const;
 };
 
 /// An option that the short help of a command shows.

@@ -104,7 +104,7 @@ void add_image_output(OptionList& options, RenderRequest& request)
     options
         .add_flag("-v,--verbose", "Print also how the render was set up",
                   arguments.printed.verbosity, verbosities.type())
-        .uses = {.job = false};
+        .uses = {.stated_in = StatedIn::command_line};
     add_json_option(options, arguments.printed,
                     "Print one JSON object per line on stdout: start, progress, note, warning, "
                     "done, error. With --quiet only done and error");

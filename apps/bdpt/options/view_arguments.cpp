@@ -49,8 +49,10 @@ const char* const view_short_footer = R"(Examples:
 
 "bdpt view --help-all" has all options and the exit codes.)";
 
-std::optional<DisplayAddress> parse_listen_address(const std::string& text)
+std::optional<DisplayAddress> parse_listen_address(const std::string& typed)
 {
+    const bool is_port = !typed.empty() && parse_index(typed).has_value();
+    const std::string text = is_port ? "127.0.0.1:" + typed : typed;
     const std::size_t host_end = text.starts_with('[') ? text.find(']') : 0;
     const std::size_t colon = text.find(':', host_end == std::string::npos ? 0 : host_end);
     const bool has_port = colon != std::string::npos && text.substr(colon + 1) != "0";
@@ -87,10 +89,10 @@ void add_view_command_options(OptionList& options, ViewRequest& request)
         }
     }
     options.section("Server", {.stated_in = StatedIn::command_line});
-    options.add("--listen", "HOST[:PORT]",
+    options.add("--listen", "HOST[:PORT]|PORT",
                 "Address to listen on. Default: 127.0.0.1 (this machine only) and any free port",
                 request.arguments.listen,
-                parsed_by(parse_listen_address, "HOST or HOST:PORT, like 127.0.0.1:8080"));
+                parsed_by(parse_listen_address, "HOST, HOST:PORT or PORT, like 127.0.0.1:8080"));
     options.add_flag("--open", "Show the page in the browser (xdg-open)",
                      request.arguments.opens_browser);
 }

@@ -28,8 +28,9 @@ extern const char* const view_short_footer;
 /// Samples per pixel of a finished picture, unless --spp says otherwise.
 inline constexpr std::int64_t view_samples = 4096;
 
-/// Parses "HOST", "HOST:PORT", ":PORT" or "[IPV6]:PORT"; without a port, or with 0, any free one.
-[[nodiscard]] std::optional<DisplayAddress> parse_listen_address(const std::string& text);
+/// Parses "HOST", "HOST:PORT", ":PORT" or "[IPV6]:PORT", or "PORT" of this machine; without a port,
+/// or with 0, any free one.
+[[nodiscard]] std::optional<DisplayAddress> parse_listen_address(const std::string& typed);
 
 /// Adds the options of `bdpt view`: those of `bdpt render` that select what is shown, and its own.
 void add_view_command_options(OptionList& options, ViewRequest& request);

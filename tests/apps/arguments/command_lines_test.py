@@ -1,18 +1,21 @@
 """Compares the output of many command lines with recorded output: command_lines_test.py [--record] BDPT SCENES.
 
 command_lines.txt has a block for each: the line, the exit code, the output (> standard output, ! standard error) and
-the files that were written (+). The lines run one after the other in one folder, with box.gltf (a scene of SCENES),
-sky.hdr and empty.gltf. --record writes the current output: review the difference before committing it.
+the files that were written (+). near_misses.txt has lines that people type who know other programs: each is understood,
+or answered with what to type. The lines of a table run one after the other in one folder, with box.gltf (a scene of
+SCENES), sky.hdr, empty.gltf, and files that are no scenes. --record writes the current output: review the difference
+before committing it.
 """
 
 import pathlib
 import shlex
-import shutil
 import subprocess
 import sys
 import tempfile
 
-TABLE = pathlib.Path(__file__).with_name("command_lines.txt")
+TABLES = {"command_lines.txt": 300, "near_misses.txt": 60}  # with the least number of lines
+KTX = b'''{"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_texture_basisu"],
+"extensionsRequired": ["KHR_texture_basisu"]}'''
 SKY = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81"
 
 
@@ -40,17 +43,17 @@ def read_table(text):
     return [block.splitlines() for block in text.strip().split("\n\n")]
 
 
-def main():
-    record = sys.argv[1] == "--record"
-    bdpt, scenes = sys.argv[-2], pathlib.Path(sys.argv[-1])
-    blocks = read_table(TABLE.read_text())
+def check_table(table, bdpt, scenes, record):
+    """Runs the lines of one table; returns how many there are, and how many have another answer."""
+    blocks = read_table(table.read_text())
     wrong = 0
     now = []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        shutil.copy(scenes / "cornell-box.gltf", folder / "box.gltf")
-        (folder / "sky.hdr").write_bytes(SKY)
-        (folder / "empty.gltf").write_bytes(b"")
+        scene = (scenes / "cornell-box.gltf").read_bytes()
+        for file, content in {"box.gltf": scene, "sky.hdr": SKY, "empty.gltf": b"", "cut.gltf": scene[:len(scene) // 2],
+                              "notes.md": b"# Notes\n", "model.obj": b"v 0 0 0\n", "ktx.gltf": KTX}.items():
+            (folder / file).write_bytes(content)
         for block in blocks:
             if block[0].startswith("#"):
                 now.append(block)
@@ -60,11 +63,19 @@ def main():
                 wrong += 1
                 print("recorded:", *block, "now:", *now[-1], "", sep="\n")
     if record:
-        TABLE.write_text("\n\n".join("\n".join(block) for block in now) + "\n")
-    lines = sum(block[0].startswith("$") for block in blocks)
-    print(f"{lines} command lines, {wrong} with another answer")
-    assert lines >= 300, "the table is not whole"
-    return 1 if wrong else 0
+        table.write_text("\n\n".join("\n".join(block) for block in now) + "\n")
+    return sum(block[0].startswith("$") for block in blocks), wrong
+
+
+def main():
+    failed = False
+    for name, least in TABLES.items():
+        lines, wrong = check_table(pathlib.Path(__file__).with_name(name), sys.argv[-2], pathlib.Path(sys.argv[-1]),
+                                   sys.argv[1] == "--record")
+        print(f"{name}: {lines} command lines, {wrong} with another answer")
+        assert lines >= least, "the table is not whole"
+        failed = failed or wrong > 0
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

@@ -165,9 +165,10 @@ TEST_CASE("where to listen is a host, and perhaps a port", "[live_view]")
     CHECK(parse_listen_address("127.0.0.1") == DisplayAddress{.host = "127.0.0.1", .port = "0"});
     CHECK(parse_listen_address("127.0.0.1:0") == DisplayAddress{.host = "127.0.0.1", .port = "0"});
     CHECK(parse_listen_address(":8080") == DisplayAddress{.host = "localhost", .port = "8080"});
+    CHECK(parse_listen_address("8080") == DisplayAddress{.host = "127.0.0.1", .port = "8080"});
     CHECK(parse_listen_address("[::1]:80") == DisplayAddress{.host = "::1", .port = "80"});
     CHECK(parse_listen_address("[::1]") == DisplayAddress{.host = "::1", .port = "0"});
-    for (const char* wrong : {"", "a:b", "a:70000", "a b", "[::1", "a:-1"}) {
+    for (const char* wrong : {"", "a:b", "a:70000", "70000", "a b", "[::1", "a:-1"}) {
         CAPTURE(wrong);
         CHECK_FALSE(parse_listen_address(wrong));
     }

@@ -2,10 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "options/arguments.h"
 #include "options/values/output_files.h"
@@ -36,6 +38,37 @@ std::optional<io::SrgbColor> parse_hexadecimal(std::string_view text)
     return color;
 }
 
+/// Returns the digits of a colour that has a name in CSS, of its first level; empty: none of them.
+std::string_view named_digits(std::string_view name)
+{
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 19> colors{
+        {{"black", "000000"},
+         {"silver", "c0c0c0"},
+         {"gray", "808080"},
+         {"grey", "808080"},
+         {"white", "ffffff"},
+         {"maroon", "800000"},
+         {"red", "ff0000"},
+         {"purple", "800080"},
+         {"fuchsia", "ff00ff"},
+         {"green", "008000"},
+         {"lime", "00ff00"},
+         {"olive", "808000"},
+         {"yellow", "ffff00"},
+         {"navy", "000080"},
+         {"blue", "0000ff"},
+         {"teal", "008080"},
+         {"aqua", "00ffff"},
+         {"cyan", "00ffff"},
+         {"orange", "ffa500"}}};
+    for (const auto& [known, digits] : colors) {
+        if (known == name) {
+            return digits;
+        }
+    }
+    return {};
+}
+
 /// Parses "1,0.5,0": fractions of the brightest value of a screen.
 std::optional<io::SrgbColor> parse_parts(std::string_view text)
 {
@@ -59,14 +92,14 @@ std::optional<Backdrop> parse_backdrop(std::string_view given)
     if (text == "transparent") {
         return Backdrop{};
     }
-    if (text == "black" || text == "white") {
-        return Backdrop{.color = *parse_hexadecimal(text == "black" ? "000" : "fff")};
+    if (const std::string_view digits = named_digits(text); !digits.empty()) {
+        return Backdrop{.color = parse_hexadecimal(digits)};
     }
-    const bool has_sign = text.starts_with('#');
+    const std::size_t sign = text.starts_with('#') ? 1 : text.starts_with("0x") ? 2 : 0;
     const std::optional<io::SrgbColor> color =
         text.find(',') != std::string::npos
             ? parse_parts(text)
-            : parse_hexadecimal(std::string_view(text).substr(has_sign ? 1 : 0));
+            : parse_hexadecimal(std::string_view(text).substr(sign));
     if (color) {
         return Backdrop{.color = color};
     }
@@ -121,12 +154,13 @@ void add_display_options(OptionList& options, DisplayArguments& display)
         "--background", "transparent|black|white|#RRGGBB|FILE",
         "Replace the environment where the camera sees it directly; it still lights the scene. "
         ".exr gets alpha (premultiplied colours); .png and .webp get alpha (transparent), this "
-        "sRGB colour, or a photograph (.png, .jpg, .webp, .exr, .hdr) that fills the frame",
+        "sRGB colour (or red, grey, ...), or a photograph (.png, .jpg, "
+        ".webp, .exr, .hdr) that fills the frame",
         display.backdrop,
         parsed_by(
             [](const std::string& text) { return parse_backdrop(text); },
-            "transparent, black, white, a colour like #f0f0f0, #fff or 0.9,0.9,0.9, or the name "
-            "of a .png, .jpg, .webp, .exr or .hdr file"));
+            "transparent, a colour like white, #f0f0f0, #fff or 0.9,0.9,0.9, or the name of a "
+            ".png, .jpg, .webp, .exr or .hdr file"));
     background.info.separator = ',';
     background.uses.plan_render = true;    // its alpha is needed for merging
     background.uses.python_render = true;  // and for save()

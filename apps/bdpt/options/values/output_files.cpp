@@ -23,6 +23,34 @@ constexpr std::string_view stats_start = "{\n  \"version\": \"";  // report/stat
 
 }  // namespace
 
+namespace {
+
+/// Returns the message for an output whose name does not end in a known extension.
+std::string unknown_type(const fs::path& output)
+{
+    static constexpr std::array<std::string_view, 5> films{".mp4", ".mov", ".avi", ".mkv", ".webm"};
+    const bool is_film = std::any_of(films.begin(), films.end(), [&](std::string_view film) {
+        return has_extension(output, film);
+    });
+    const std::string name = fs::path(output).replace_extension().string();
+    if (is_film) {
+        return fmt::format(
+            "{0}: is a video: write frames with --orbit or --frames, -o '{1}.###.png', "
+            "and join them with a program such as ffmpeg",
+            output.string(), name);
+    }
+    const bool is_linear = has_extension(output, ".pfm") || has_extension(output, ".dpx");
+    return fmt::format(
+        "{}: unknown type of image: the name must end in .exr, .hdr, .png, .jpg or "
+        ".webp{}",
+        output.string(),
+        output.has_filename()
+            ? fmt::format(" (did you mean {}{}?)", name, is_linear ? ".exr" : ".png")
+            : "");
+}
+
+}  // namespace
+
 std::optional<ImageType> find_type(const fs::path& output)
 {
     using enum ImageType;
@@ -75,9 +103,7 @@ void check_outputs(std::span<const fs::path> outputs, const FileSet& inputs)
     FileSet known;
     for (const fs::path& output : outputs) {
         if (!find_type(output)) {
-            throw Error(ErrorCode::usage, fmt::format("{}: unknown type of image: the name must "
-                                                      "end in .exr, .hdr, .png, .jpg or .webp",
-                                                      output.string()));
+            throw Error(ErrorCode::usage, unknown_type(output));
         }
         if (!known.add(output)) {
             throw Error(ErrorCode::usage,

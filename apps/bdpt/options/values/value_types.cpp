@@ -23,6 +23,33 @@ std::optional<Number> to_number(const std::string& text)
     return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
 }
 
+/// Returns 1e3 and 1000.0 as "1000"; texts that are no whole number are unchanged.
+std::string whole_spelling(std::string text)
+{
+    constexpr double exact = 0x1p53;
+    const bool has_digits_only = text.find_first_of(".eE") == std::string::npos;
+    const std::optional<double> value = has_digits_only ? std::nullopt : to_number<double>(text);
+    const bool is_whole = value && std::abs(*value) <= exact && *value == std::trunc(*value);
+    return is_whole ? fmt::format("{:.0f}", *value) : text;
+}
+
+/// Returns "512,512", "512*512" and "512x512px" as "512x512"; other texts are unchanged.
+std::string size_spelling(std::string text)
+{
+    std::string plain = lower_case(text);
+    const std::size_t cross = plain.find("\u00d7");  // the multiplication sign
+    if (cross != std::string::npos) {
+        plain.replace(cross, std::string_view("\u00d7").size(), "x");
+    }
+    std::erase(plain, ' ');
+    for (std::size_t unit = plain.find("px"); unit != std::string::npos; unit = plain.find("px")) {
+        plain.erase(unit, 2);
+    }
+    std::replace_if(
+        plain.begin(), plain.end(), [](char c) { return c == ',' || c == '*' || c == ':'; }, 'x');
+    return parse_size(plain) ? plain : text;
+}
+
 template <typename Accept>
 ValueType<double> number_that(const Accept& accept, std::string expected, Range range = {})
 {
@@ -99,7 +126,8 @@ ValueType<std::int64_t> whole_number(std::int64_t least, std::int64_t most)
     return {.parse = parse,
             .expected = fmt::format("a whole number from {} to {}", least, most),
             .info = {.json = JsonType::whole_number,
-                     .range = {static_cast<double>(least), static_cast<double>(most)}}};
+                     .range = {static_cast<double>(least), static_cast<double>(most)},
+                     .respelled = whole_spelling}};
 }
 
 ValueType<std::uint64_t> any_seed()
@@ -160,6 +188,7 @@ ValueType<Size> image_size()
         parsed_by([](const std::string& text) { return parse_size(text); },
                   "WIDTHxHEIGHT from 1x1 to 65535x65535, or one number for both");
     type.info.separator = 'x';
+    type.info.respelled = size_spelling;
     return type;
 }
 

@@ -79,6 +79,13 @@ std::optional<std::string_view> find(std::span<const Kind> kinds, ByteView bytes
     return found == kinds.end() ? std::nullopt : std::optional(found->name);
 }
 
+/// Returns `text` without the byte order mark that it may begin with.
+ByteView without_mark(ByteView text)
+{
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    return starts_with(text, byte_order_mark) ? text.subspan(byte_order_mark.size()) : text;
+}
+
 bool is_space(std::uint8_t byte)
 {
     return byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n';
@@ -94,9 +101,7 @@ std::optional<std::string_view> other_kind(ByteView file)
     if (const auto kind = find(binary_kinds, file)) {
         return kind;
     }
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-    ByteView text =
-        starts_with(file, byte_order_mark) ? file.subspan(byte_order_mark.size()) : file;
+    ByteView text = without_mark(file);
     const auto first = std::find_if_not(text.begin(), text.end(), is_space);
     text = text.subspan(static_cast<std::size_t>(first - text.begin()));
     if (text.empty()) {
@@ -116,12 +121,16 @@ std::optional<std::string> kind_instead_of_gltf(ByteView bytes, const std::files
         std::find_if(std::begin(models), std::end(models), [end](const Kind& model) {
             return end.size() == model.start.size() && starts_with(end, model.start);
         });
-    const auto first = std::find_if_not(bytes.begin(), bytes.end(), is_space);
-    const bool may_be_gltf = first == bytes.end() || *first == '{';
+    const ByteView text = without_mark(bytes);
+    const auto first = std::find_if_not(text.begin(), text.end(), is_space);
+    const bool may_be_gltf = first == text.end() || *first == '{';
     const std::optional<std::string_view> kind =
         named != std::end(models) && !may_be_gltf ? std::optional(named->name) : other_kind(bytes);
-    if (!kind) {
+    if (!kind && (may_be_gltf || *first == '[')) {
         return std::nullopt;
+    }
+    if (!kind) {
+        return "another kind of file: expected .gltf, which is JSON, or .glb";
     }
     const bool is_model = std::any_of(std::begin(models), std::end(models),
                                       [&](const Kind& model) { return model.name == *kind; });

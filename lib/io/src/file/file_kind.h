@@ -14,7 +14,7 @@ namespace bdpt::io {
 [[nodiscard]] std::optional<std::string_view> other_kind(ByteView file);
 
 /// Names the kind of a file that should be glTF but is not, also by its extension ("an STL file"),
-/// and what to do with models of other formats; none if unknown.
+/// and what to do with models of other formats; none if it may be JSON.
 [[nodiscard]] std::optional<std::string> kind_instead_of_gltf(ByteView bytes,
                                                               const std::filesystem::path& file);
 

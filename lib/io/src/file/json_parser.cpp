@@ -84,7 +84,7 @@ void check_members(const OrderedJson& object)
 template <typename Document>
 class LimitedBuilder {
 public:
-    explicit LimitedBuilder(const ReadLimits& limits) : limits_(limits) {}
+    LimitedBuilder(const ReadLimits& limits, std::size_t size) : limits_(limits), size_(size) {}
 
     [[nodiscard]] Document take() { return std::move(root_); }
 
@@ -116,6 +116,12 @@ public:
 
     bool parse_error(std::size_t byte, const std::string&, const std::exception& error)
     {
+        if (byte > size_) {
+            throw Error(ErrorCode::invalid_input,
+                        fmt::format("JSON: ends in the middle, after {} bytes: it was cut off, or "
+                                    "a bracket or quote is not closed",
+                                    size_));
+        }
         throw Error(ErrorCode::invalid_input,
                     fmt::format("JSON: byte {}: {}", byte, explanation(error.what())));
     }
@@ -163,6 +169,7 @@ private:
     }
 
     ReadLimits limits_;
+    std::size_t size_;  // bytes of the text
     Document root_;
     std::vector<Document*> open_;
     Document* slot_ = nullptr;
@@ -176,7 +183,7 @@ Document parse(ByteView text, const ReadLimits& limits)
         throw Error(ErrorCode::invalid_input, fmt::format("JSON of {} bytes, but the limit is {}",
                                                           text.size(), limits.json_bytes));
     }
-    LimitedBuilder<Document> builder(limits);
+    LimitedBuilder<Document> builder(limits, text.size());
     if (!Document::sax_parse(text.begin(), text.end(), &builder)) {
         throw Error(ErrorCode::invalid_input, "JSON: malformed");
     }

@@ -120,8 +120,11 @@ std::vector<ExtensionUse> check_extensions(const JsonPlace& root, LoadContext& c
             const JsonPlace place = required.element(i);
             ExtensionUse use = describe(place);
             if (const auto obstacle = obstacle_to(use, context)) {
-                if (!context.ignore_required || is_about_meshes(use.name)) {
-                    place.fail("the file " + *obstacle, ErrorCode::unsupported);
+                const bool may_ignore = !is_about_meshes(use.name);
+                if (!context.ignore_required || !may_ignore) {
+                    place.fail("the file " + *obstacle +
+                                   (may_ignore ? " (--ignore-required renders it without)" : ""),
+                               ErrorCode::unsupported);
                 }
                 context.warn(WarningKind::loss, "loaded without what the file requires",
                              place.pointer() + ": it " + *obstacle);

@@ -1,3 +1,4 @@
+#include <bdpt/default_lights.h>
 #include <bdpt/error.h>
 #include <bdpt/framing.h>
 #include <bdpt/scene_desc.h>
@@ -160,15 +161,31 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
         throw Error(ErrorCode::usage, fmt::format("size: {} x {} pixels", size.first, size.second));
     }
     Scene scene(describe(meshes, lights));
+    std::string environment = "scene";
+    std::vector<app::Note> notes;
+    if (lights.empty()) {  // as load() does for files
+        const FramedView framed = metered_view(scene);
+        const DefaultLights missing = missing_lights(scene, framed);
+        if (missing != DefaultLights::none) {
+            scene = scene.with_lights(default_lights(missing, framed));
+            environment = "default";
+            notes.push_back(
+                missing == DefaultLights::sky
+                    ? app::Note{"default_sky",
+                                "no light: lit by the default environment, a soft sky"}
+                    : app::Note{"default_lamp", "a closed room without light: lit by a lamp"});
+        }
+    }
     const float aspect = static_cast<float>(size.first) / static_cast<float>(size.second);
     CameraDesc view = camera ? *camera : frame_scene(scene, aspect).camera;
     std::vector<std::string> warnings = scene.warnings();
     const std::size_t count = scene.counts().lights;
     new (self) PythonScene{.stage = {.scene = std::move(scene),
                                      .camera = view,
-                                     .environment_name = "scene",
+                                     .environment_name = environment,
                                      .size = {size.first, size.second},
                                      .warnings = std::move(warnings),
+                                     .notes = std::move(notes),
                                      .lights = count,
                                      .cameras = {view},
                                      .memory = io::MemoryBudget(app::memory_limit(std::nullopt))},
@@ -206,8 +223,8 @@ void bind_parts_of_scenes(nb::module_& module)
     nb::cast<nb::class_<PythonScene>>(scene).def(
         "__init__", &make_scene, nb::arg("meshes"), nb::arg("lights") = std::vector<ArrayLight>(),
         nb::arg("camera") = nb::none(), nb::arg("size") = std::pair(1280, 720),
-        "Scene of meshes, lights and a camera; without a camera, the whole scene is framed. Arrays "
-        "are copied.");
+        "Scene of meshes, lights and a camera; without a camera, the whole scene is framed, and "
+        "without light it gets a soft sky (and a lamp in a closed room). Arrays are copied.");
 }
 
 }  // namespace bdpt::python

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -29,6 +30,7 @@
 #include "options/values/output_files.h"
 #include "python_files.h"
 #include "python_render.h"
+#include "report/film_report.h"
 #include "report/image/backplate.h"
 #include "report/image/denoised.h"
 #include "report/image/image_files.h"
@@ -91,6 +93,39 @@ app::SequenceView only_view(const app::RenderArguments& arguments)
     return views.front();
 }
 
+/// Shows the view of a task in a scene, while this lives.
+class Shown {
+public:
+    Shown(PythonScene& scene, Task& task, app::Size size)
+        : scene_(scene), task_(task), own_camera_(scene.stage.camera), own_size_(scene.stage.size)
+    {
+        scene.stage.camera = task.camera;
+        scene.stage.size = size;
+        swap_scenes();
+    }
+    Shown(const Shown&) = delete;
+    Shown& operator=(const Shown&) = delete;
+    ~Shown()
+    {
+        swap_scenes();
+        scene_.stage.camera = own_camera_;
+        scene_.stage.size = own_size_;
+    }
+
+private:
+    void swap_scenes()
+    {
+        if (task_.turned) {
+            std::swap(scene_.stage.scene, *task_.turned);
+        }
+    }
+
+    PythonScene& scene_;
+    Task& task_;
+    CameraDesc own_camera_;
+    app::Size own_size_;
+};
+
 }  // namespace
 
 Task prepare(PythonScene& scene, const nb::kwargs& options)
@@ -121,18 +156,24 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
     arguments.options.sampling.samples = arguments.samples;
     if (app::meters_light(arguments, scene.stage)) {
         arguments.light_exposure =
-            app::metered_exposure(scene.stage, first);  // shared by all views of a turn
+            app::metered_exposure(scene.stage, arguments);  // shared by all views of a turn
     }
-    const app::Size own_size = std::exchange(scene.stage.size, size);
-    CameraDesc own_camera = std::exchange(scene.stage.camera, task.camera);
-    if (arguments.rates) {  // by a pilot or from a file, as in the command
-        const Unlocked unlocked;
-        app::TerminalConsole silent(arguments.printed.format, app::Verbosity::quiet);
-        arguments = with_choice(std::move(arguments), scene.stage, silent);
+    // Renders of a given time have no rates, as in the command.
+    arguments.may_adapt = arguments.may_adapt && !std::isfinite(arguments.goal.seconds);
+    const bool chooses = arguments.options.integrator == IntegratorKind::automatic;
+    {
+        const Shown shown(scene, task, size);
+        {
+            const Unlocked unlocked;
+            app::TerminalConsole silent(arguments.printed.format, app::Verbosity::quiet);
+            arguments = with_choice(std::move(arguments), scene.stage, silent);
+        }
+        nlohmann::ordered_json settings = make_settings(arguments, scene.stage);
+        if (chooses) {
+            settings["chosen_by"] = "auto";
+        }
+        task.metadata = make_metadata(arguments, scene.stage, settings);
     }
-    task.metadata = make_metadata(arguments, scene.stage, make_settings(arguments, scene.stage));
-    scene.stage.size = own_size;
-    scene.stage.camera = std::move(own_camera);
     return task;
 }
 
@@ -155,6 +196,24 @@ RenderControl make_control(const nb::object& progress)
 
 namespace {
 
+std::vector<Layer> all_layers(const RenderResult& part)
+{
+    return app::develop_layers(part.film, part.aovs, part.ids);
+}
+
+/// Warns in Python of a black image. Throws if the user has made an error of warnings.
+void warn_if_black(const Render& render, const PythonScene& scene)
+{
+    if (!app::is_black(render.part.image(), all_layers(render.part))) {
+        return;
+    }
+    const std::string text =
+        app::black_image_text(scene.file.empty() ? "scene of arrays" : scene.file);
+    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) {
+        throw nb::python_error();
+    }
+}
+
 Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kwargs& options)
 {
     const Task task = prepare(scene, options);
@@ -163,14 +222,12 @@ Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kw
     RenderControl control = make_control(progress);
     control.time_limit = arguments.goal.seconds;
     control.noise_goal = arguments.goal.noise.value_or(0.0);
-    const Unlocked unlocked;
-    result.part = bdpt::render(task.scene(scene), task.camera, arguments.options, control);
+    {
+        const Unlocked unlocked;
+        result.part = bdpt::render(task.scene(scene), task.camera, arguments.options, control);
+    }
+    warn_if_black(result, scene);
     return result;
-}
-
-std::vector<Layer> all_layers(const RenderResult& part)
-{
-    return app::develop_layers(part.film, part.aovs, part.ids);
 }
 
 /// Returns the ids of each kind, by name.

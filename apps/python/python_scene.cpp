@@ -122,6 +122,16 @@ void bind_scene(nb::module_& module)
             "warnings", [](const PythonScene& scene) { return scene.stage.warnings; },
             "Warnings of the command for this scene, one line each.")
         .def_prop_ro(
+            "notes",
+            [](const PythonScene& scene) {
+                std::vector<std::string> texts;
+                for (const app::Note& note : scene.stage.notes) {
+                    texts.push_back(note.text);
+                }
+                return texts;
+            },
+            "Notes of the command for this scene, one line each: a light or a camera was added.")
+        .def_prop_ro(
             "triangles",
             [](const PythonScene& scene) { return scene.stage.scene.counts().instanced_triangles; },
             "Number of triangles of all instances.")

@@ -67,17 +67,12 @@ std::string cube_of(const ScratchFolder& folder, const std::string& albedo)
 /// That of a still image [EV].
 double exposure_of_still(const ScratchFolder& folder, const std::string& scene, const Words& more)
 {
-    Words words{"render",
-                scene,
-                "--size",
-                "32x16",
-                "--spp",
-                "4",
-                "--json",
-                "--integrator",
-                "mis",
-                "-o",
-                (folder / "still.png").string()};
+    Words words{"render", scene,    "--spp",
+                "4",      "--json", "--integrator",
+                "mis",    "-o",     (folder / "still.png").string()};
+    if (std::find(more.begin(), more.end(), "--size") == more.end()) {
+        words.insert(words.end(), {"--size", "32x16"});
+    }
     words.insert(words.end(), more.begin(), more.end());
     const Outcome outcome = run(words);
     CAPTURE(outcome.err);
@@ -182,6 +177,20 @@ TEST_CASE("inside of a scene, and without an environment, the image decides on i
         CHECK(by_default == exposure_of_still(folder, scene, {"--exposure", "auto"}));
         CHECK(std::abs(by_default - exposure_of_still(folder, scene, {"--exposure", "light"})) >
               0.3);
+    }
+}
+
+TEST_CASE("the size of an image changes its exposure as little as its light")
+{
+    const ScratchFolder folder;
+    const std::string framed = write_cube(folder, "framed", {}).string();
+    const std::string seen = cube_of(folder, "0.5");  // by a camera of the file
+    for (const std::string& scene : {framed, seen}) {
+        const double usual = exposure_of_still(folder, scene, {});
+        for (const char* size : {"32x24", "16x32", "60x8"}) {
+            CAPTURE(scene, size);
+            CHECK(exposure_of_still(folder, scene, {"--size", size}) == usual);
+        }
     }
 }
 

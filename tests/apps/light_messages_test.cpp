@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -18,8 +19,10 @@ std::string said(const ScratchFolder& folder, const std::filesystem::path& scene
                  const std::vector<std::string>& more = {})
 {
     std::vector<std::string> words{
-        "render", scene.string(), "-o",  (folder / "out.exr").string(), "--spp",
-        "1",      "--size",       "16x8"};
+        "render", scene.string(), "-o", (folder / "out.exr").string(), "--spp", "1"};
+    if (std::find(more.begin(), more.end(), "--size") == more.end()) {
+        words.insert(words.end(), {"--size", "16x8"});
+    }
     words.insert(words.end(), more.begin(), more.end());
     const Outcome outcome = run(words);
     CAPTURE(outcome.err);
@@ -165,6 +168,67 @@ TEST_CASE("a scene without light but for a token emitter is lit by the sky, and 
         CHECK_FALSE(contains(said(folder, scene, {"--env", environment}), "no light"));
     }
     CHECK_FALSE(contains(said(folder, write_cube(folder, "lamp", one_lamp)), "no light"));
+}
+
+/// A cube that shines with `radiance` [nit] on a floor.
+std::filesystem::path cube_on_floor(const ScratchFolder& folder, double radiance)
+{
+    const std::filesystem::path scene = write_cube(folder, "shining", {});
+    nlohmann::json document = nlohmann::json::parse(std::ifstream(scene));
+    nlohmann::json floor = document["meshes"][0];
+    floor["primitives"][0]["material"] = 1;
+    document["materials"].push_back(document["materials"][0]);
+    document["materials"][0]["emissiveFactor"] = {radiance, radiance, radiance};
+    document["scenes"][0]["nodes"].push_back(document["nodes"].size());
+    document["nodes"].push_back({{"mesh", document["meshes"].size()},
+                                 {"scale", {2.5, 0.01, 2.5}},
+                                 {"translation", {0, -1.01, 0}}});
+    document["meshes"].push_back(floor);
+    write_text(scene, document.dump());
+    return scene;
+}
+
+TEST_CASE("the size of an image does not decide whether a scene gets a sky")
+{
+    const ScratchFolder folder;
+    for (const double radiance : {0.35, 0.4, 0.45}) {  // nearly bright enough, and just so
+        const std::filesystem::path scene = cube_on_floor(folder, radiance);
+        const auto has_sky = [&](const char* size) {
+            return contains(said(folder, scene, {"--json", "--size", size}),
+                            R"("environment":"default")");
+        };
+        for (const char* size : {"64x48", "36x64", "96x16"}) {
+            CAPTURE(radiance, size);
+            CHECK(has_sky(size) == has_sky("64x36"));
+        }
+    }
+}
+
+TEST_CASE("a black image is told, and no other, whatever lights there are")
+{
+    const ScratchFolder folder;
+    const std::string black = "black";
+    const std::filesystem::path dark = write_cube(folder, "dark", {.cameras = two_cameras});
+    CHECK(contains(said(folder, dark, {"--env", "none"}),
+                   "warning: " + dark.string() + ": no light: the image will be black"));
+    CHECK_FALSE(contains(said(folder, dark), black));
+    // What is unlit is seen without any light.
+    const std::filesystem::path unlit =
+        write_cube(folder, "unlit",
+                   {.material = R"({"extensions": {"KHR_materials_unlit": {}}})",
+                    .cameras = two_cameras,
+                    .more = R"("extensionsUsed": ["KHR_materials_unlit"],)"});
+    CHECK_FALSE(contains(said(folder, unlit, {"--env", "none"}), black));
+    // The studio lights do not reach the inside of a room.
+    CubeFile room = shining_room();
+    room.material = R"({"pbrMetallicRoughness": {"metallicFactor": 0}})";
+    const std::filesystem::path cave = write_cube(folder, "cave", room);
+    CHECK(contains(said(folder, cave, {"--env", "studio"}),
+                   "warning: " + cave.string() + ": the image is black: "));
+    CHECK_FALSE(contains(said(folder, cave), black));
+    // A region beside the cube is black before nothing, and it should be.
+    CHECK_FALSE(contains(
+        said(folder, dark, {"--env", "studio", "--aov", "alpha", "--crop", "0,0,2,2"}), black));
 }
 
 TEST_CASE("a closed room that its emitters light gets no lamp and no sky")

@@ -199,6 +199,56 @@ TEST_CASE("the film counts as a part of the memory of a render")
     CHECK(no_room.err.find("but 1 kB of 419 kB are left (--max-memory)") != std::string::npos);
 }
 
+/// The integrator and its light paths and connections that a render of `words` says it uses.
+nlohmann::json chosen_by(const Outcome& outcome)
+{
+    const auto start = nlohmann::json::parse(outcome.out.substr(0, outcome.out.find('\n')));
+    REQUIRE(start.at("event") == "start");
+    const nlohmann::json& settings = start.at("settings");
+    nlohmann::json chosen;
+    for (const char* name : {"integrator", "light_paths", "connections", "connection_rays"}) {
+        chosen[name] = settings.value(name, nlohmann::json());
+    }
+    return chosen;
+}
+
+TEST_CASE("auto chooses by its own limit of memory, never by what the machine has left")
+{
+    const ScratchFolder folder;
+    const std::string scene = std::string(BDPT_SOURCE_DIR) + "/scenes/cornell-box.gltf";
+    const auto render = [&](const std::vector<std::string>& words) {
+        std::vector<std::string> all{"render", scene,   "-o",        (folder / "out.exr").string(),
+                                     "--size", "96x96", "--samples", "0:1",
+                                     "--json"};
+        all.insert(all.end(), words.begin(), words.end());
+        return run(all);
+    };
+    const Outcome free = render({});
+    REQUIRE(free.exit_code == 0);
+    const nlohmann::json chosen = chosen_by(free);
+    CAPTURE(chosen.dump());
+    REQUIRE(chosen.at("integrator") == "bdpt");
+    REQUIRE(chosen.at("light_paths") < 1.0);  // shared, so that they take memory
+    bool is_refused = false;
+    for (const char* limit : {"30M", "6M", "3M", "2500K"}) {
+        const Outcome limited = render({"--max-memory", limit});
+        CAPTURE(limit, limited.out, limited.err);
+        if (limited.exit_code == 0) {
+            CHECK(chosen_by(limited) == chosen);
+        } else {
+            CHECK(limited.exit_code == 4);
+            is_refused = is_refused || limited.out.find(
+                                           "the set of light paths for 96x96 pixels "
+                                           "(--light-path-memory) needs ") != std::string::npos;
+        }
+    }
+    CHECK(is_refused);
+    const Outcome small = render({"--light-path-memory", "1K"});
+    REQUIRE(small.exit_code == 0);
+    CHECK(chosen_by(small) != chosen);
+    CHECK(render({"--light-path-memory", "1K", "--max-memory", "2500K"}).exit_code == 0);
+}
+
 /// A PNG image of 64 x 64 pixels, black and white in turn.
 void write_stripes(const std::filesystem::path& file)
 {

@@ -22,6 +22,22 @@ def test_a_lambertian_floor_under_a_white_sky_has_its_albedo():
     assert image.mean(axis=(0, 1)) == pytest.approx([0.25, 0.5, 0.75], rel=0.02)
 
 
+def test_arrays_without_light_get_that_of_files():
+    scene = bdpt.Scene([floor(base_color=(0.5, 0.5, 0.5))], camera=FROM_ABOVE, size=(8, 8))
+    assert scene.notes == ["no light: lit by the default environment, a soft sky"]
+    assert bdpt.render(scene, spp=8).image.mean() > 0.1
+    lit = bdpt.Scene([floor()], [WHITE_SKY], FROM_ABOVE, (8, 8))
+    assert lit.notes == [] and lit.lights == 1
+    glowing = bdpt.Scene([floor(emission=(1, 1, 1))], camera=FROM_ABOVE, size=(8, 8))
+    assert bdpt.render(glowing, spp=1).image.min() >= 1
+
+
+def test_a_black_image_is_told():
+    scene = bdpt.Scene([floor()], [WHITE_SKY], FROM_ABOVE, (8, 8)).with_environment(None)
+    with pytest.warns(UserWarning, match="scene of arrays: the image is black"):
+        bdpt.render(scene, spp=1)
+
+
 def test_a_point_light_shines_by_its_distance():
     scene = bdpt.Scene([floor(base_color=(1, 1, 1))], [bdpt.PointLight(position=(0, 2, 0), intensity=(3, 3, 3))], FROM_ABOVE,
                        (9, 9))

@@ -397,6 +397,25 @@ def test_adaptive_renders_have_the_bits_of_the_command(command, tmp_path):
     assert (render.image != plain.image).any()
 
 
+def test_every_door_leads_to_the_default_image(command, tmp_path):
+    file, options = SCENES / "alpha.gltf", {"size": (96, 64), "spp": 8}
+    words = ("render", file, "--size", "96x64", "--spp", "8", "-q", "--part")
+    command(*words, tmp_path / "its.part.exr")
+    its = bdpt.read_part(tmp_path / "its.part.exr")
+    bdpt.run(file, part=tmp_path / "job.part.exr", **options)
+    scene = bdpt.load(file)
+    ours = bdpt.render(scene, **options)
+    renderer = bdpt.Renderer(scene, **options)
+    renderer.finish()
+    for image in (bdpt.read_part(tmp_path / "job.part.exr").image, ours.image, renderer.image):
+        assert np.array_equal(image, its.image)
+    assert ours.settings["rates"]["greatest"] > 1 and ours.settings["chosen_by"] == "auto"
+    even = bdpt.render(scene, adaptive=False, **options)
+    command(*words, tmp_path / "even.part.exr", "--adaptive=false")
+    assert np.array_equal(even.image, bdpt.read_part(tmp_path / "even.part.exr").image)
+    assert not np.array_equal(even.image, its.image)
+
+
 def test_an_exposure_by_light_needs_a_render_that_metered_it(cornell_box, tmp_path):
     metered = bdpt.render(cornell_box, spp=1, exposure="light", **SMALL)
     metered.save(tmp_path / "a.png", exposure="light-0.5")

@@ -2,7 +2,6 @@
 
 #include <bdpt/default_lights.h>
 #include <bdpt/error.h>
-#include <bdpt/framing.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene.h>
 
@@ -36,8 +35,7 @@ void complete(SceneReport& report, SceneDesc desc)
             return;
         }
         report.bounds = scene.bounds();
-        constexpr float aspect = 16.0f / 9.0f;
-        const DefaultLights missing = missing_lights(scene, frame_scene(scene, aspect), aspect);
+        const DefaultLights missing = missing_lights(scene, metered_view(scene));
         report.defaults.sky = missing != DefaultLights::none;
         report.defaults.lamp = missing == DefaultLights::sky_and_lamp;
     } catch (const Error& error) {

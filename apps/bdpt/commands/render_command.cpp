@@ -200,14 +200,16 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
                 .camera = stage->camera, .size = stage->size, .is_framed = stage->is_framed};
         }
         if (!exposure && meters_light(asked, *stage)) {
-            exposure = metered_exposure(*stage, *first);
+            exposure = metered_exposure(*stage, image);
         }
         image.light_exposure = exposure;
         if (denoiser && asked.denoise.kind == Denoising::automatic && !guides) {
             guides = spend_guides(stage->memory, asked);
             if (!guides) {
-                console.note("not denoised: too little memory is left (--denoise denoises anyway)",
-                             Repeat::never);
+                console.note(
+                    Note{"not_denoised",
+                         "not denoised: too little memory is left (--denoise denoises anyway)"},
+                    Repeat::never);
                 denoiser.reset();
                 image.denoise.kind = Denoising::none;
             }

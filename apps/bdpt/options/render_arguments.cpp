@@ -191,19 +191,12 @@ bool takes_rates(const RenderRequest& request)
     return request.adaptive == Adaptivity::on || request.rates.file;
 }
 
-bool starts_group(std::int64_t sample)
-{
-    return sample % SampleRates::group == 0;
-}
-
 /// Tests whether the pilot of the integrator may choose rates.
 bool may_adapt(const RenderRequest& request, const RenderArguments& arguments)
 {
-    const SampleRange& samples = arguments.samples;
     return request.adaptive == Adaptivity::automatic && !takes_rates(request) &&
            arguments.options.integrator == IntegratorKind::automatic &&
-           starts_group(samples.begin) && starts_group(samples.end) &&
-           samples.end <= SampleRates::max_rounds;
+           SampleRates::fit(arguments.samples);
 }
 
 SampleRange choose_samples(const RenderRequest& request, const Goal& goal)
@@ -212,7 +205,8 @@ SampleRange choose_samples(const RenderRequest& request, const Goal& goal)
     constexpr std::int64_t no_limit = std::int64_t{1} << 30;
     const SampleRange samples =
         request.samples.value_or(SampleRange{.begin = 0, .end = goal.samples.value_or(no_limit)});
-    if (takes_rates(request) && !(starts_group(samples.begin) && starts_group(samples.end))) {
+    if (takes_rates(request) &&
+        (samples.begin % SampleRates::group != 0 || samples.end % SampleRates::group != 0)) {
         reject(request.samples ? "--samples" : "--spp",
                request.samples ? option_text(samples) : option_text(samples.end),
                "multiples of 8 with --adaptive and --rates");

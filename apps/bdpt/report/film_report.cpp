@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace bdpt::app {
 
 void warn_of_defects(Console& console, const FilmDefects& defects)
@@ -17,6 +19,23 @@ void warn_of_defects(Console& console, const FilmDefects& defects)
         console.warning(fmt::format("{} contributions were above {:.3g} nit and were clamped to it",
                                     defects.saturated, ExactSum::max_value));
     }
+}
+
+bool is_black(const Image& image, const std::vector<Layer>& layers)
+{
+    const auto alpha = std::find_if(layers.begin(), layers.end(),
+                                    [](const Layer& layer) { return layer.name.empty(); });
+    const bool is_empty =
+        alpha != layers.end() && std::all_of(alpha->values.begin(), alpha->values.end(),
+                                             [](float value) { return value == 0.0f; });
+    return !is_empty && std::all_of(image.pixels.begin(), image.pixels.end(),
+                                    [](const Rgb& pixel) { return pixel == Rgb(0.0f); });
+}
+
+std::string black_image_text(const std::string& scene)
+{
+    return scene + ": the image is black: none of the light reaches what the camera sees (--env " +
+           "default gives a closed room without lights a lamp)";
 }
 
 void report_clamp(Console& console, const Film& film, const Image& image)

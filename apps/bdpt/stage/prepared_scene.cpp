@@ -77,11 +77,9 @@ LitScene choose_environment(SceneDesc desc, const RenderArguments& arguments)
         std::erase_if(lit.desc.lights, is_environment);
     }
     if (choice == "none") {
-        if (!has_light(lit.desc)) {
-            lit.warnings.push_back(
-                fmt::format("{}: no light: the image will be black", arguments.file.string()));
-        }
-    } else if (choice == "default" && lit.desc.lights.empty()) {
+        return lit;
+    }
+    if (choice == "default" && lit.desc.lights.empty()) {
         lit.sky = Sky::standard;
     } else if (choice == "default") {
         lit.sky = Sky::chosen;
@@ -151,15 +149,15 @@ void add_lights(LitScene& lit, DefaultLights missing, const FramedView& framed,
 }
 
 /// Builds the scene, with default lights if needed.
-Scene build(LitScene& lit, const RenderArguments& arguments, float aspect)
+Scene build(LitScene& lit, const RenderArguments& arguments)
 {
     if (!is_undecided(lit)) {
         change_environment(lit, arguments);
         return Scene(std::move(lit.desc), arguments.isa);
     }
     Scene scene(lit.desc, arguments.isa);
-    const FramedView framed = frame_scene(scene, aspect);
-    add_lights(lit, missing_lights(scene, framed, aspect), framed, arguments.file.string());
+    const FramedView framed = metered_view(scene);
+    add_lights(lit, missing_lights(scene, framed), framed, arguments.file.string());
     change_environment(lit, arguments);
     const bool is_lit = !lit.desc.lights.empty();
     return is_lit ? scene.with_lights(std::move(lit.desc.lights)) : std::move(scene);
@@ -223,9 +221,9 @@ void note_small_picture(LitScene& lit, const Scene& scene, const CameraDesc& cam
     }
     if (share < little) {
         lit.notes.push_back(
-            fmt::format("{}: camera {}: the scene fills {:.2g} % of the image "
-                        "(--camera auto frames it)",
-                        arguments.file.string(), camera.name, 100.0 * share));
+            {"small_scene", fmt::format("{}: camera {}: the scene fills {:.2g} % of the image "
+                                        "(--camera auto frames it)",
+                                        arguments.file.string(), camera.name, 100.0 * share)});
     }
 }
 
@@ -303,12 +301,12 @@ PreparedScene prepare_scene(const RenderArguments& asked)
     loaded.scene.volumes = std::move(volumes);
     LitScene lit = choose_environment(std::move(loaded.scene), arguments);
     for (const std::string& note : loaded.notes) {
-        lit.notes.push_back(fmt::format("{}: {}", file, note));
+        lit.notes.push_back({"draft_extension", fmt::format("{}: {}", file, note)});
     }
     spend_building(*arguments.scene.memory, lit.desc,
                    is_undecided(lit) ? Copies::two : Copies::one);
     const auto loading_end = std::chrono::steady_clock::now();
-    Scene scene = build(lit, arguments, aspect);
+    Scene scene = build(lit, arguments);
     const auto building_end = std::chrono::steady_clock::now();
     for (const std::string& warning : scene.warnings()) {
         warnings.push_back(fmt::format("{}: {}", file, warning));

@@ -54,11 +54,6 @@ RenderOptions options_for(const RenderArguments& arguments, const PreparedScene&
     options.film.width = stage.size.width;
     options.film.height = stage.size.height;
     options.sampling.samples = arguments.samples;
-    const std::uint64_t left = stage.memory.left();
-    for (std::uint64_t* limit :
-         {&options.bidirectional.strategy_memory, &options.bidirectional.light_path_memory}) {
-        *limit = std::min(*limit, left);
-    }
     if (arguments.strategies) {
         const StrategyDepth depth = strategy_depth(*arguments.strategies, options, stage.camera);
         options.bidirectional.strategy_depth = depth.edges;
@@ -94,6 +89,18 @@ std::shared_ptr<const SampleRates> prepare_rates(const RenderArguments& argument
                         rates->width(), rates->height(), stage.size.width, stage.size.height));
     }
     return rates;
+}
+
+/// Throws `Error` if light paths or images of strategies do not fit into the memory that the scene
+/// and the film leave. Their numbers must not depend on it: a machine with less memory, or a busier
+/// one, would render other bits.
+void check_memory(const PreparedScene& stage, const RenderOptions& options)
+{
+    stage.memory.check(fmt::format("the set of light paths for {}x{} pixels (--light-path-memory)",
+                                   options.film.width, options.film.height),
+                       light_path_bytes(options));
+    stage.memory.check("the set of strategy images (--strategy-depth)",
+                       strategy_image_bytes(options, stage.camera));
 }
 
 /// Tests whether the camera is outside of the visible scene, most of which then has the same light.
@@ -222,9 +229,9 @@ RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stag
             "of the sun or of point lights, seen in mirrors or through glass)",
             100.0 * choice.unseen_light));
     }
-    arguments.options = choice.options;
-    if (arguments.may_adapt && choice.rates) {
-        arguments.options.sampling.rates = choice.rates;
+    arguments.options = arguments.may_adapt ? with_rates(choice) : choice.options;
+    check_memory(stage, arguments.options);
+    if (arguments.may_adapt && arguments.options.sampling.rates) {
         console.verbose(
             {"adaptive",
              fmt::format("noisy pixels get more samples and others fewer: {} to {} times --spp "
@@ -246,8 +253,10 @@ bool meters_light(const RenderArguments& arguments, const PreparedScene& stage)
                     : has_environment(stage) && is_seen_from_outside(stage);
 }
 
-std::optional<float> metered_exposure(const PreparedScene& stage, const Viewpoint& seen)
+std::optional<float> metered_exposure(const PreparedScene& stage, RenderArguments arguments)
 {
+    arguments.size.reset();
+    const Viewpoint seen = viewpoint(stage, arguments);
     const float aspect = static_cast<float>(seen.size.width) / static_cast<float>(seen.size.height);
     return light_exposure(light_level(white_cards(stage.scene, seen.camera, {.aspect = aspect})));
 }

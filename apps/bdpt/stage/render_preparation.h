@@ -55,10 +55,11 @@ void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Si
 /// lights the scene and the camera is outside of it.
 [[nodiscard]] bool meters_light(const RenderArguments& arguments, const PreparedScene& stage);
 
-/// Returns the exposure [EV] that makes a white card white that lies on the visible surfaces of
-/// `seen`; none if no light falls on it.
+/// Returns the exposure [EV] that makes a white card white that lies on the surfaces that the view
+/// of `arguments` shows without --size, whatever the size of the image; none if no light falls on
+/// it.
 [[nodiscard]] std::optional<float> metered_exposure(const PreparedScene& stage,
-                                                    const Viewpoint& seen);
+                                                    RenderArguments arguments);
 
 /// Completes the options of `arguments`: fills in size, samples and limits of memory, chooses open
 /// options by a pilot, and adds sample rates from a file or another pilot, unless they have them

@@ -17,8 +17,7 @@ LiveRender::LiveRender(RenderArguments arguments, const PreparedScene& stage)
       noise_(std::numeric_limits<double>::infinity())
 {
     if (meters_light(arguments_, stage)) {
-        arguments_.light_exposure =
-            metered_exposure(stage, {.camera = stage.camera, .size = stage.size});
+        arguments_.light_exposure = metered_exposure(stage, arguments_);
     }
 }
 

@@ -16,6 +16,8 @@
 #include <bdpt/scene.h>
 #include <bdpt/scene_desc.h>
 
+#include <vector>
+
 namespace bdpt {
 
 // For scenes without lights. `frame_scene` does the same for scenes without a camera.
@@ -42,16 +44,22 @@ enum class DefaultLights {
     sky_and_lamp,  ///< `default_environment` and `default_lamp`, as the view is in a closed room
 };
 
-/// Returns the default lights that `scene`, built without them, needs; `framed` is the result of
-/// `frame_scene` and `aspect`. None if the scene has a light, or if its emissive materials
-/// illuminate it: in an open scene if half of the framed surfaces receive at least 3 % of the light
-/// of the default sky, in a closed room if the mean of `white_cards` is at least 0.1 % of the light
-/// of the lamp.
-[[nodiscard]] BDPT_EXPORT DefaultLights missing_lights(const Scene& scene, const FramedView& framed,
-                                                       float aspect = 1.0f);
+/// Returns the view in which light is measured for `missing_lights`: that of `frame_scene` at 16:9,
+/// so that the size of an image never changes its light.
+[[nodiscard]] BDPT_EXPORT FramedView metered_view(const Scene& scene);
+
+/// Returns the default lights that `scene`, built without them, needs; `framed` is its
+/// `metered_view`. None if the scene has a light, or if its emissive materials illuminate it: in an
+/// open scene if half of the framed surfaces receive at least 3 % of the light of the default sky,
+/// in a closed room if the mean of `white_cards` is at least 0.1 % of the light of the lamp.
+[[nodiscard]] BDPT_EXPORT DefaultLights missing_lights(const Scene& scene,
+                                                       const FramedView& framed);
+
+/// Returns the lights of `missing`, in the view that they were missing in.
+[[nodiscard]] BDPT_EXPORT std::vector<LightDesc> default_lights(DefaultLights missing,
+                                                                const FramedView& framed);
 
 /// Adds `missing_lights` to a scene, which is built once to determine them; throws like `Scene`.
-/// `aspect` is that of the view, as for `frame_scene`.
-BDPT_EXPORT DefaultLights add_default_lights(SceneDesc& desc, float aspect = 1.0f);
+BDPT_EXPORT DefaultLights add_default_lights(SceneDesc& desc);
 
 }  // namespace bdpt

@@ -82,8 +82,8 @@ struct IntegratorChoice {
     /// pilot found none, or if there was no pilot.
     double unseen_light = 0.0;
     /// Rates of samples for `SamplingOptions::rates` that should reduce error times time by 6 % or
-    /// more; null if there are none, or if there was no pilot. They are not part of `options`, as
-    /// they need samples that begin and end at multiples of `SampleRates::group`.
+    /// more; null if there are none, or if there was no pilot. They are not part of `options`:
+    /// with_rates() adds them.
     std::shared_ptr<const SampleRates> rates{};
 };
 
@@ -97,7 +97,11 @@ struct IntegratorChoice {
                                                              const CameraDesc& camera,
                                                              const RenderOptions& options,
                                                              const std::stop_token& abandon = {});
-/// Returns the options that choose_integrator() chooses.
+/// Returns the options of `choice` with its rates, if it has some and the samples fit them
+/// (`SampleRates::fit`).
+[[nodiscard]] BDPT_EXPORT RenderOptions with_rates(const IntegratorChoice& choice);
+/// Returns the options that choose_integrator() chooses, with_rates(): what render() and `Renderer`
+/// render, and `bdpt render` by default.
 [[nodiscard]] BDPT_EXPORT RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
                                                        const RenderOptions& options);
 
@@ -130,6 +134,10 @@ struct IntegratorChoice {
                                                        const RenderOptions& options,
                                                        RenderResult so_far,
                                                        const RenderControl& control = {});
+
+/// Returns the memory that the shared light paths of one sample index of this render usually take
+/// [bytes]; 0 if it keeps none. `options` name an integrator.
+[[nodiscard]] BDPT_EXPORT std::uint64_t light_path_bytes(const RenderOptions& options);
 
 /// Returns the memory that the strategy images of this render take [bytes], including the developed
 /// layers; 0 if none are requested. Throws `Error` (usage) for options out of range.

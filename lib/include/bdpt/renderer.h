@@ -38,14 +38,15 @@ namespace bdpt {
 class BDPT_EXPORT Renderer {
 public:
     /// Prepares a render of `scene`, which must outlive this. The first sample index is that of
-    /// `options`, whose last one matters for `finish()` alone. Throws `Error` like render().
+    /// `options`, whose last one matters for `finish()` and, if the integrator is automatic, for
+    /// its rates (with_rates()). Throws `Error` like render().
     Renderer(const Scene& scene, const CameraDesc& camera, const RenderOptions& options);
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
     ~Renderer();
 
-    /// Renders the next `samples` missing samples of each pixel; at least 1, and with rates a
-    /// multiple of SampleRates::group. Throws `Error` (usage) for other numbers, and exceptions of
+    /// Renders the next `samples` missing samples of each pixel, at least 1; with rates the next
+    /// multiple of SampleRates::group. Throws `Error` (usage) for less than 1, and exceptions of
     /// `control`: the samples rendered until then are kept.
     void render(std::int64_t samples, const RenderControl& control = {});
     /// Renders all missing samples of the options.
@@ -54,8 +55,7 @@ public:
     /// for samples of another render, and for samples that are already here.
     Renderer& operator+=(const RenderResult& part);
 
-    /// Returns the options, in which IntegratorKind::automatic is replaced by the chosen
-    /// integrator.
+    /// Returns the options, in which IntegratorKind::automatic is replaced by `chosen_options`.
     [[nodiscard]] const RenderOptions& options() const;
     /// Returns all samples so far.
     [[nodiscard]] const RenderResult& result() const;

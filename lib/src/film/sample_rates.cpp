@@ -1,5 +1,6 @@
 #include <bdpt/error.h>
 #include <bdpt/part/sample_rates.h>
+#include <bdpt/render_options.h>
 
 #include <algorithm>
 #include <string>
@@ -38,6 +39,11 @@ SampleRates::SampleRates(int width, int height, std::vector<std::int8_t> exponen
         }
     }
     mean_ = compute_mean(exponents_);
+}
+
+bool SampleRates::fit(const SampleRange& samples)
+{
+    return samples.begin % group == 0 && samples.end % group == 0 && samples.end <= max_rounds;
 }
 
 float SampleRates::least() const

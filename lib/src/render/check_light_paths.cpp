@@ -5,6 +5,7 @@
 
 #include <bdpt/error.h>
 #include <bdpt/options/integrators.h>
+#include <bdpt/render.h>
 
 #include <cmath>
 #include <cstdint>
@@ -56,19 +57,23 @@ void check_light_paths(const RenderOptions& options)
                                           text(counts.connections) +
                                           ", not a whole number above 0");
     }
-    if (!info(options.integrator).traces_light_paths || !counts.shared) {
-        return;
-    }
-    const std::uint64_t bytes =
-        LightPathCache::bytes(counts, LightPathCache::usual_vertices(options));
+    const std::uint64_t bytes = light_path_bytes(options);
     if (bytes > options.bidirectional.light_path_memory) {
         throw Error(ErrorCode::usage,
                     text(light_paths) + " shared light paths for each camera path (light_paths) " +
                         "may take " + megabytes(bytes) +
                         ", more than the limit (light_path_memory) of " +
                         megabytes(options.bidirectional.light_path_memory) +
-                        ": use fewer, or a smaller image");
+                        ": use fewer, a smaller image or a larger limit");
     }
+}
+
+std::uint64_t light_path_bytes(const RenderOptions& options)
+{
+    return info(options.integrator).traces_light_paths
+               ? LightPathCache::bytes(LightPathCounts(options),
+                                       LightPathCache::usual_vertices(options))
+               : 0;
 }
 
 }  // namespace bdpt

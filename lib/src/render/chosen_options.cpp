@@ -52,17 +52,26 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     threads.execute([&] {
         const PilotResult pilot = run_pilot(scene.world(), opened, whole, learned.get(), abandon);
         choice = {.options = with_best(pilot, options), .unseen_light = pilot.merging_alone};
-        if (!abandon.stop_requested()) {
+        if (!abandon.stop_requested() && !options.sampling.rates) {
             choice.rates = best_rates(pilot, choice.options);
         }
     });
     return choice;
 }
 
+RenderOptions with_rates(const IntegratorChoice& choice)
+{
+    RenderOptions options = choice.options;
+    if (choice.rates && SampleRates::fit(options.sampling.samples)) {
+        options.sampling.rates = choice.rates;
+    }
+    return options;
+}
+
 RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
                              const RenderOptions& asked)
 {
-    return choose_integrator(scene, camera, asked).options;
+    return with_rates(choose_integrator(scene, camera, asked));
 }
 
 }  // namespace bdpt

@@ -56,19 +56,21 @@ double median(std::vector<double> cards)
     return *middle;
 }
 
+constexpr float metered_aspect = 16.0f / 9.0f;
+
 /// Tests with few paths whether cards show so much more than `least` [nit] that more paths need not
 /// be traced. Uses the median, which few paths make too low rather than too high: most of their
 /// noise is in a few bright cards.
-bool is_clearly_lit(double least, const Scene& scene, const FramedView& framed, float aspect)
+bool is_clearly_lit(double least, const Scene& scene, const FramedView& framed)
 {
     constexpr double margin = 3.0;
     const std::vector<double> cards =
-        white_cards(scene, framed.camera, {.aspect = aspect, .paths = 2});
+        white_cards(scene, framed.camera, {.aspect = metered_aspect, .paths = 2});
     return !cards.empty() && median(cards) >= margin * least;
 }
 
 /// Tests whether emissive surfaces illuminate the framed view when nothing else does.
-bool is_lit_by_emitters(const Scene& scene, const FramedView& framed, float aspect)
+bool is_lit_by_emitters(const Scene& scene, const FramedView& framed)
 {
     // Relative to the 1 nit that the default sky or lamp would give white cards [nit]. Scenes
     // designed around their emitters are well above, models with glowing details well below: tuned
@@ -76,10 +78,10 @@ bool is_lit_by_emitters(const Scene& scene, const FramedView& framed, float aspe
     constexpr double min_outside = 0.03;
     constexpr double min_inside = 0.001;
     const double least = framed.enclosed ? min_inside : min_outside;
-    if (is_clearly_lit(least, scene, framed, aspect)) {
+    if (is_clearly_lit(least, scene, framed)) {
         return true;
     }
-    const std::vector<double> cards = white_cards(scene, framed.camera, {.aspect = aspect});
+    const std::vector<double> cards = white_cards(scene, framed.camera, {.aspect = metered_aspect});
     if (cards.empty()) {
         return false;
     }
@@ -138,29 +140,41 @@ PointLightDesc default_lamp(const FramedView& view)
     return result;
 }
 
-DefaultLights missing_lights(const Scene& scene, const FramedView& framed, float aspect)
+FramedView metered_view(const Scene& scene)
+{
+    return frame_scene(scene, metered_aspect);
+}
+
+DefaultLights missing_lights(const Scene& scene, const FramedView& framed)
 {
     if (!scene.description().lights.empty() ||
-        (scene.counts().emissive_triangles > 0 && is_lit_by_emitters(scene, framed, aspect))) {
+        (scene.counts().emissive_triangles > 0 && is_lit_by_emitters(scene, framed))) {
         return DefaultLights::none;
     }
     return framed.enclosed ? DefaultLights::sky_and_lamp : DefaultLights::sky;
 }
 
-DefaultLights add_default_lights(SceneDesc& desc, float aspect)
+std::vector<LightDesc> default_lights(DefaultLights missing, const FramedView& framed)
+{
+    std::vector<LightDesc> lights;
+    if (missing != DefaultLights::none) {
+        lights.emplace_back(default_environment());
+    }
+    if (missing == DefaultLights::sky_and_lamp) {
+        lights.emplace_back(default_lamp(framed));
+    }
+    return lights;
+}
+
+DefaultLights add_default_lights(SceneDesc& desc)
 {
     if (!desc.lights.empty()) {
         return DefaultLights::none;
     }
     const Scene scene(desc);
-    const FramedView framed = frame_scene(scene, aspect);
-    const DefaultLights missing = missing_lights(scene, framed, aspect);
-    if (missing != DefaultLights::none) {
-        desc.lights.emplace_back(default_environment());
-    }
-    if (missing == DefaultLights::sky_and_lamp) {
-        desc.lights.emplace_back(default_lamp(framed));
-    }
+    const FramedView framed = metered_view(scene);
+    const DefaultLights missing = missing_lights(scene, framed);
+    desc.lights = default_lights(missing, framed);
     return missing;
 }
 

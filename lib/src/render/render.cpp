@@ -285,14 +285,13 @@ Renderer::~Renderer() = default;
 
 void Renderer::render(std::int64_t samples, const RenderControl& control)
 {
-    if (samples < 1 || (options().sampling.rates && samples % SampleRates::group != 0)) {
+    if (samples < 1) {
         throw Error(ErrorCode::usage,
-                    "number of samples to render is " + std::to_string(samples) +
-                        (samples < 1 ? ", not above 0"
-                                     : ", but with rates of samples a multiple of " +
-                                           std::to_string(SampleRates::group)));
+                    "number of samples to render is " + std::to_string(samples) + ", not above 0");
     }
-    impl_->run(impl_->next(samples), control, std::chrono::steady_clock::now(), cpu_seconds());
+    const std::int64_t unit = options().sampling.rates ? SampleRates::group : 1;
+    const std::int64_t whole = (samples - 1) / unit * unit + unit;
+    impl_->run(impl_->next(whole), control, std::chrono::steady_clock::now(), cpu_seconds());
 }
 
 void Renderer::finish(const RenderControl& control)

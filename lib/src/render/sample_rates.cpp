@@ -121,7 +121,7 @@ SampleRates sample_rates(const Scene& scene, const CameraDesc& camera_desc,
 {
     RenderOptions options = asked;
     options.sampling.rates.reset();
-    options = pilot_options(chosen_options(scene, camera_desc, options));
+    options = pilot_options(choose_integrator(scene, camera_desc, options).options);
     check_takes_rates(options.integrator);
     const MovingCamera camera = open_camera(scene.world(), camera_desc, options);
     const auto learned = learned_light(scene.world(), camera_desc, options);

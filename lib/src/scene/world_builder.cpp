@@ -239,6 +239,9 @@ void WorldBuilder::add_lights()
     w.lights_ = &*w.lit_->lights;
     w.counts_.lights = w.lights_->size();
     w.counts_.emissive_triangles = w.lights_->size() - desc.lights.size();
+    if (w.counts_.lights == 0) {
+        w.warnings_.emplace_back("no light: the image will be black");
+    }
 }
 
 }  // namespace bdpt

@@ -1,5 +1,8 @@
 // Adaptive sampling as users see it.
 
+#include <bdpt/io/gltf.h>
+#include <bdpt/renderer.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -85,6 +88,34 @@ std::string bytes_of(const fs::path& file)
 }
 
 }  // namespace
+
+TEST_CASE("the library renders the command's default image to the bit", "[command]")
+{
+    const ScratchFolder folder;
+    const std::string file = std::string(BDPT_SOURCE_DIR) + "/scenes/alpha.gltf";
+    const auto by_command = [&](const Words& more) {
+        succeed(joined({"render", file, "--size", "96x64", "-o", path(folder, "image.exr")}, more));
+        return pixels(folder, "image.exr");
+    };
+    const std::vector<Rgb> expected = by_command({"--spp", "8"});
+    io::LoadedScene loaded = io::load_gltf(file);
+    const Scene scene(std::move(loaded.scene));
+    const CameraDesc& camera = loaded.cameras.at(0);
+    RenderOptions options{.film = {.width = 96, .height = 64},
+                          .sampling = {.samples = {.begin = 0, .end = 8}}};
+    REQUIRE(chosen_options(scene, camera, options).sampling.rates);
+    CHECK(bdpt::render(scene, camera, options).image().pixels == expected);
+    Renderer renderer(scene, camera, options);
+    renderer.render(3);  // which takes the whole group of 8
+    CHECK(renderer.samples() == 8);
+    CHECK(renderer.image().pixels == expected);
+    // What the command does without rates, the library does with the choice alone.
+    CHECK(bdpt::render(scene, camera, choose_integrator(scene, camera, options).options)
+              .image()
+              .pixels == by_command({"--spp", "8", "--adaptive=false"}));
+    options.sampling.samples = {.begin = 0, .end = 7};
+    CHECK(bdpt::render(scene, camera, options).image().pixels == by_command({"--spp", "7"}));
+}
 
 TEST_CASE("adaptive renders, their saved rates and their parts make the same pixels", "[command]")
 {

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace bdpt::default_lights_test {
 namespace {
@@ -109,6 +111,24 @@ TEST_CASE("light is found where it is", "[default_lights]")
         desc.lights.emplace_back(PointLightDesc{});
         CHECK(has_light(desc));
     }
+}
+
+TEST_CASE("a scene without light is told, and one with light or unlit surfaces is not",
+          "[default_lights]")
+{
+    const std::vector<std::string> told{"no light: the image will be black"};
+    test::SceneBuilder dark;
+    dark.walls(wall, wall);
+    const Scene scene(dark.desc);
+    CHECK(scene.warnings() == told);
+    CHECK(scene.with_lights({default_environment()}).warnings().empty());
+    CHECK(add_default_lights(dark.desc) == DefaultLights::sky);
+    CHECK(Scene(dark.desc).warnings().empty());
+    test::SceneBuilder unlit;
+    MaterialDesc text = wall;
+    text.unlit = true;
+    unlit.walls(text, text);
+    CHECK(Scene(unlit.desc).warnings().empty());
 }
 
 TEST_CASE("a scene without light gets a sky, and a closed room a lamp, too", "[default_lights]")

@@ -8,6 +8,7 @@
 #include "room.h"
 #include "scene_builder.h"
 
+#include <bdpt/error.h>
 #include <bdpt/render.h>
 
 #include <algorithm>
@@ -71,6 +72,22 @@ TEST_CASE("numbers of light paths are kept for the whole image", "[light-paths]"
     CHECK(bundled.per_camera_path == Approx(2145.0 / 1073.0));
 
     CHECK(LightPathCounts(options(1e-9)).bundles == 1);
+}
+
+TEST_CASE("the memory of shared light paths is known before they are rendered", "[light-paths]")
+{
+    const Scene scene = room();
+    RenderOptions shared = options(0.5, 2.0);
+    const std::uint64_t bytes = light_path_bytes(shared);
+    CHECK(bytes > 0);
+    CHECK(light_path_bytes(options(1.0, 2.0)) > bytes * 3 / 2);
+    shared.bidirectional.light_path_memory = bytes;
+    CHECK_NOTHROW(image_of(scene, shared));
+    shared.bidirectional.light_path_memory = bytes - 1;
+    CHECK_THROWS_AS(image_of(scene, shared), Error);
+    CHECK(light_path_bytes(options(2.0)) == 0);  // each pixel has its own
+    shared.integrator = IntegratorKind::mis;
+    CHECK(light_path_bytes(shared) == 0);
 }
 
 TEST_CASE("pixels take shared light paths evenly, and neighbours take different ones",

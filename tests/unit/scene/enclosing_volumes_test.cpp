@@ -228,6 +228,7 @@ TEST_CASE("a turned mesh that stands in a body is not within it", "[bodies]")
     SceneBuilder builder;
     builder.cube({}, 1.0f, medium(of_outer, 1.33f));
     builder.place(builder.add_mesh(std::move(stem)), medium(of_inner, 1.5f), Mat4(1.0f));
+    builder.light(PointLightDesc{});
     const World world(std::move(builder.desc));
     CHECK(world.warnings().empty());
     const auto top = world.intersect({.p = {0.1f, 4.0f, 0.1f}}, {0, -1, 0}, {});
@@ -242,6 +243,7 @@ TEST_CASE("of too many bodies it is said that air is around them", "[bodies]")
         SceneBuilder builder;
         builder.cube({}, 1.0f, medium(of_outer, 1.33f));
         builder.desc.instances.resize(bodies, builder.desc.instances.front());
+        builder.light(PointLightDesc{});
         const World world(std::move(builder.desc));
         CHECK((world.medium_at({0.1f, 0.2f, 0.3f}) != MediumId::clear) ==
               (bodies <= EnclosingVolumes::most));
@@ -255,6 +257,7 @@ TEST_CASE("bodies with holes are judged by most rays", "[bodies]")
 {
     SceneBuilder builder = cubes(1.33f, 1.5f);
     builder.desc.meshes[0].triangles.erase(builder.desc.meshes[0].triangles.begin() + 2);
+    builder.light(PointLightDesc{});
     const World world(std::move(builder.desc));
     check_absorption(world, {0.8f, 0.7f, 0.6f}, of_outer);
     check_absorption(world, {1.8f, 0.7f, 0.6f}, Rgb(0.0f));

@@ -51,7 +51,7 @@ template <typename T>
 auto value_type(const OptionInfo& info)
 {
     if constexpr (std::is_same_v<T, std::uint64_t>) {
-        return any_seed();
+        return info.role == OptionRole::limit ? memory_size() : any_seed();
     } else if constexpr (std::is_integral_v<T>) {
         return whole_number(static_cast<std::int64_t>(info.range.low),
                             static_cast<std::int64_t>(info.range.high));

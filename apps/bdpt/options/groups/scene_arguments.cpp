@@ -68,9 +68,7 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
                 "Refuse scenes that need more memory than this, like 500M or 2G; a render includes "
                 "its film and layers. Default and maximum: free memory, within the limits of the "
                 "container and of ulimit -v",
-                max_memory,
-                parsed_by([](const std::string& text) { return parse_bytes(text); },
-                          "a size like 500M or 2G"));
+                max_memory, memory_size());
 }
 
 }  // namespace bdpt::app

@@ -77,6 +77,7 @@ void check_takers(const RenderOptions& render, const OptionList& options)
         {"--max-light-depth", {IntegratorKind::bdpt, lt, vcm}},
         {"--light-paths", {IntegratorKind::bdpt, lt, vcm}},
         {"--disable", {IntegratorKind::bdpt, lt, vcm}},
+        {"--light-path-memory", {IntegratorKind::bdpt, vcm, automatic}},
         {"--light-samples", {pt, nee, mis, IntegratorKind::bdpt, vcm, automatic}},
     };
     for (const Row& row : rows) {

@@ -137,6 +137,12 @@ ValueType<std::uint64_t> any_seed()
             .info = {.json = JsonType::whole_number, .range = {.low = 0}}};
 }
 
+ValueType<std::uint64_t> memory_size()
+{
+    return parsed_by([](const std::string& text) { return parse_bytes(text); },
+                     "a size like 500M or 2G");
+}
+
 ValueType<double> number(double least, double most)
 {
     return number(least, most, fmt::format("a number from {} to {}", least, most));

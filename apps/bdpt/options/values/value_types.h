@@ -41,6 +41,9 @@ namespace bdpt::app {
 /// Accepts 0 to 2^64 - 1.
 [[nodiscard]] ValueType<std::uint64_t> any_seed();
 
+/// Accepts "a size like 500M or 2G" of memory, as bytes.
+[[nodiscard]] ValueType<std::uint64_t> memory_size();
+
 /// Accepts a decimal number in [least, most].
 [[nodiscard]] ValueType<double> number(double least, double most);
 

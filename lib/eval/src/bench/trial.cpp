@@ -46,7 +46,8 @@ TrialSetup with_choice(TrialSetup setup, Checkpoint& point)
 {
     const auto wall = std::chrono::steady_clock::now();
     const double cpu = cpu_seconds();
-    setup.options = chosen_options(setup.scene.scene, setup.scene.camera, setup.options);
+    // Without rates: checkpoints are at any numbers of samples.
+    setup.options = choose_integrator(setup.scene.scene, setup.scene.camera, setup.options).options;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - wall;
     point.cpu_seconds += cpu_seconds() - cpu;
     point.wall_seconds += passed.count();

@@ -236,8 +236,13 @@ inline constexpr auto fields<BidirectionalOptions> = all_fields(
     OptionField{"max_merges",
                 &BidirectionalOptions::max_merges,
                 {.range = {0, std::numeric_limits<int>::max()}}},
-    OptionField{
-        "light_path_memory", &BidirectionalOptions::light_path_memory, {.role = OptionRole::limit}},
+    OptionField{"light_path_memory",
+                &BidirectionalOptions::light_path_memory,
+                {.value = "SIZE",
+                 .help = "Maximum memory of light paths that all pixels share (bdpt, vcm), like 1G; "
+                         "auto chooses among those that fit, on any machine alike",
+                 .otherwise = "4000000000 (4 GB)",
+                 .role = OptionRole::limit}},
     OptionField{"max_camera_depth",
                 &BidirectionalOptions::max_camera_depth,
                 {.range = {0, std::numeric_limits<int>::max()},

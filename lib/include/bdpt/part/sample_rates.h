@@ -25,6 +25,7 @@ namespace bdpt {
 class Scene;
 struct CameraDesc;
 struct RenderOptions;
+struct SampleRange;
 
 /// Mean number of samples that each pixel of an image takes per round: a power of two from 1/4 to
 /// 4. In a render with rates (`SamplingOptions::rates`), rounds take the place of samples. Each
@@ -59,6 +60,9 @@ public:
     [[nodiscard]] double mean() const { return mean_; }
     [[nodiscard]] float least() const;
     [[nodiscard]] float greatest() const;
+
+    /// Tests whether `samples` can be rounds: they begin and end at multiples of `group`.
+    [[nodiscard]] static bool fit(const SampleRange& samples);
 
     /// Returns 2^exponent.
     [[nodiscard]] static float to_rate(int exponent)

@@ -22,11 +22,14 @@ SUMS = "lib/src/path/weight_sums.cpp"
 CAMERA = "lib/src/camera/camera.cpp"
 CACHE = "lib/src/integrator/bidirectional/light_path_cache.cpp"
 TRACER = "lib/src/integrator/path/path_integrator.cpp"
+DENSITIES = "lib/src/path/densities.cpp"
+LIGHTS = "lib/src/scene/light_set.h"
 
 # The lens is so wide, and so far inside the box, that light paths hit it.
 WIDE_LENS = ("--lens-radius", "0.1", "--from", "0.278,0.273,-0.1", "--look-at", "0.278,0.273,0.28", "--fov", "100")
 SHARED = ("--light-paths", "0.25", "--connections", "1.5")
 CHOSEN = ("--light-paths", "0.25", "--connections", "4", "--connection-rays", "3")
+SKY = ("--env", "default")
 FOG = ("--fog", "0.3,0.6,1.2", "--fog-anisotropy", "0.5", "--max-depth", "4")
 # The point lies in the roughest sphere of glass-rough.gltf, below the lamp.
 INSIDE_GLASS = ("--from", "1.05,0.29,0.3", "--look-at", "1.05,1.5,0.31", "--fov", "90")
@@ -112,7 +115,31 @@ BREAKAGES = (
     Breakage("shadow rays to infinity meet nothing", "lib/src/scene/world.cpp",
              "    const Ray ray = ray_from(a, direction, segment);\n    Rgb passing(1.0f);\n    if (is_blocked(",
              "    const Ray ray = ray_from(a, direction, segment);\n    Rgb passing(1.0f);\n    if (false && is_blocked(",
-             "room-environment.gltf", ("--env", "default")),
+             "room-environment.gltf", SKY),
+    Breakage("hits take the light of suns for uniform over the disk", DENSITIES,
+             ".to_next = to_area(window->pdf(x1.p, -to_light), cosine)",
+             ".to_next = to_area(sample.world.bounding_sphere().pdf_disk(), cosine)", "room-sun.gltf"),
+    Breakage("light of suns that enters as learned is worth that of the disk", "lib/src/light/directional_light.cpp",
+             ".weight = illuminance_ / entry.pdf.value", ".weight = illuminance_ / bounds_.pdf_disk().value", "room-sun.gltf"),
+    Breakage("numbers within learned windows are not stretched", "lib/src/light/learned/entry_window.cpp",
+             "cells_->sample({rest, u.y}).point", "cells_->sample({u.x, u.y}).point", "room-sun.gltf"),
+    Breakage("hits take tiles of the sky for unlearned", LIGHTS, "pdf_incident(with_visibility(receiver, id, sampling), x0,",
+             "pdf_incident(receiver, x0,", "room-environment.gltf", SKY),
+    Breakage("samples take tiles of the sky for unlearned", LIGHTS, "with_visibility(receiver, choice->id, sampling), choice->u,",
+             "receiver, choice->u,", "room-environment.gltf", SKY),
+    Breakage("hits take the light of the sky for uniform over the disk", DENSITIES, ".to_next = to_area(pdf.entry, cosine)",
+             ".to_next = to_area(sample.world.bounding_sphere().pdf_disk(), cosine)", "room-environment.gltf", SKY),
+    Breakage("light of the sky that enters as learned is worth that of the disk", "lib/src/light/environment_light.cpp",
+             "(from.pdf.value * entry.pdf.value)", "(from.pdf.value * bounds_.pdf_disk().value)", "room-environment.gltf", SKY),
+    Breakage("hits take shares of groups of lights for unlearned", LIGHTS,
+             "shares != nullptr ? next_event_.probability(id,", "false && shares ? next_event_.probability(id,",
+             "cornell-box-hidden.gltf", SKY),
+    Breakage("numbers within learned groups are not stretched", "lib/src/scene/next_event_lights.cpp",
+             "std::min(u / static_cast<double>(shares[group]), below_one)", "std::min(u, below_one)", "cornell-box-hidden.gltf", SKY),
+    Breakage("hits take starts of light paths for unlearned", DENSITIES, "emission_probability(*x0.light, sampling.learned)",
+             "emission_probability(*x0.light)", "cornell-box-hidden.gltf", SKY),
+    Breakage("light paths start unlearned", WALK, "sampler.next_fine(); }, sampling.learned);", "sampler.next_fine(); });",
+             "cornell-box-hidden.gltf", SKY),
     Breakage("shadow rays pass blended surfaces by what these block", "lib/src/geometry/ray_passage.cpp",
              "crossing.factor = (1.0f - crossing.opacity) * tint();", "crossing.factor = crossing.opacity * tint();", "alpha.gltf"),
 )

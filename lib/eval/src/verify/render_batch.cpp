@@ -37,10 +37,6 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     if (integrator != IntegratorKind::lt && integrator != IntegratorKind::pt) {
         result.sampling.light_samples = options.light_samples;
     }
-    if (integrator == IntegratorKind::bdpt) {
-        // The strategies are tested one by one, and s = 1 alone needs the whole environment.
-        result.sampling.environment = EnvironmentSampling::plain;
-    }
     if (integrator == IntegratorKind::bdpt || integrator == IntegratorKind::vcm) {
         result.bidirectional.light_paths = options.light_paths;
         result.bidirectional.connections = options.connections;

@@ -1,6 +1,7 @@
 #include "scene/precision.h"
 
 #include <bdpt/error.h>
+#include <bdpt/options/option_fields.h>
 #include <bdpt/render.h>
 #include <bdpt/scene.h>
 
@@ -10,6 +11,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +49,44 @@ Rgb center_pixel(SceneDesc desc, IntegratorKind integrator)
         .at(0, 0);
 }
 
+/// A room of several materials, whose lengths are multiplied by `scale`, and the light from places
+/// with them: a lamp, a bulb, a lantern, a sun and a sky. Every radiance is the same at any scale.
+SceneDesc room_of_size(float scale)
+{
+    SceneBuilder builder;
+    builder.walls(test::lambertian(Rgb(0.7f)), test::plastic(Rgb(0.6f), 0.3f));
+    builder.lamp(0.9f, 0.4f, Rgb(5.0f));
+    builder.sphere({0.4f, -0.7f, 0.4f}, 0.3f, test::glass(0.0f), 16);
+    MaterialDesc sheet = test::lambertian({0.4f, 0.8f, 0.5f});
+    sheet.diffuse_transmission.factor = 0.5f;
+    builder.sphere({-0.4f, -0.3f, 0.0f}, 0.4f, sheet, 12);
+    for (InstanceDesc& instance : builder.desc.instances) {
+        // The transforms of instances cannot scale that much.
+        for (Vec3& p : builder.desc.meshes[static_cast<std::size_t>(instance.mesh)].positions) {
+            p = scale * Vec3(instance.world_from_object * Vec4(p, 1.0f));
+        }
+        instance.world_from_object = Mat4(1.0f);
+    }
+    const Rgb intensity = scale * scale * Rgb(0.3f);
+    builder.light(PointLightDesc{.position = scale * Vec3(-0.5f, 0.0f, 0.5f),
+                                 .intensity = intensity});
+    builder.light(PointLightDesc{.position = scale * Vec3(0.6f, 0.3f, 0.2f),
+                                 .intensity = intensity,
+                                 .radius = 0.125f * scale});
+    builder.light(DirectionalLightDesc{.direction = {0.1f, -1.0f, -0.3f}, .illuminance = Rgb(2)});
+    builder.light(EnvironmentLightDesc{
+        .radiance = Image{.width = 2, .height = 2, .pixels = {Rgb(1), Rgb(2), Rgb(0), Rgb(0.5f)}}});
+    return std::move(builder.desc);
+}
+
+/// Returns the image of that room through a lens, by a few samples.
+Image image_of_size(const Scene& scene, float scale, const RenderOptions& options)
+{
+    CameraDesc camera = test::with_lens(test::room_camera(), 0.05f * scale, 3.4f * scale);
+    camera.world_from_camera[3] *= Vec4(Vec3(scale), 1.0f);
+    return render(scene, camera, options).film.develop();
+}
+
 }  // namespace
 
 TEST_CASE("surfaces are as bright at any scale", "[precision]")
@@ -64,6 +105,43 @@ TEST_CASE("surfaces are as bright at any scale", "[precision]")
                   Approx(1.0f).epsilon(0.01));
         }
     }
+}
+
+TEST_CASE("every integrator renders the same image at any scale", "[precision]")
+{
+    // Powers of two, so that nothing is rounded in another way: from 1e-10 to 1e12.
+    const float scale = std::ldexp(1.0f, GENERATE(-33, -16, 23, 40));
+    const Scene usual(room_of_size(1.0f));
+    const Scene scaled(room_of_size(scale));
+    RenderOptions options;
+    options.film.width = 24;
+    options.film.height = 18;
+    options.sampling.samples = {0, 4};
+    options.transport.max_depth = 5;
+    options.sampling.light_samples = 2;
+    const auto check = [&](const std::string& how) {
+        const Image expected = image_of_size(usual, 1.0f, options);
+        const Image image = image_of_size(scaled, scale, options);
+        Rgb sum(0.0f);
+        Rgb difference(0.0f);
+        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+            sum += expected.pixels[i];
+            difference += abs(image.pixels[i] - expected.pixels[i]);
+        }
+        CAPTURE(how, scale);
+        CHECK(difference.g <= 1e-3f * sum.g);
+    };
+    for (const IntegratorKind integrator :
+         {IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis, IntegratorKind::lt,
+          IntegratorKind::bdpt, IntegratorKind::vcm}) {
+        options.integrator = integrator;
+        check(std::string(to_name(integrator)));
+    }
+    options.integrator = IntegratorKind::bdpt;
+    options.bidirectional.light_paths = 0.25;
+    options.bidirectional.connections = 8.0;
+    options.bidirectional.connection_rays = 4.0;
+    check("chosen connections");
 }
 
 TEST_CASE("a camera beyond the reach of rays is refused, where it would see nothing", "[precision]")

@@ -34,7 +34,7 @@ std::span<const ConnectionChooser::Connection> ConnectionChooser::choose(
         total += vertex.all.sum;
         pairs += vertex.all.number;
     }
-    if (!(total > 0.0f && std::isfinite(total))) {
+    if (vertices_.empty()) {
         return {};
     }
     const float by_estimate = share_of_estimates * rays_ / total;
@@ -88,7 +88,7 @@ void ConnectionChooser::estimate_all(const Subpath& camera, std::span<const Ligh
         }
         const std::size_t before = blocks_.size();
         const Estimates all = estimate(prefix, light);
-        if (all.sum > 0.0f) {
+        if (all.number > 0.0f) {
             vertices_.push_back({.t = t, .all = all});
         } else {
             blocks_.resize(before);
@@ -101,7 +101,10 @@ ConnectionChooser::Estimates ConnectionChooser::estimate(std::span<const PathVer
 {
     constexpr Float4 zero{};
     constexpr Float4 one{1.0f, 1.0f, 1.0f, 1.0f};
-    constexpr float least = 1e-30f;  // avoids 0 / 0
+    // Limits of estimates, whatever the size of the scene is and the power of its lights: sums and
+    // rates are finite, and no connection that may bring light is lost.
+    constexpr Float4 least = 1e-34f * one;
+    constexpr Float4 most = 1e30f * one;
     const auto t = static_cast<int>(camera.size());
     const PathVertex& end = camera.back();
     const Vec3 p = end.end.p;
@@ -117,17 +120,19 @@ ConnectionChooser::Estimates ConnectionChooser::estimate(std::span<const PathVer
         const Float4 x = block.x - p.x;
         const Float4 y = block.y - p.y;
         const Float4 z = block.z - p.z;
-        const Float4 squared = x * x + y * y + z * z;
+        const Float4 squared = x * x + y * y + z * z + coincident;
         const Float4 distance = square_root(squared);
         // Cosines times the distance.
         const Float4 at_camera = positive_part(x * n.x + y * n.y + z * n.z + any_side * distance);
         const Float4 at_light =
             positive_part(block.any_side * distance - (x * block.nx + y * block.ny + z * block.nz));
-        const Float4 cosines = at_camera * at_light;
+        const Float4 cosines = at_camera * at_light / squared;
         const Float4 both = block.red * power.x + block.green * power.y + block.blue * power.z;
-        const Float4 value =
-            both * cosines / (squared * squared + cosines * (block.area + area) + least);
-        const Float4 estimates = block.s <= max_vertices_ - t ? value : zero;
+        const Float4 value = both * cosines / (squared + cosines * (block.area + area));
+        const Float4 limited = value < most ? (value > least ? value : least) : most;
+        const Int4 possible =
+            (at_camera > 0.0f) & (at_light > 0.0f) & (both > 0.0f) & (block.s <= max_vertices_ - t);
+        const Float4 estimates = possible ? limited : zero;
         const Float4 counts = estimates > 0.0f ? one : zero;
         blocks_.push_back(
             {.of_vertices = estimates, .all = {.sum = sum(estimates), .number = sum(counts)}});

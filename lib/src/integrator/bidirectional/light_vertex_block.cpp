@@ -34,7 +34,7 @@ Rgb estimated_power(const PathVertex& vertex)
 
 float nearby_area(std::span<const PathVertex> subpath, double count)
 {
-    constexpr float least_pdf = 1e-20f;  // [1/m^2]; below it the area would be infinite
+    constexpr float least_pdf = 1e-36f;  // [1/m^2]; below it the area would be infinite
     if (!joinable(subpath[subpath.size() - 2])) {
         return 0.0f;
     }

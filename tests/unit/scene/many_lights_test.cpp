@@ -142,6 +142,42 @@ TEST_CASE("lights are chosen as often as their probabilities say", "[light][tree
     CHECK(several > 30);
 }
 
+TEST_CASE("lights are chosen as often as learned shares of their groups say", "[light][tree]")
+{
+    const World world(everything(4, 30));
+    const LightSet& lights = world.lights();
+    const std::size_t groups = lights.next_event_lights().group_count();
+    REQUIRE(groups == 4);  // two suns, a sky, and all others
+    std::vector<GroupShares::Finding> findings;
+    for (std::uint32_t group = 0; group < groups; ++group) {
+        findings.push_back({.group = group, .value = static_cast<float>(group + 1)});
+    }
+    const LearnedLight learned{.groups = GroupShares(findings, groups)};
+    const NextEventSampling sampling{.lights = by_tree, .learned = &learned};
+    const LightSampleContext receiver{.p = {0.1f, -0.2f, 0.3f}};
+    std::vector<double> expected;
+    double sum = 0.0;
+    for (std::uint32_t id = 0; id < lights.size(); ++id) {
+        expected.push_back(
+            static_cast<double>(lights.next_event_probability(LightId{id}, receiver, sampling)));
+        sum += expected.back();
+    }
+    REQUIRE(sum == Approx(1.0));
+    std::vector<double> counts(expected.size(), 0.0);
+    Random random(7);
+    for (int i = 0; i < 40000; ++i) {
+        const LightSet::NextEvent next = lights.sample_next_event(
+            receiver, random.next_2d(), [&random] { return random.next_2d(); }, sampling, 0.0f);
+        REQUIRE(next.probability > 0.0f);
+        counts[static_cast<std::size_t>(next.light)] += 1.0;
+    }
+    const test::ChiSquare result = test::chi_square(counts, expected);
+    CAPTURE(result.statistic, result.degrees);
+    CHECK(result.degrees > 10);
+    CHECK(result.p_value > 1e-4);
+    CHECK(result.min_detectable(1e-4) < 0.1);
+}
+
 TEST_CASE("light from infinity has a share of its own", "[light][tree]")
 {
     const World world(everything(3, 30));

@@ -45,8 +45,9 @@ class TokenInterrupt final : public app::Interrupt {
 public:
     explicit TokenInterrupt(std::stop_token stop) : stop_(std::move(stop)) {}
 
-    void set_temporaries(std::vector<std::filesystem::path> /*temporaries*/) override {}
+    void set_outputs(app::PendingOutputs /*outputs*/) override {}
     void allow_stop() override {}
+    void forbid_stop() override {}
     [[nodiscard]] std::stop_token stop_token() const override { return stop_; }
     [[nodiscard]] std::optional<std::string> stopped_by() const override
     {

@@ -191,7 +191,7 @@ int run_bench(const BenchArguments& arguments, const std::vector<std::string>& c
         check_not_read(files, inputs);
     }
     TerminalConsole console(arguments.printed.format, arguments.printed.verbosity);
-    SignalInterrupt interrupt(temporary_paths(files), [&console] {
+    SignalInterrupt interrupt(pending_outputs(files), [&console] {
         console.note("stopping after the current pass; interrupt again to quit at once");
     });
     eval::BenchRecord record{.options = arguments.options,

@@ -72,12 +72,12 @@ int run_develop(const DevelopArguments& arguments)
     const std::vector<fs::path> outputs = choose_outputs(arguments);
     const std::string file = arguments.file.string();
     FileSet inputs({arguments.file});
-    if (arguments.denoise && arguments.denoise->library) {
-        inputs.add(*arguments.denoise->library);
+    if (arguments.denoise.library) {
+        inputs.add(*arguments.denoise.library);
     }
     check_outputs(outputs, inputs);
     TerminalConsole console(arguments.printed.format, arguments.printed.verbosity);
-    const SignalInterrupt interrupt(temporary_paths(outputs), [] {});
+    const SignalInterrupt interrupt(pending_outputs(outputs), [] {});
     LayeredImage image = read_layered_image(
         arguments.file, arguments.denoise.kind == Denoising::none ? Wanted::main : Wanted::clean);
     for (const std::string& warning : image.warnings) {

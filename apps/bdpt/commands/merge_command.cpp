@@ -288,7 +288,7 @@ int run_merge(const MergeArguments& asked)
     const Patience patience(asked.wait);
     std::vector<MergedImage> merged;
     for (MergeArguments image : images) {
-        interrupt.set_temporaries(temporary_paths(merged_files(image)));
+        interrupt.set_outputs(pending_outputs(merged_files(image)));
         image.wait = patience.left();
         merged.push_back(merge_image(image, session));
     }

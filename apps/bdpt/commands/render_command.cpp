@@ -167,7 +167,7 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
         }
         RenderArguments image = make_view_arguments(asked, view);
         console.begin_image(make_label(image));
-        interrupt.set_temporaries(temporary_paths(check_files(image, input_files(asked))));
+        interrupt.set_outputs(pending_outputs(check_files(image, input_files(asked))));
         std::optional<PartKeeper> keeper;
         if (image.part) {
             keeper.emplace(
@@ -185,6 +185,10 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
             check_files_of_plan(asked, *plan);
         }
         if (!stage || time != image.scene.time) {
+            interrupt.forbid_stop();
+            if (interrupt.stopped_by()) {
+                break;
+            }
             stage.reset();  // first, to avoid two scenes in memory
             first.reset();
             still.reset();

@@ -1,8 +1,10 @@
 #include "terminal/interrupt.h"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <ctime>
+#include <system_error>
 #include <utility>
 
 namespace bdpt::app {
@@ -24,13 +26,17 @@ sigset_t signals_to_watch()
     return result;
 }
 
+/// Tests whether a message to this stream would have to wait for its reader.
+bool is_full(int stream)
+{
+    pollfd state{.fd = stream, .events = POLLOUT, .revents = 0};
+    return ::poll(&state, 1, 0) == 0;
+}
+
 }  // namespace
 
-SignalInterrupt::SignalInterrupt(std::vector<std::filesystem::path> temporaries,
-                                 std::function<void()> on_stop)
-    : temporaries_(std::move(temporaries)),
-      on_stop_(std::move(on_stop)),
-      signals_(signals_to_watch())
+SignalInterrupt::SignalInterrupt(PendingOutputs outputs, std::function<void()> on_stop)
+    : outputs_(std::move(outputs)), on_stop_(std::move(on_stop)), signals_(signals_to_watch())
 {
     pthread_sigmask(SIG_BLOCK, &signals_, &previous_);
     watcher_ = std::jthread([this](const std::stop_token& finished) { watch(finished); });
@@ -38,15 +44,34 @@ SignalInterrupt::SignalInterrupt(std::vector<std::filesystem::path> temporaries,
 
 SignalInterrupt::~SignalInterrupt()
 {
+    // First, as only signals end its wait for a reader.
+    std::unique_lock lock(mutex_);
+    std::jthread announcer = std::move(announcer_);
+    lock.unlock();
+    if (announcer.joinable()) {
+        announcer.join();
+    }
     watcher_.request_stop();
     watcher_.join();
     pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
 }
 
-void SignalInterrupt::set_temporaries(std::vector<std::filesystem::path> temporaries)
+void SignalInterrupt::set_outputs(PendingOutputs outputs)
 {
     const std::lock_guard lock(mutex_);
-    temporaries_ = std::move(temporaries);
+    outputs_ = std::move(outputs);
+}
+
+void SignalInterrupt::allow_stop()
+{
+    const std::lock_guard lock(mutex_);
+    stop_allowed_ = true;
+}
+
+void SignalInterrupt::forbid_stop()
+{
+    const std::lock_guard lock(mutex_);
+    stop_allowed_ = false;
 }
 
 std::optional<int> SignalInterrupt::signal() const
@@ -79,17 +104,22 @@ void SignalInterrupt::handle(int signal_number)
         checkpoint_ = true;
         return;
     }
-    if (signal_number != SIGINT && signal_ != 0 && signal_ != SIGINT) {
+    const std::lock_guard lock(mutex_);
+    const bool waits_for_reader =
+        outputs_.have_readers || is_full(STDOUT_FILENO) || is_full(STDERR_FILENO);
+    if (signal_number != SIGINT && signal_ != 0 && signal_ != SIGINT && !waits_for_reader) {
         return;
     }
     if (stop_allowed_ && signal_ == 0) {
         signal_ = signal_number;
         stop_.request_stop();
-        on_stop_();
+        try {
+            announcer_ = std::jthread(on_stop_);
+        } catch (const std::system_error&) {  // no thread can be started
+        }
         return;
     }
-    const std::lock_guard lock(mutex_);
-    for (const std::filesystem::path& temporary : temporaries_) {
+    for (const std::filesystem::path& temporary : outputs_.temporaries) {
         ::unlink(temporary.c_str());
     }
     ::_exit(128 + signal_number);

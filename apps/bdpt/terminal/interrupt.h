@@ -14,6 +14,12 @@
 
 namespace bdpt::app {
 
+/// What an early end of the process means for its outputs.
+struct PendingOutputs {
+    std::vector<std::filesystem::path> temporaries;  ///< removed if the process ends early
+    bool have_readers = false;                       ///< one is a pipe, which may wait for a reader
+};
+
 /// Asks a render to stop.
 class Interrupt {
 public:
@@ -22,10 +28,11 @@ public:
     Interrupt(const Interrupt&) = delete;
     Interrupt& operator=(const Interrupt&) = delete;
 
-    /// Replaces the files that are removed if the process ends early.
-    virtual void set_temporaries(std::vector<std::filesystem::path> temporaries) = 0;
+    virtual void set_outputs(PendingOutputs outputs) = 0;
     /// Allows stops: from now on there is a result worth finishing.
     virtual void allow_stop() = 0;
+    /// Forbids stops, until they are allowed again: there is nothing worth finishing.
+    virtual void forbid_stop() = 0;
     [[nodiscard]] virtual std::stop_token stop_token() const = 0;
     /// Returns what requested the stop, such as "SIGINT"; none if nothing did.
     [[nodiscard]] virtual std::optional<std::string> stopped_by() const = 0;
@@ -34,19 +41,20 @@ public:
 };
 
 /// Turns SIGINT, SIGTERM and SIGHUP into a stop request during its lifetime: the first one requests
-/// a stop if `allow_stop()` was called; any other removes `temporaries` and ends the process with
-/// 128 + the signal's number. Only SIGTERM and SIGHUP wait for a stop that one of them requested,
-/// as schedulers and closing terminals send them twice. SIGUSR1 requests a checkpoint, and does
-/// nothing if there are none. Create it before any other thread, so that threads inherit the
-/// blocked signals.
+/// a stop if that is allowed; any other removes the temporary files and ends the process with 128 +
+/// the signal's number. SIGTERM and SIGHUP wait for a stop that one of them requested, as
+/// schedulers and closing terminals send them twice; but not where the process waits, or may have
+/// to wait, for somebody to read what it writes. SIGUSR1 requests a checkpoint, and does nothing if
+/// there are none. Create it before any other thread, so that threads inherit the blocked signals.
 class SignalInterrupt final : public Interrupt {
 public:
-    /// `on_stop` is called on another thread when a stop is requested.
-    SignalInterrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop);
+    /// `on_stop` is called on another thread when a stop is requested. It may wait for a reader.
+    SignalInterrupt(PendingOutputs outputs, std::function<void()> on_stop);
     ~SignalInterrupt() override;
 
-    void set_temporaries(std::vector<std::filesystem::path> temporaries) override;
-    void allow_stop() override { stop_allowed_ = true; }
+    void set_outputs(PendingOutputs outputs) override;
+    void allow_stop() override;
+    void forbid_stop() override;
     [[nodiscard]] std::stop_token stop_token() const override { return stop_.get_token(); }
     /// Returns "SIGINT", "SIGTERM" or "SIGHUP".
     [[nodiscard]] std::optional<std::string> stopped_by() const override;
@@ -59,12 +67,13 @@ private:
     void handle(int signal_number);
 
     std::mutex mutex_;
-    std::vector<std::filesystem::path> temporaries_;  // guarded by the mutex
+    PendingOutputs outputs_;  // guarded by the mutex, as the next two
+    bool stop_allowed_ = false;
+    std::jthread announcer_;  // calls on_stop_
     std::function<void()> on_stop_;
     sigset_t signals_{};
     sigset_t previous_{};
     std::stop_source stop_;
-    std::atomic<bool> stop_allowed_{false};
     std::atomic<int> signal_{0};
     std::atomic<bool> checkpoint_{false};
     std::jthread watcher_;  // last: uses all of the above

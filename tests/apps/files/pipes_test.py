@@ -2,13 +2,17 @@
 """Tests that scenes from the standard input and images to the standard output equal those of files:
 pipes_test.py COMMAND SCENE."""
 
+import fcntl
 import json
 import os
 import pathlib
 import pty
+import signal
 import subprocess
 import sys
 import tempfile
+import termios
+import time
 
 COMMAND, SCENE = sys.argv[1:3]
 HOW = ["--size", "16x12", "--spp", "4", "--quiet"]
@@ -83,6 +87,53 @@ def check_refusals(folder):
     yield "a terminal as output", done.returncode == 6 and b"terminal" in done.stderr
 
 
+def end_of(stalled, *signals):
+    """Sends signals to a process, each when the one before has been handled. Returns the exit code; None if it goes
+    on."""
+    try:
+        for number in signals:
+            stalled.send_signal(number)
+            time.sleep(0.3)
+        return stalled.wait(timeout=20)
+    except subprocess.TimeoutExpired:
+        return None
+    finally:
+        stalled.kill()
+        stalled.wait()
+
+
+def start(*words):
+    return subprocess.Popen([COMMAND, *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.DEVNULL)
+
+
+def wait_until_full(pipe):
+    """Waits until nothing has been written into a pipe for a while."""
+    before, now = None, 0
+    while now == 0 or now != before:
+        time.sleep(0.5)
+        count = fcntl.ioctl(pipe, termios.FIONREAD, b"1234")
+        before, now = now, int.from_bytes(count, sys.byteorder)
+
+
+def check_readers_that_stall(folder):
+    """Tests that signals end a command that waits for a reader."""
+    code = 128 + signal.SIGTERM
+    os.mkfifo(folder / "nobody.exr")
+    render = ["render", SCENE, "--size", "300x200", "--spp", "1", "--integrator", "pt"]
+    stalled = start(*render, "-o", folder / "nobody.exr")
+    time.sleep(0.5)
+    yield "a named pipe that nobody reads", end_of(stalled, signal.SIGTERM, signal.SIGTERM) == code
+    stalled = start(*render, "-o", "-")
+    wait_until_full(stalled.stdout)
+    yield "an image that nobody reads", end_of(stalled, signal.SIGTERM, signal.SIGHUP) == 128 + signal.SIGHUP
+    for signals in ([signal.SIGTERM] * 2, [signal.SIGTERM, signal.SIGINT]):
+        stalled = start("render", SCENE, *HOW[:4], "--integrator", "pt", "--orbit", "3000", "-o", folder / "s.####.png",
+                        "--json")
+        wait_until_full(stalled.stdout)
+        yield f"events that nobody reads: {signals}", end_of(stalled, *signals) == 128 + signals[-1]
+
+
 def check_files_called_so(folder):
     """Tests that a file of that name is not the standard input."""
     (folder / "-").write_bytes(pathlib.Path(SCENE).read_bytes())
@@ -96,7 +147,8 @@ def check_files_called_so(folder):
 
 with tempfile.TemporaryDirectory() as name:
     FOLDER = pathlib.Path(name)
-    RESULTS = [result for check in (check_images, check_other_commands, check_refusals, check_files_called_so)
+    RESULTS = [result for check in (check_images, check_other_commands, check_refusals, check_readers_that_stall,
+                                            check_files_called_so)
                for result in check(FOLDER)]
 FAILED = [what for what, passed in RESULTS if not passed]
 print("\n".join(f"failed: {what}" for what in FAILED) or f"{len(RESULTS)} checks passed")

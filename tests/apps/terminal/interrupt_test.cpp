@@ -1,4 +1,6 @@
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -10,6 +12,7 @@
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
+#include "terminal/interrupt.h"
 
 namespace bdpt::test::interrupt_test {
 namespace {
@@ -84,6 +87,26 @@ TEST_CASE("a terminal that is closed sends SIGHUP more than once, and the image 
     CAPTURE(outcome.out, outcome.err);
     CHECK(outcome.exit_code == 128 + SIGHUP);
     CHECK(folder.names() == std::set<std::string>{"cube.bin", "cube.gltf", "out.exr"});
+}
+
+TEST_CASE("where a stop is forbidden again, a signal ends the process at once")
+{
+    const ScratchFolder folder;
+    write_text(folder / "half.exr", "half");
+    const pid_t child = ::fork();
+    if (child == 0) {
+        app::SignalInterrupt interrupt({.temporaries = {folder / "half.exr"}}, [] {});
+        interrupt.allow_stop();
+        interrupt.forbid_stop();
+        ::kill(::getpid(), SIGTERM);
+        ::sleep(60);
+        ::_exit(0);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 128 + SIGTERM);
+    CHECK(folder.names().empty());
 }
 
 TEST_CASE("SIGUSR1 does nothing to a render without a part, and SIGHUP nothing below nohup")

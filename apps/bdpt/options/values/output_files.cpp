@@ -152,12 +152,17 @@ bool writes_exr(std::span<const fs::path> outputs)
                        [](const fs::path& output) { return find_type(output) == ImageType::exr; });
 }
 
-std::vector<fs::path> temporary_paths(std::span<const fs::path> outputs)
+PendingOutputs pending_outputs(std::span<const fs::path> outputs)
 {
-    std::vector<fs::path> result;
+    PendingOutputs result;
     for (const fs::path& output : outputs) {
-        if (!is_standard_output(output)) {
-            result.push_back(io::OutputFile::temporary_path(output));
+        const bool is_stream = is_standard_output(output);
+        std::error_code none;
+        const fs::file_status status = fs::status(is_stream ? "/proc/self/fd/1" : output, none);
+        if (fs::is_fifo(status) || fs::is_socket(status)) {
+            result.have_readers = true;
+        } else if (!is_stream) {
+            result.temporaries.push_back(io::OutputFile::temporary_path(output));
         }
     }
     return result;

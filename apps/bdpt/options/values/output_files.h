@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "options/values/file_set.h"
+#include "terminal/interrupt.h"
 
 namespace bdpt::app {
 
@@ -44,8 +45,7 @@ void check_output(std::string_view option, const std::filesystem::path& file, co
 /// Tests whether one of `outputs` is an EXR file.
 [[nodiscard]] bool writes_exr(std::span<const std::filesystem::path> outputs);
 
-/// Returns the temporary paths of the outputs, to be removed if the process ends while writing.
-[[nodiscard]] std::vector<std::filesystem::path> temporary_paths(
-    std::span<const std::filesystem::path> outputs);
+/// Returns the temporary paths of the outputs, and whether one is sent to a reader.
+[[nodiscard]] PendingOutputs pending_outputs(std::span<const std::filesystem::path> outputs);
 
 }  // namespace bdpt::app

@@ -39,6 +39,7 @@ public:
         : signals_(context_),
           acceptor_(context_),
           pause_(context_),
+          patience_(context_),
           token_(random_token()),
           ticket_(random_token())
     {
@@ -139,7 +140,20 @@ private:
                 ::_exit(128 + number);
             }
             state_.doors.stop();
+            end_soon();
             wait_for_signal();
+        });
+    }
+
+    /// Ends the process if it has not ended in a moment: nothing is worth waiting for, such as a
+    /// large scene that is still being loaded.
+    void end_soon()
+    {
+        patience_.expires_after(std::chrono::milliseconds(500));
+        patience_.async_wait([](const error_code& error) {
+            if (!error) {
+                ::_exit(0);
+            }
         });
     }
 
@@ -170,6 +184,7 @@ private:
     asio::signal_set signals_;
     tcp::acceptor acceptor_;
     asio::steady_timer pause_;
+    asio::steady_timer patience_;
     std::string token_;
     std::string ticket_;
     std::string site_;

@@ -21,6 +21,7 @@ find_path(BDPT_XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 set(BDPT_HAS_DRACO OFF)
 set(BDPT_HAS_MESHOPT OFF)
 set(BDPT_HAS_OPENVDB OFF)
+set(BDPT_HAS_SECCOMP OFF)
 if(BDPT_BUILD_IO)
   find_package(OpenEXR CONFIG REQUIRED)
   find_package(Imath CONFIG REQUIRED)
@@ -80,6 +81,17 @@ if(BDPT_BUILD_IO)
     endif()
   endif()
   message(STATUS "Volumes: OpenVDB ${BDPT_HAS_OPENVDB}")
+
+  # Looks for what confines the programs that read files with OpenVDB and libktx; without it they are limited only in
+  # memory and time.
+  if(BDPT_WITH_SECCOMP)
+    find_path(BDPT_SECCOMP_INCLUDE_DIR seccomp.h)
+    find_library(BDPT_SECCOMP_LIBRARY seccomp)
+    if(BDPT_SECCOMP_INCLUDE_DIR AND BDPT_SECCOMP_LIBRARY)
+      set(BDPT_HAS_SECCOMP ON)
+    endif()
+  endif()
+  message(STATUS "Confined readers of files: libseccomp ${BDPT_HAS_SECCOMP}")
 
   find_package(OpenImageIO CONFIG REQUIRED)
   # Removes include directories that Debian's package exports but does not install.

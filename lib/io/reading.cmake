@@ -127,40 +127,36 @@ target_include_directories(bdpt_oiio PRIVATE src)
 target_link_libraries(bdpt_oiio PRIVATE OpenImageIO::OpenImageIO)
 bdpt_add_companion(bdpt_oiio)
 
+# bdpt_add_reader(TARGET NAME SOURCES...): a program that reads one file of a stranger, in a process of its own.
+function(bdpt_add_reader target name)
+  add_executable(${target} src/process/limited_process.cpp ${ARGN})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name})
+  bdpt_compile_options(${target})
+  target_include_directories(${target} PRIVATE src $<TARGET_PROPERTY:bdpt,INTERFACE_INCLUDE_DIRECTORIES>)
+  if(BDPT_SANITIZE)
+    target_compile_definitions(${target} PRIVATE BDPT_SANITIZED)
+  endif()
+  if(BDPT_HAS_SECCOMP)
+    target_compile_definitions(${target} PRIVATE BDPT_HAS_SECCOMP)
+    target_include_directories(${target} SYSTEM PRIVATE "${BDPT_SECCOMP_INCLUDE_DIR}")
+    target_link_libraries(${target} PRIVATE "${BDPT_SECCOMP_LIBRARY}")
+  endif()
+  bdpt_add_companion(${target})
+endfunction()
+
 # OpenVDB is in a program that runs once for each volume file (src/volume/vdb_reply.h).
 if(BDPT_HAS_OPENVDB)
-  add_executable(bdpt_vdb_reader
+  bdpt_add_reader(bdpt_vdb_reader bdpt-read-vdb
     src/vdb_reader/dense_densities.cpp
-    src/process/limited_process.cpp
     src/vdb_reader/grid_choice.cpp
     src/vdb_reader/main.cpp
     src/vdb_reader/whole_file.cpp)
-  set_target_properties(bdpt_vdb_reader PROPERTIES OUTPUT_NAME bdpt-read-vdb)
-  bdpt_compile_options(bdpt_vdb_reader)
-  target_include_directories(bdpt_vdb_reader PRIVATE src)
   target_link_libraries(bdpt_vdb_reader PRIVATE bdpt_openvdb glm::glm)
-  target_include_directories(bdpt_vdb_reader PRIVATE
-    $<TARGET_PROPERTY:bdpt,INTERFACE_INCLUDE_DIRECTORIES>)
-  if(BDPT_SANITIZE)
-    target_compile_definitions(bdpt_vdb_reader PRIVATE BDPT_SANITIZED)
-  endif()
-  bdpt_add_companion(bdpt_vdb_reader)
 endif()
 
 # A program that runs once for each KTX2 image opens libktx (src/image/ktx_reply.h).
-add_executable(bdpt_ktx_reader
-  src/ktx_reader/ktx_functions.cpp
-  src/ktx_reader/main.cpp
-  src/process/limited_process.cpp)
-set_target_properties(bdpt_ktx_reader PROPERTIES OUTPUT_NAME bdpt-read-ktx)
-bdpt_compile_options(bdpt_ktx_reader)
-target_include_directories(bdpt_ktx_reader PRIVATE src
-  $<TARGET_PROPERTY:bdpt,INTERFACE_INCLUDE_DIRECTORIES>)
+bdpt_add_reader(bdpt_ktx_reader bdpt-read-ktx src/ktx_reader/ktx_functions.cpp src/ktx_reader/main.cpp)
 target_link_libraries(bdpt_ktx_reader PRIVATE ${CMAKE_DL_LIBS})
-if(BDPT_SANITIZE)
-  target_compile_definitions(bdpt_ktx_reader PRIVATE BDPT_SANITIZED)
-endif()
-bdpt_add_companion(bdpt_ktx_reader)
 
 # The library looks for its companions beside the file that contains its code (the shared library, or the program that
 # links the static one), and in the installed folder relative to it. It never looks in the build folder: anyone who can

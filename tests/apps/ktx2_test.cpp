@@ -1,4 +1,10 @@
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 #include "catch.hpp"
@@ -68,6 +74,29 @@ bool contains(const std::string& text, const std::string& part)
     return text.find(part) != std::string::npos;
 }
 
+/// Tests for a process that decodes an image with `library`.
+bool is_decoding(const std::string& library)
+{
+    std::error_code gone;
+    for (const auto& process : std::filesystem::directory_iterator("/proc", gone)) {
+        const std::string words = read_text(process.path() / "cmdline");
+        if (contains(words, "bdpt-read-ktx") && contains(words, library + std::string(1, '\0'))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Waits until that is so or, if `expected` is false, no longer so. Returns whether it came true.
+bool await_decoding(const std::string& library, bool expected)
+{
+    constexpr int patience = 2000;  // of 10 ms each
+    for (int i = 0; i < patience && is_decoding(library) != expected; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return is_decoding(library) == expected;
+}
+
 }  // namespace
 
 TEST_CASE("KTX2 textures are read by the library of --ktx-library")
@@ -120,6 +149,27 @@ TEST_CASE("a plan does not name libktx, and its tasks are told")
     const Outcome done = lantern.task(fake);
     CAPTURE(done.err);
     CHECK(done.exit_code == 0);
+}
+
+TEST_CASE("a signal ends a command at once while it loads, and the process that decodes for it")
+{
+    const Lantern lantern;
+    const std::string sleeping = lantern.path("libktx-sleep.so");
+    std::filesystem::create_symlink(BDPT_FAKE_KTX, sleeping);
+    const std::string command = GENERATE("render", "view");
+    CAPTURE(command);
+    Words words{command, lantern.path("cube.gltf"), "--ktx-library", sleeping};
+    if (command == "render") {
+        words.insert(words.end(), {"-o", lantern.path("o.exr")});
+    }
+    Subprocess process(Launch{.arguments = words});
+    REQUIRE(await_decoding(sleeping, true));
+    if (command == "view") {
+        process.wait_for("http://");
+    }
+    process.send(SIGTERM);
+    CHECK(process.finish().exit_code == (command == "view" ? 0 : 128 + SIGTERM));
+    CHECK(await_decoding(sleeping, false));
 }
 
 }  // namespace bdpt::test::apps_ktx2_test

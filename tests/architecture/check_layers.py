@@ -40,6 +40,7 @@ ALLOWED = {
     "lib/io/include": [r"glm/"],
     "lib/src/memory": [r"(sys/mman|unistd)\.h"],
     "lib/io/src": [r"glm/", FILE_LIBRARIES, POSIX],
+    "lib/io/src/process": [r"fmt/", r"(sched|seccomp)\.h", POSIX],
     "lib/io/src/gltf": [r"glm/", FILE_LIBRARIES, r"draco/", r"meshoptimizer\.h", r"(oneapi/)?tbb/"],
     "lib/io/src/oiio_module": [r"OpenImageIO/"],
     "lib/io/src/vdb_reader": [r"openvdb/", r"oneapi/tbb/", POSIX],

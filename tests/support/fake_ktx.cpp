@@ -1,16 +1,24 @@
 // A library with the interface of libktx 4 that invents pixels: "transcoded" ones are (x, y, first
 // byte of the level, 77), others have the level's contents. As in libktx, small levels come first.
 // It fails unless it is told to load the image, and to transcode to RGBA where it says that this is
-// needed. BDPT_FAKE_KTX in the environment selects a misbehaviour: fail, crash, greedy (allocates
-// 64 GiB), short (decodes less than the header promises), throw (no C++ library should).
+// needed. The name of its file selects a misbehaviour: libktx-fail.so, or -crash, -greedy
+// (allocates 64 GiB), -short (decodes less than the header promises), -throw (no C++ library
+// should), -write (to a file beside itself), -connect, -start (another program), -secret (fails if
+// BDPT_TEST_SECRET is in the environment), -sleep (never returns).
 
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 #include <stdexcept>
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace {
@@ -39,10 +47,34 @@ constexpr int invalid_operation = 10;
 constexpr int invalid_value = 11;
 constexpr int out_of_memory = 13;
 
-bool wants(std::string_view wish)
+/// Returns the name of the file that this code is in.
+std::string own_file()
 {
-    const char* given = std::getenv("BDPT_FAKE_KTX");
-    return given != nullptr && given == wish;
+    Dl_info info{};
+    static const char place = 0;
+    return dladdr(&place, &info) != 0 ? info.dli_fname : "";
+}
+
+bool wants(const std::string& wish)
+{
+    return own_file().ends_with("libktx-" + wish + ".so");
+}
+
+/// Does what no decoder needs; returns whether that failed.
+bool is_refused()
+{
+    if (wants("write")) {
+        return ::open((own_file() + ".written").c_str(), O_WRONLY | O_CREAT, 0600) < 0;
+    }
+    if (wants("connect")) {
+        return ::socket(AF_INET, SOCK_STREAM, 0) < 0;
+    }
+    if (wants("start")) {
+        std::array<char, 5> name{"true"};
+        const std::array<char*, 2> words{name.data(), nullptr};
+        return ::execv("/bin/true", words.data()) != 0;
+    }
+    return wants("secret") && std::getenv("BDPT_TEST_SECRET") != nullptr;
 }
 
 int image_offset(Texture*, std::uint32_t level, std::uint32_t layer, std::uint32_t face,
@@ -78,8 +110,11 @@ FAKE int ktxTexture2_CreateFromMemory(const std::uint8_t* bytes, std::size_t siz
         void* volatile memory = std::malloc(std::size_t{64} << 30U);  // not optimised away
         return memory == nullptr ? out_of_memory : success;
     }
+    while (wants("sleep")) {
+        ::sleep(1000);
+    }
     constexpr std::uint32_t load_image_data = 1;
-    if (wants("fail") || flags != load_image_data) {
+    if (wants("fail") || is_refused() || flags != load_image_data) {
         return file_data_error;
     }
     const std::uint64_t offset = number(bytes + 80, 8);

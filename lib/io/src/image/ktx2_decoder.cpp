@@ -27,12 +27,10 @@ struct DecodingLimits {
 
 DecodingLimits decoding_limits(ByteView file, const Ktx2Header& header)
 {
-    // The file, its levels without supercompression, as RGBA, and the output.
-    constexpr std::uint64_t bytes_per_pixel = 16;
     constexpr std::uint64_t start_seconds = 10;
     // A tenth of the speed of a slow machine.
     constexpr std::uint64_t pixels_per_second = 2'000'000;
-    return {.memory = 2 * file.size() + bytes_per_pixel * header.pixels,
+    return {.memory = decoding_memory(file, header),
             .seconds = start_seconds + header.pixels / pixels_per_second};
 }
 
@@ -55,6 +53,10 @@ std::string own_message(const ProcessEnd& end)
         throw Error(ErrorCode::out_of_memory,
                     fmt::format("{} was killed while decoding, probably for lack of memory",
                                 ktx_reader_name));
+    }
+    if (end.signal == SIGSYS) {
+        throw std::runtime_error(
+            "KTX2: broken: libktx was stopped when it did what decoding does not need");
     }
     if (end.signal != 0) {
         throw std::runtime_error(
@@ -97,6 +99,13 @@ std::optional<std::string> find_obstacle(const std::string& library)
 }
 
 }  // namespace
+
+std::uint64_t decoding_memory(ByteView file, const Ktx2Header& header)
+{
+    // The file, its levels without supercompression, as RGBA, and the output.
+    constexpr std::uint64_t bytes_per_pixel = 16;
+    return 2 * file.size() + bytes_per_pixel * header.pixels;
+}
 
 Ktx2Decoder::Ktx2Decoder(const std::optional<std::filesystem::path>& library)
     : library_(library ? library->string() : std::string())

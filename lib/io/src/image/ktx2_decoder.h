@@ -10,6 +10,9 @@
 
 namespace bdpt::io {
 
+/// Returns the memory that a process may take to decode the image in `file` [bytes].
+[[nodiscard]] std::uint64_t decoding_memory(ByteView file, const Ktx2Header& header);
+
 /// libktx of Khronos, opened by the program bdpt-read-ktx in a separate process for each image: a
 /// file that crashes it costs only one image.
 class Ktx2Decoder {

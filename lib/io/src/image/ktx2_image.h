@@ -22,6 +22,9 @@ public:
     [[nodiscard]] int channels() const { return header_.channels; }
     [[nodiscard]] static constexpr int value_bytes() { return 1; }
 
+    /// Returns the memory that another process may take to decode it [bytes].
+    [[nodiscard]] std::uint64_t process_memory() const { return decoding_memory(bytes_, header_); }
+
     /// Decodes all pixels, top row first, into room for width * height * channels values. Throws as
     /// `Ktx2Decoder::decode`.
     void read(std::uint8_t* values);

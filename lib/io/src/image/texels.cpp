@@ -69,6 +69,12 @@ EncodedImage::EncodedImage(ByteView bytes, const ReadLimits& limits, Ktx2Decoder
                      static_cast<std::uint64_t>(layout.height) * texel_bytes;
 }
 
+std::uint64_t EncodedImage::process_memory() const
+{
+    const auto* const ktx2 = std::get_if<Ktx2Image>(&file_);
+    return ktx2 != nullptr ? ktx2->process_memory() : 0;
+}
+
 DecodedImage EncodedImage::decode() &&
 {
     DecodedImage decoded{.image = read_layout(file_)};

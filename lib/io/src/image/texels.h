@@ -39,6 +39,9 @@ public:
     /// Returns the size of the texels. Decoding takes up to three times as much.
     [[nodiscard]] std::uint64_t decoded_bytes() const { return decoded_bytes_; }
 
+    /// Returns the memory that another process may take to decode it [bytes]; 0: there is none.
+    [[nodiscard]] std::uint64_t process_memory() const;
+
     /// Decodes texels as stored: 8 or 16 bits, one to four channels. Colours are not converted and
     /// alpha is not premultiplied. Throws std::runtime_error if the image is broken. May be called
     /// on another thread, once.

@@ -124,6 +124,7 @@ int run(std::span<char*> words)
         const KtxFunctions ktx = open_ktx(words[1]);
         const io::KtxReply reply;
         io::write_output(&reply, sizeof(reply));
+        io::confine(io::Openable::none);
         if (decodes) {
             decode(ktx, input(), {.width = number(2), .height = number(3), .channels = number(4)});
         }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <string_view>
 #include <system_error>
 
@@ -98,6 +99,30 @@ private:
     posix_spawnattr_t attributes_{};
 };
 
+/// Returns the environment of a new process.
+std::vector<std::string> make_environment()
+{
+    std::vector<std::string> result{fmt::format("{}={}", parent_variable, ::getpid())};
+    // Where libraries are, and the options of sanitizers.
+    for (const char* name : {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "UBSAN_OPTIONS", "LSAN_OPTIONS"}) {
+        if (const char* const value = std::getenv(name)) {
+            result.push_back(fmt::format("{}={}", name, value));
+        }
+    }
+    return result;
+}
+
+/// Returns pointers to the texts, and a null pointer behind them.
+std::vector<char*> pointers(std::vector<std::string>& texts)
+{
+    std::vector<char*> result;
+    for (std::string& text : texts) {
+        result.push_back(text.data());
+    }
+    result.push_back(nullptr);
+    return result;
+}
+
 /// Returns the last line of the file, or of its first bytes if it is long.
 std::string last_line(int file)
 {
@@ -157,14 +182,10 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
     const Descriptor given(make_memory_file(input));
     std::vector<std::string> words{program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) {
-        argv.push_back(word.data());
-    }
-    argv.push_back(nullptr);
+    std::vector<std::string> environment = make_environment();
     const Streams streams(given.number(), written.number(), errors_.number());
-    const int error =
-        ::posix_spawn(&id_, program.c_str(), streams.get(), Signals().get(), argv.data(), environ);
+    const int error = ::posix_spawn(&id_, program.c_str(), streams.get(), Signals().get(),
+                                    pointers(words).data(), pointers(environment).data());
     if (error != 0) {
         id_ = -1;
         fail(program.string() + " cannot be started", error);

@@ -46,8 +46,12 @@ struct ProcessEnd {
     std::string message;  ///< last line on its standard error
 };
 
-/// A program whose standard output is read by this process. It inherits no open descriptors. If
-/// still running, it is killed when this object is destroyed.
+/// Name of the variable by which a `ChildProcess` is told the id of this process.
+constexpr const char* parent_variable = "BDPT_PARENT";
+
+/// A program whose standard output is read by this process. It inherits no open descriptors, and of
+/// the environment only where libraries are. If still running, it is killed when this object is
+/// destroyed.
 class ChildProcess {
 public:
     /// `input` is given to the program on its standard input, as a file in memory; empty: no input.

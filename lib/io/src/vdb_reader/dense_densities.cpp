@@ -87,6 +87,7 @@ io::VdbReply make_header(const openvdb::GridBase& grid, std::uint64_t max_bytes)
     const openvdb::Mat4d matrix = grid.transform().baseMap()->getAffineMap()->getMat4();
     std::copy_n(matrix.asPointer(), header.world_from_index.size(),
                 header.world_from_index.begin());
+    header.tree_bytes = grid.memUsage();
     const std::string name = plain(grid.getName());
     std::copy_n(name.begin(), std::min(name.size(), header.name.size() - 1), header.name.begin());
     return header;

@@ -29,9 +29,11 @@ void read(const std::string& name, const std::string& wanted, std::uint64_t max_
           io::Allowance allowance)
 {
     openvdb::initialize();
+    io::confine(io::Openable::to_read);
     check_whole_file(name);
     openvdb::io::File file(name);
     file.open(/*delayLoad=*/false);
+    io::confine(io::Openable::none);
     const openvdb::GridBase::Ptr grid = file.readGrid(chosen_grid(file, wanted));
     const io::VdbReply header = make_header(*grid, max_bytes);
     io::write_output(&header, sizeof(header));

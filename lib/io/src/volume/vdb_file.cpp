@@ -100,6 +100,10 @@ bool lacks_threads(const ProcessEnd& end)
                                 "user or container may have",
                                 vdb_reader_name));
     }
+    if (end.signal == SIGSYS) {
+        throw Error(ErrorCode::invalid_input,
+                    "broken: OpenVDB was stopped when it did what reading does not need");
+    }
     if (end.signal != 0) {
         throw Error(ErrorCode::invalid_input,
                     fmt::format("broken: OpenVDB crashed on it (signal {})", end.signal));
@@ -150,7 +154,10 @@ VdbGrid read_vdb(const std::filesystem::path& file, const VolumeOptions& options
     const std::size_t count = checked_count(grid.header, limits);
     if (options.memory) {
         constexpr std::uint64_t voxel = sizeof(float);
-        options.memory->spend(fmt::format("grid \"{}\"", grid.header.name.data()), count * voxel);
+        const std::string what = fmt::format("grid \"{}\"", grid.header.name.data());
+        options.memory->spend(what, count * voxel);
+        options.memory->check(what + " while it is read",
+                              std::min(grid.header.tree_bytes, allowed.memory));
     }
     grid.density.resize(count);
     const std::size_t size = grid.density.size() * sizeof(float);

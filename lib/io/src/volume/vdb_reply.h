@@ -28,6 +28,7 @@ struct VdbReply {
     std::uint32_t empty = 0;
     /// Affine, from voxel indices, column-major.
     std::array<double, 16> world_from_index{};
+    std::uint64_t tree_bytes = 0;  ///< memory of the program for the grid
     std::array<char, 256> name{};  ///< name of the grid; ends with a zero byte
 };
 

@@ -25,6 +25,7 @@
 #include "../image_fixture.h"
 #include "catch.hpp"
 #include "encoders.h"
+#include "file/companion.h"
 #include "image/ktx2_header.h"
 #include "image/texels.h"
 #include "ktx2_file.h"
@@ -47,13 +48,20 @@ std::string fault(const std::string& bytes)
     }
 }
 
-/// While it lives, the fake library does something else.
-class Wish {
+/// The fake library under a name by which it misbehaves.
+class Misbehaving {
 public:
-    explicit Wish(const char* wish) { ::setenv("BDPT_FAKE_KTX", wish, 1); }
-    ~Wish() { ::unsetenv("BDPT_FAKE_KTX"); }
-    Wish(const Wish&) = delete;
-    Wish& operator=(const Wish&) = delete;
+    explicit Misbehaving(const std::string& how)
+        : library_(folder_.path() / ("libktx-" + how + ".so"))
+    {
+        fs::create_symlink(BDPT_FAKE_KTX, library_);
+    }
+
+    [[nodiscard]] const fs::path& library() const { return library_; }
+
+private:
+    TempFolder folder_;
+    fs::path library_;
 };
 
 DecodedImage decode(const std::string& bytes, const fs::path& library = BDPT_FAKE_KTX)
@@ -280,9 +288,8 @@ TEST_CASE("libktx decodes the first level of a KTX2 image")
 TEST_CASE("a KTX2 image that libktx cannot decode costs one image")
 {
     const std::string bytes = Ktx2File::uastc().bytes();
-    const auto fault_of = [&](const char* wish) {
-        const Wish wished(wish);
-        return decoding_fault(bytes);
+    const auto fault_of = [&](const char* how) {
+        return decoding_fault(bytes, Misbehaving(how).library());
     };
     CHECK(fault_of("fail") == "KTX2: broken: libktx says: the file is bad");
     CHECK(fault_of("crash") == "KTX2: broken: libktx crashed on it (signal 6)");
@@ -291,8 +298,8 @@ TEST_CASE("a KTX2 image that libktx cannot decode costs one image")
 #ifndef BDPT_SANITIZED
     CHECK(contains(fault_of("greedy"), "KTX2: broken, or too large: decoding takes more than"));
 #endif
-    const Wish crash("crash");
-    const LoadedScene loaded = with_ktx2(bytes, true).load(fake);
+    const Misbehaving crash("crash");
+    const LoadedScene loaded = with_ktx2(bytes, true).load(by(crash.library()));
     REQUIRE(loaded.scene.images.size() == 1);
     CHECK(loaded.scene.images[0].bytes == Texels{7});  // the fallback
     CHECK(warns(loaded.warnings, {"/images/0: KTX2: broken: libktx crashed"}));
@@ -390,22 +397,56 @@ TEST_CASE("a texture goes by what it is for, and says where its KTX2 image disag
 
 TEST_CASE("KTX2 images beyond the limits are refused before they are decoded")
 {
-    const Wish crash("crash");  // so nothing may be decoded
+    const Misbehaving crash("crash");  // so nothing may be decoded
     Ktx2File wide = Ktx2File::etc1s();
     wide.width = 1'000'000'000;
-    const Error error = with_ktx2(wide.bytes()).error(fake);
+    const Error error = with_ktx2(wide.bytes()).error(by(crash.library()));
     CHECK(error.code() == ErrorCode::invalid_input);
     CHECK(contains(error.what(), "/images/0: image of 1000000000 x 4 pixels, but the limit is"));
     wide.width = wide.height = 16384;
-    GltfOptions little = fake;
+    GltfOptions little = by(crash.library());
     little.limits.image_bytes = 1000;
     CHECK(contains(with_ktx2(wide.bytes()).error(little).what(),
                    "image of 16384 x 16384 pixels needs"));
-    GltfOptions poor = fake;
+    GltfOptions poor = by(crash.library());
     poor.limits.memory_bytes = 100 << 20;
     CHECK(contains(with_ktx2(wide.bytes()).error(poor).what(), "of memory"));
     CHECK(contains(with_ktx2(wide.bytes()).error(poor).what(), "/images/0: "));
+    // Room for the texels, but not for the process that decodes them.
+    poor.limits.memory_bytes = std::uint64_t{1300} << 20U;
+    CHECK(contains(with_ktx2(wide.bytes()).error(poor).what(),
+                   "/images/0: decoding the image needs "));
 }
+
+TEST_CASE("libktx sees no environment")
+{
+    const std::string bytes = Ktx2File::uastc().bytes();
+    const Misbehaving secret("secret");
+    ::setenv("BDPT_TEST_SECRET", "1", 1);
+    CHECK(decoding_fault(bytes, secret.library()).empty());
+    ::unsetenv("BDPT_TEST_SECRET");
+}
+
+#ifndef BDPT_SANITIZED
+TEST_CASE("a file that takes libktx over can neither write files, connect nor start programs")
+{
+    std::ifstream reader(companion_file("bdpt-read-ktx"), std::ios::binary);
+    const std::string program(std::istreambuf_iterator<char>(reader), {});
+    if (!contains(program, "libseccomp.so")) {
+        WARN("skipped: built without libseccomp");
+        return;
+    }
+    const std::string bytes = Ktx2File::uastc().bytes();
+    const Misbehaving write("write");
+    CHECK(decoding_fault(bytes, write.library()) == "KTX2: broken: libktx says: the file is bad");
+    CHECK_FALSE(fs::exists(write.library().string() + ".written"));
+    for (const char* how : {"connect", "start"}) {
+        CAPTURE(how);
+        CHECK(decoding_fault(bytes, Misbehaving(how).library()) ==
+              "KTX2: broken: libktx was stopped when it did what decoding does not need");
+    }
+}
+#endif
 
 TEST_CASE("references to KTX2 images are checked")
 {

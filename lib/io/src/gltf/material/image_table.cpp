@@ -74,6 +74,10 @@ struct ImageTable::Job {
     {
         return own_bytes.size() + (encoded ? encoded->decoded_bytes() : 0);
     }
+    [[nodiscard]] std::uint64_t process_memory() const
+    {
+        return encoded ? encoded->process_memory() : 0;
+    }
 };
 
 /// Reads the bytes and the header. Memory is charged even if the image turns out to be broken, so
@@ -106,6 +110,7 @@ void ImageTable::open(Job& job)
     }
     job.encoded.emplace(job.bytes, context_.limits, context_.ktx2);
     spend(job.encoded->decoded_bytes());
+    context_.budget.memory().check("decoding the image", job.process_memory());
 }
 
 /// Copies the image from the cache, if it is there.
@@ -211,17 +216,22 @@ void ImageTable::decode(const std::vector<std::size_t>& indices,
         }
     };
     // Images are opened one after the other and decoded in batches, whose total memory is at most
-    // that allowed for one image.
+    // that allowed for one image; and their processes together must fit into the budget.
     std::deque<Job> batch;
     std::uint64_t batch_memory = 0;
+    std::uint64_t process_memory = 0;
     for (const std::size_t index : indices) {
         Job job{.index = index};
         job.attempt([&] { open(job); });
-        if (!batch.empty() && job.memory() > context_.limits.image_bytes - batch_memory) {
+        if (!batch.empty() &&
+            (job.memory() > context_.limits.image_bytes - batch_memory ||
+             process_memory + job.process_memory() > context_.budget.memory().left())) {
             finish(batch, tell);
             batch_memory = 0;
+            process_memory = 0;
             packed_bytes_ = job.own_bytes.size();
         }
+        process_memory += job.process_memory();
         batch_memory = std::min(context_.limits.image_bytes, batch_memory + job.memory());
         const bool last = job.fatal;
         batch.push_back(std::move(job));

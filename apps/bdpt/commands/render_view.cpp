@@ -110,7 +110,12 @@ RenderResult render_stage(const RenderArguments& arguments, const PreparedScene&
     RenderResult part;
     RenderControl control;
     control.stop = interrupt.stop_token();
-    control.time_limit = arguments.goal.seconds;
+    Goal goal = arguments.goal;
+    goal.seconds = std::max(goal.seconds - stage.load_seconds - stage.build_seconds, 0.0);
+    control.time_limit = goal.seconds;
+    if (goal.seconds == 0.0) {
+        session.console.note("loading took longer than --time: one pass is rendered");
+    }
     control.profiling = arguments.profiling;
     control.noise_goal = arguments.goal.noise.value_or(0.0);
     if (keeper) {
@@ -129,7 +134,7 @@ RenderResult render_stage(const RenderArguments& arguments, const PreparedScene&
         }
     };
     control.on_progress = [&, before = part.samples.count()](const Progress& progress) {
-        session.console.progress(progress, goal_from_now(arguments.goal, progress, before));
+        session.console.progress(progress, goal_from_now(goal, progress, before));
     };
     RenderResult result = render_or_blame(stage, options, std::move(part), control, arguments);
     session.console.end_progress();

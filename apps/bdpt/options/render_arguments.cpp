@@ -116,7 +116,8 @@ void add_process_options(OptionList& options, RenderRequest& request)
     RenderArguments& arguments = request.arguments;
     options.section("How to render", {.python_render = true});
     add_time_option(options, request,
-                    "Render time, like 90s, 2m or 1.5h; without --spp the only limit");
+                    "Time of loading and rendering, like 90s, 2m or 1.5h; at least one pass is "
+                    "rendered. Without --spp the only limit");
     options.add("--noise", "N%",
                 "Stop at this noise, like 2%: the relative standard error that 95 % of all tiles "
                 "of 16 x 16 pixels do not exceed. Checked after 16, 24, 32, 48, 64, ... samples "
@@ -280,7 +281,7 @@ std::vector<Essential> render_essentials()
          "found; --denoise=false: none"},
         {"--spp"},
         {"--size", "Image size. Default: the largest within 1280x720"},
-        {"--time", "Render time, like 90s, 2m or 1.5h"},
+        {"--time", "Time of loading and rendering, like 90s, 2m or 1.5h"},
         {"--noise", "Stop at this noise, like 2%"},
         {"--ground", "shadow: shadow catcher, an invisible ground below the scene"},
         {"--camera"},

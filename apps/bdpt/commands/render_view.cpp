@@ -386,7 +386,8 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
     report_clamp(console, result.film, image);
     const ImageFileOptions options =
         image_file_options(arguments, stage, result, metadata, session);
-    if (stage.scene.counts().lights > 0 && is_black(image, options.layers)) {
+    const bool is_whole = !arguments.options.film.crop;
+    if (is_whole && stage.scene.counts().lights > 0 && is_black(image, options.layers)) {
         console.warning(black_image_text(arguments.file.string()));
     }
     WrittenImages images = write_image_files(arguments.outputs, image, options, attempts);

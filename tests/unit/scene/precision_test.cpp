@@ -188,6 +188,7 @@ TEST_CASE("what is small for its distance is named", "[precision]")
     CHECK(warnings[0].find("instance 0 \"house\": is 2 m large, but its points have a precision of "
                            "7") == 0);
     CHECK(warnings[0].find("1e+08 m from the origin") != std::string::npos);
+    builder.light(PointLightDesc{});
     CHECK(Scene(builder.desc).warnings() == warnings);
     CHECK(warnings_of(wall(1e8f, test::lambertian(Rgb(0.5f))).desc).empty());
 }

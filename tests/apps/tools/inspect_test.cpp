@@ -53,8 +53,8 @@ TEST_CASE("columns of long numbers do not run together", "[inspect]")
                                     .shares = {0.0f, 1.0f}});
     const std::string text = app::inspect_text(sample, {});
     CAPTURE(text);
-    CHECK(text.find(" 1.236e-05 s=1 1") != std::string::npos);
-    CHECK(text.find("1.236e-05          1 ") != std::string::npos);
+    CHECK(text.find(" 1.236e-05  s=1 1") != std::string::npos);
+    CHECK(text.find(" 1.236e-05           1 ") != std::string::npos);
 }
 
 TEST_CASE("inspect draws the directions at a vertex", "[inspect]")

@@ -125,7 +125,7 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--fov", "nan"}, "--fov");
     rejects({"--exposure", "nan"}, "--exposure");
     rejects({"--tone-map", "aces"}, "--tone-map");
-    rejects({"--background", "red"}, "--background \"red\"");
+    rejects({"--background", "reddish"}, "--background \"reddish\"");
     rejects({"--background", "#ff"}, "--background \"#ff\"");
     rejects({"--background", "0.5,0.5,1.5"}, "--background \"0.5,0.5,1.5\"");
     rejects({"--background", "1,1"}, "--background \"1,1\"");

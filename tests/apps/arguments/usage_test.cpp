@@ -107,7 +107,7 @@ TEST_CASE("a number that must be whole is said to be")
     };
     CHECK(contains(message("--spp", "1.5"),
                    "--spp \"1.5\": expected a whole number from 1 to 2147483648"));
-    CHECK(contains(message("--spp", "1e3"), "whole number"));
+    CHECK(contains(message("--spp", "15e-1"), "whole number"));
     CHECK(contains(message("--threads", "5000"), "whole number from 0 to 4096"));
     CHECK(contains(message("--max-depth", ""), "--max-depth"));
 }

@@ -7,6 +7,7 @@ set(BDPT_DENOISER "" CACHE PATH
 
 # bdpt_add_companion(TARGET): builds TARGET with bdpt_io in a separate folder.
 function(bdpt_add_companion target)
+  bdpt_guard_buffers(${target})
   set_target_properties(${target} PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/companions"
     RUNTIME_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/companions")

@@ -84,10 +84,10 @@ std::tuple<std::string, Words> get_state(const PythonScene& scene)
             "only unedited scenes from load() can be pickled: pickle what this one is made of");
     }
     if (const auto word = find_unsafe(scene.words)) {
-        throw nb::type_error(
-            fmt::format("a scene with {} cannot be pickled: a pickle must not choose code to load",
-                        *word)
-                .c_str());
+        throw nb::type_error(fmt::format("a scene with {} cannot be pickled: a pickle must not "
+                                         "choose code to load or folders to read",
+                                         *word)
+                                 .c_str());
     }
     return {scene.origin->string(), scene.words};
 }

@@ -87,12 +87,14 @@ TEST_CASE("few options name files, code or machines, and documents state few of 
                                                         {"--restart", StatedIn::programs},
                                                         {"--denoiser-library", StatedIn::programs},
                                                         {"--ktx-library", StatedIn::programs},
+                                                        {"--allow-folder", StatedIn::programs},
                                                         {"others", StatedIn::command_line},
                                                         {"--plan", StatedIn::command_line},
                                                         {"--task", StatedIn::command_line},
                                                         {"--display", StatedIn::command_line},
                                                         {"--save-job", StatedIn::command_line},
                                                         {"--quiet", StatedIn::command_line},
+                                                        {"--verbose", StatedIn::command_line},
                                                         {"--json", StatedIn::command_line}});
     CHECK(readers == std::set<std::string>{"file", "--rates", "--env", "--volume", "--background"});
 }

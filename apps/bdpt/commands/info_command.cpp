@@ -113,7 +113,7 @@ int run_info(const InfoArguments& arguments, const OptionList& given)
     if (!given.given("file") && !arguments.limits) {
         throw OptionError("file is required");
     }
-    const io::MemoryLimit memory = memory_limit(arguments.max_memory);
+    const io::MemoryLimit memory = scene_memory_limit(arguments.max_memory);
     io::GltfOptions options = arguments.scene;
     options.limits.memory_bytes = memory.bytes;
     options.memory = std::make_shared<io::MemoryBudget>(memory);

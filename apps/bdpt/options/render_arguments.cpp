@@ -393,7 +393,7 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
     if (!result.options.film.aovs.empty() && !writes_exr(result.outputs) && !result.part) {
         throw OptionError("--aov needs an .exr file among the outputs, or --part");
     }
-    result.memory = memory_limit(request.max_memory);
+    result.memory = scene_memory_limit(request.max_memory);
     result.scene.limits.memory_bytes = result.memory.bytes;
     if (options.given("--fog")) {
         result.fog = request.fog;

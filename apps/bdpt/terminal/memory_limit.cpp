@@ -67,4 +67,16 @@ io::MemoryLimit memory_limit(std::optional<std::uint64_t> asked)
     return {.bytes = *asked, .source = "--max-memory"};
 }
 
+io::MemoryLimit scene_memory_limit(std::optional<std::uint64_t> asked)
+{
+    const io::MemoryLimit limit = memory_limit(asked);
+    const auto installed = read_line("/proc/meminfo", "MemTotal:");
+    if (asked || !installed || limit.bytes <= *installed / 2) {
+        return limit;
+    }
+    return {.bytes = *installed / 2,
+            .source = "half of the machine's memory; --max-memory allows more",
+            .code = ErrorCode::out_of_memory};
+}
+
 }  // namespace bdpt::app

@@ -16,4 +16,8 @@ namespace bdpt::app {
 /// this was first called, as freed memory may stay with this process.
 [[nodiscard]] io::MemoryLimit memory_limit(std::optional<std::uint64_t> asked);
 
+/// Returns the limit for scenes: that of `memory_limit`, but unless asked for more at most half of
+/// the machine's memory. Small files can be large scenes, and other programs run there, too.
+[[nodiscard]] io::MemoryLimit scene_memory_limit(std::optional<std::uint64_t> asked);
+
 }  // namespace bdpt::app

@@ -3,7 +3,11 @@
 #include <bdpt/error.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <string>
 
 #include "catch.hpp"
@@ -66,6 +70,20 @@ TEST_CASE("the option --max-memory lowers the limit of memory, and never raises 
     CHECK(asked.source == "--max-memory");
     CHECK(asked.code == ErrorCode::invalid_input);
     CHECK(memory_limit(std::uint64_t{1} << 62U).bytes == machine.bytes);
+}
+
+TEST_CASE("scenes may take half of the machine's memory, and more if that is asked for", "[cgroup]")
+{
+    std::ifstream stream("/proc/meminfo");
+    std::string word;
+    std::uint64_t installed = 0;  // [kB]
+    REQUIRE(stream >> word >> installed);
+    REQUIRE(word == "MemTotal:");
+    const std::uint64_t half = installed * 1024 / 2;
+    const std::uint64_t machine = memory_limit(std::nullopt).bytes;
+    CHECK(scene_memory_limit(std::nullopt).bytes == std::min(half, machine));
+    CHECK(scene_memory_limit(half + half / 2).bytes == std::min(half + half / 2, machine));
+    CHECK(scene_memory_limit(1000).bytes == 1000);
 }
 
 }  // namespace

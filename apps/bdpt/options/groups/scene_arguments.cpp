@@ -66,8 +66,8 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
                      scene.strict);
     options.add("--max-memory", "SIZE",
                 "Refuse scenes that need more memory than this, like 500M or 2G; a render includes "
-                "its film and layers. Default and maximum: free memory, within the limits of the "
-                "container and of ulimit -v",
+                "its film and layers. Default: half of the machine's memory. Maximum: free memory, "
+                "within the limits of the container and of ulimit -v",
                 max_memory, memory_size());
 }
 

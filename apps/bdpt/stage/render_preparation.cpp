@@ -147,8 +147,7 @@ void tell_of_no_effect(Console& console, const RenderArguments& arguments,
             Repeat::never);
     }
     const auto writes = [&arguments](const auto& is_it) {
-        return std::any_of(arguments.outputs.begin(), arguments.outputs.end(),
-                           [&](const auto& output) { return is_it(*find_type(output)); });
+        return std::any_of(arguments.outputs.begin(), arguments.outputs.end(), is_it);
     };
     const auto tell = [&console](std::string_view option, std::string_view types) {
         console.note({"no_effect", fmt::format("{} has no effect: no output is {}", option, types)},
@@ -163,7 +162,7 @@ void tell_of_no_effect(Console& console, const RenderArguments& arguments,
         }
     }
     if (arguments.display.type == TexelType::unorm16 &&
-        !writes([](ImageType type) { return type == ImageType::png; })) {
+        !writes([](const auto& output) { return find_type(output) == ImageType::png; })) {
         tell("--png-bits 16", ".png");
     }
     if (arguments.display.curve != io::ToneCurve::filmic && !writes(is_for_screens)) {

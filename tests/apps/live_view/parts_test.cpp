@@ -121,7 +121,7 @@ TEST_CASE("tokens are long, and differ", "[live_view]")
 
 TEST_CASE("only who knows the address is answered, under our own names", "[live_view]")
 {
-    const Access access("00ff", "127.0.0.1");
+    const Access access("00ff", "beef", "127.0.0.1");
     const auto status = [&](const RequestHead& head) {
         const auto refusal = access.refusal(head);
         return refusal ? refusal->status : 200;
@@ -152,12 +152,23 @@ TEST_CASE("only who knows the address is answered, under our own names", "[live_
     CHECK(status(foreign) == 200);
     CHECK(status({.method = "POST", .target = "/00ff/", .host = "localhost"}) == 405);
 
-    const Access everywhere("00ff", "0.0.0.0");
+    const Access everywhere("00ff", "beef", "0.0.0.0");
     CHECK_FALSE(everywhere.refusal({.method = "GET", .target = "/00ff/", .host = "10.1.2.3:80"}));
     CHECK(everywhere.refusal({.method = "GET", .target = "/00ff/", .host = "evil.example:80"}));
     CHECK(Access::parse_path("/00ff/save.exr?slot=1") == "save.exr");
     CHECK(Access::parse_path("/00ff/") == "");
     CHECK(Access::parse_query("/00ff/save.exr?slot=1") == "slot=1");
+}
+
+TEST_CASE("the ticket opens the page once, and to our own names only", "[live_view]")
+{
+    Access access("00ff", "beef", "127.0.0.1");
+    const RequestHead ticket{.method = "GET", .target = "/beef", .host = "127.0.0.1:80"};
+    CHECK(access.refusal(ticket));
+    CHECK_FALSE(access.redeem({.method = "GET", .target = "/beee", .host = "127.0.0.1:80"}));
+    CHECK_FALSE(access.redeem({.method = "GET", .target = "/beef", .host = "evil.example"}));
+    CHECK(access.redeem(ticket));
+    CHECK_FALSE(access.redeem(ticket));
 }
 
 TEST_CASE("where to listen is a host, and perhaps a port", "[live_view]")

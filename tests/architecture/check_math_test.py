@@ -9,6 +9,7 @@ import check_math
 
 SOUND = {
     "lib/a/camera_matrices.cpp.o": "                 U tanf\n",
+    "apps/a/filled_share.cpp.o": "                 U tanf\n",
     "apps/a/layers.cpp.o": "                 U log10\n",
     "apps/a/view_camera.cpp.o": "                 U atan2f\n",
     "apps/a/direction_sheet.cpp.o": "                 U cos\n",

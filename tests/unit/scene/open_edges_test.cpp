@@ -42,7 +42,7 @@ TEST_CASE("open bodies are told, sheets and walls are not", "[bodies]")
         builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, material);
         builder.desc.meshes.back().name = "pane";
         builder.place(MeshId{0}, material, Mat4(1.0f));
-        builder.light(PointLightDesc{});
+        builder.light(PointLightDesc{.position = {0.0f, 5.0f, 0.0f}});
         return World(std::move(builder.desc)).warnings();
     };
     const auto told = warnings(test::glass(0.2f));

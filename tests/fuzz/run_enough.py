@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Runs a target of libFuzzer until it has run enough inputs: run_enough.py FLOOR SECONDS PROGRAM ARGUMENT...
 
-It runs for SECONDS, or FLOOR inputs where SECONDS is 0, and again while there were fewer than FLOOR inputs: a busy
-machine takes longer. Where that takes five minutes, the target has become too slow to find anything, and this fails.
+It runs for SECONDS, or FLOOR inputs where SECONDS is 0. Where that were fewer than FLOOR inputs, as on a busy machine,
+it runs the rest, for five minutes in all: a target that needs longer is too slow to find anything, and this fails.
 """
 import re
 import subprocess
@@ -14,13 +14,16 @@ LONGEST = 300  # [s]
 
 def main():
     floor, seconds = int(sys.argv[1]), int(sys.argv[2])
-    until = f"-max_total_time={seconds}" if seconds > 0 else f"-runs={floor}"
+    until = [f"-max_total_time={seconds}" if seconds > 0 else f"-runs={floor}"]
     end = time.monotonic() + LONGEST
     runs = 0
     while runs < floor:
-        if time.monotonic() > end:
+        left = int(end - time.monotonic())
+        if left <= 0:
             sys.exit(f"{runs} inputs in {LONGEST} s, but {floor} are needed to find anything")
-        done = subprocess.run([sys.argv[3], until, *sys.argv[4:]], stderr=subprocess.PIPE, text=True, errors="replace",
+        if runs > 0:
+            until = [f"-runs={floor - runs}", f"-max_total_time={left}"]
+        done = subprocess.run([sys.argv[3], *until, *sys.argv[4:]], stderr=subprocess.PIPE, text=True, errors="replace",
                               check=False)
         print(done.stderr, end="", flush=True)
         if done.returncode != 0:

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 namespace bdpt {
 namespace {
@@ -27,6 +28,14 @@ bool near_bounds(const Bounds& bounds, Vec3 p)
     return false;
 }
 
+/// Returns the end of the `i`-th ray of a probe, without what the surface there does to light.
+std::optional<SegmentEnd> find_end(const World& world, Vec3 origin, Vec3 direction, int i)
+{
+    const SegmentKey key{static_cast<std::uint64_t>(i)};
+    const auto hit = world.first_hit({.p = origin}, direction, key);
+    return hit ? std::optional(world.end_at(*hit, direction, key.time)) : std::nullopt;
+}
+
 }  // namespace
 
 VisibilityProbe probe_visibility(const World& world, Vec3 p)
@@ -41,16 +50,16 @@ VisibilityProbe probe_visibility(const World& world, Vec3 p)
         const float r = std::sqrt(1.0f - y * y);
         const SinCos phi = sin_cos(golden_angle * static_cast<float>(i));
         const Vec3 direction(r * phi.cos, y, r * phi.sin);
-        const auto hit = world.intersect({.p = p}, direction, {static_cast<std::uint64_t>(i)});
+        const auto hit = find_end(world, p, direction, i);
         if (!hit) {
             result.escaped += 1.0f / directions;
             result.escape_direction += direction;
             continue;
         }
-        result.clearance = std::min(result.clearance, glm::distance(p, hit->end.p));
-        if (dot(hit->end.ng, direction) < 0.0f) {
+        result.clearance = std::min(result.clearance, glm::distance(p, hit->p));
+        if (dot(hit->ng, direction) < 0.0f) {
             result.front += 1.0f / directions;
-            result.shell += near_bounds(world.bounds(), hit->end.p) ? 1.0f / directions : 0.0f;
+            result.shell += near_bounds(world.bounds(), hit->p) ? 1.0f / directions : 0.0f;
         }
     }
     if (result.escaped > 0.0f) {
@@ -74,9 +83,9 @@ float view_depth(const World& world, const CameraDesc& camera, float aspect)
         const float x = (static_cast<float>(i % columns) + 0.5f) / columns * 2.0f - 1.0f;
         const float y = (static_cast<float>(i / columns) + 0.5f) / rows * 2.0f - 1.0f;
         const Vec3 direction = normalize(axes * Vec3(x * slope * aspect, y * slope, -1.0f));
-        const auto hit = world.intersect({.p = eye}, direction, {static_cast<std::uint64_t>(i)});
-        const float distance = hit ? glm::distance(eye, hit->end.p) : size;
-        const bool behind = hit && dot(hit->end.ng, direction) > 0.0f;
+        const auto hit = find_end(world, eye, direction, i);
+        const float distance = hit ? glm::distance(eye, hit->p) : size;
+        const bool behind = hit && dot(hit->ng, direction) > 0.0f;
         if (distance < too_near || behind) {
             return 0.0f;
         }

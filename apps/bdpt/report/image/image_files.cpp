@@ -104,11 +104,14 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
     return report;
 }
 
-/// Returns the image as files have it: a shadow on the ground darkens the visible environment.
-/// Without a visible environment it is part of alpha.
-Image shown_image(const Image& image, const Matte& matte, const DisplayArguments& display)
+/// Returns the image as files have it where a shadow on the ground darkens the visible environment;
+/// none if it is `image`. Without a visible environment the shadow is part of alpha.
+std::optional<Image> darkened(const Image& image, const Matte& matte,
+                              const DisplayArguments& display)
 {
-    return display.backdrop ? image : with_shadow(image, matte.shadow);
+    return display.backdrop || matte.shadow.empty()
+               ? std::nullopt
+               : std::optional(with_shadow(image, matte.shadow));
 }
 
 /// Returns the image denoised; the options have a denoiser.
@@ -176,7 +179,8 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
         return {};
     }
     const Matte noisy = find_matte(options.layers);
-    const Image image = shown_image(rendered, noisy, options.display);
+    const std::optional<Image> shadowed = darkened(rendered, noisy, options.display);
+    const Image& image = shadowed ? *shadowed : rendered;
     const bool is_shown = std::any_of(outputs.begin(), outputs.end(), is_for_screens);
     std::optional<Image> behind =
         is_shown ? backplate(options.display, image, options.exr.placement) : std::nullopt;
@@ -211,7 +215,8 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
 TexelImage screen_image(const Image& rendered, const ImageFileOptions& options)
 {
     const Matte noisy = find_matte(options.layers);
-    const Image image = shown_image(rendered, noisy, options.display);
+    const std::optional<Image> shadowed = darkened(rendered, noisy, options.display);
+    const Image& image = shadowed ? *shadowed : rendered;
     const auto texels = [&](const Picture& picture) {
         const float exposure = shown_exposure(options.display.exposure, options.exr.metadata,
                                               metered_image(image, picture, options));

@@ -53,7 +53,7 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     // The next word is not taken for the value that is missing.
     rejects({"--size=", "16x16"}, "--size \"\"");
     rejects({"--aov=", "--quiet"}, "--aov \"\"");
-    rejects({"--size", "640,480"}, "--size \"640,480\"");
+    rejects({"--size", "640;480"}, "--size \"640;480\"");
     rejects({"--size", "640x480x3"}, "--size");
     rejects({"--size", "-5x5"}, "--size");
     rejects({"--size", "99999x1"}, "--size");

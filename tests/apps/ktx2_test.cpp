@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -79,7 +81,8 @@ bool is_decoding(const std::string& library)
 {
     std::error_code gone;
     for (const auto& process : std::filesystem::directory_iterator("/proc", gone)) {
-        const std::string words = read_text(process.path() / "cmdline");
+        std::ifstream stream(process.path() / "cmdline", std::ios::binary);
+        const std::string words{std::istreambuf_iterator<char>(stream), {}};
         if (contains(words, "bdpt-read-ktx") && contains(words, library + std::string(1, '\0'))) {
             return true;
         }

@@ -89,8 +89,8 @@ TEST_CASE("all commands refuse what --strict forbids, and jobs have it")
           {"info", scene, "--strict", "--json"},
           {"verify", scene, "--strict"},
           {"inspect", scene, "--strict", "--pixel", "1,1"},
-          {"plan", scene, "--strict", "-o", out, "--spp", "8", "--parts", "2", "-d",
-           (folder / "plan").string()},
+          {"plan", scene, "--strict", "-o", out, "--spp", "8", "--parts", "2", "--for", "make",
+           "-d", (folder / "plan").string()},
           {"bench", scene, "--strict", "-o", (folder / "bench").string()}}) {
         const Outcome outcome = run(words);
         CAPTURE(words, outcome.err);
@@ -104,7 +104,7 @@ TEST_CASE("all commands refuse what --strict forbids, and jobs have it")
     CHECK(run({"info", scene}).exit_code == 0);
 }
 
-TEST_CASE("--allow-folder lets a scene name files outside of its own folder")
+TEST_CASE("a scene may have files in the folders of --allow-folder")
 {
     const ScratchFolder folder;
     std::filesystem::create_directories(folder / "scene/scene");

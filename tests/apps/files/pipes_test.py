@@ -120,7 +120,7 @@ def check_readers_that_stall(folder):
     """Tests that signals end a command that waits for a reader."""
     code = 128 + signal.SIGTERM
     os.mkfifo(folder / "nobody.exr")
-    render = ["render", SCENE, "--size", "300x200", "--spp", "1", "--integrator", "pt"]
+    render = ["render", SCENE, "--size", "1200x900", "--spp", "1", "--integrator", "pt"]
     stalled = start(*render, "-o", folder / "nobody.exr")
     time.sleep(0.5)
     yield "a named pipe that nobody reads", end_of(stalled, signal.SIGTERM, signal.SIGTERM) == code

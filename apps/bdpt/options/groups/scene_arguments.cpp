@@ -51,8 +51,8 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
     options
         .add_repeated(
             "--allow-folder", "DIR",
-            "Folder that the scene may name files in, beside its own: by .. or symbolic links. "
-            "Repeatable",
+            "Folder outside of the scene's own that may have files of the scene, also behind "
+            "symbolic links. Repeatable",
             scene.allowed_folders, file_path())
         .uses.stated_in = StatedIn::programs;  // it decides what the scene reads
     options.add_flag("--ignore-required",

@@ -137,8 +137,8 @@ TEST_CASE("a scene may have files in the folders of --allow-folder")
     CHECK(of_job.exit_code == 4);
     CHECK(holds(of_job.err, "allow_folder"));
     const std::string plan = (folder / "plan").string();
-    CHECK(run({"plan", cube, "-o", out, "--spp", "8", "--size", "8x8", "--parts", "1", "-d", plan,
-               "--allow-folder", store})
+    CHECK(run({"plan", cube, "-o", out, "--spp", "8", "--size", "8x8", "--parts", "1", "--for",
+               "make", "-d", plan, "--allow-folder", store})
               .exit_code == 0);
     const std::vector<std::string> task{"render", "--plan", plan + "/plan.json", "--task", "0"};
     CHECK(run(task).exit_code == 4);

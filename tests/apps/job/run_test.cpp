@@ -203,23 +203,6 @@ TEST_CASE("a stop ends the render, and what is there is written", "[job]")
     }
 }
 
-TEST_CASE("a stop while the scene is loaded writes nothing", "[job]")
-{
-    const Studio studio;
-    RenderJob job(studio.scene);
-    constexpr std::int64_t most = std::int64_t{1} << 30;  // of adaptive renders
-    job.set("output", {studio.folder / "out.exr"}).set("spp", most).set("size", 16);
-    std::stop_source source;
-    JobControl control;
-    control.stop = source.get_token();
-    // The first message comes after loading and before the first pass.
-    control.on_message = [&](MessageKind, std::string_view) { source.request_stop(); };
-    const JobResult result = bdpt::run(job.set("adaptive", true), control);
-    CHECK(result.stopped);
-    CHECK(result.images.empty());
-    CHECK(studio.written().empty());
-}
-
 TEST_CASE("a sequence has several images, and a stop leaves out the last ones", "[job]")
 {
     const Studio studio;

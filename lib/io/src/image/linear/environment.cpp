@@ -120,13 +120,14 @@ FloatImage read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings
 Image read_floats(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
                   const MemoryBudget* memory)
 {
-    auto [image, greatest] = read_any(bytes, limits, warnings, memory);
+    FloatImage read = read_any(bytes, limits, warnings, memory);
+    Image& image = read.image;
     const auto width = static_cast<std::size_t>(image.width);
     for (int y = 0; y < image.height; ++y) {
         mend_row(std::span(image.pixels).subspan(static_cast<std::size_t>(y) * width, width), y,
-                 greatest, warnings);
+                 read.greatest, warnings);
     }
-    return image;
+    return std::move(image);
 }
 
 LoadedEnvironment load(const std::filesystem::path& file, const EnvironmentOptions& options)

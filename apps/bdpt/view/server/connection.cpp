@@ -281,9 +281,7 @@ void Window::read()
 {
     stream_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
         if (error) {
-            // The window is closed, or sent an invalid message; messages to it may be waiting.
-            self->close();
-            return;
+            return;  // the window is closed, or sent an invalid message
         }
         // Requests of a client that does not read its answers are dropped.
         if (self->answers_.size() < max_waiting_answers) {

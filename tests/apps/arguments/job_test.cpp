@@ -212,14 +212,15 @@ TEST_CASE("a job replaces files of bdpt, and no others", "[job]")
 {
     const Studio studio;
     const std::string job =
-        R"({"bdpt_job": 1, "file": "../cube.gltf", "output": ["o.exr", "o.png", "o.jpg", "o.hdr"],
+        R"({"bdpt_job": 1, "file": "../cube.gltf", "output": ["o.exr", "o.png", "o.jpg", "o.hdr", "o.webp"],
             "stats": "s", "adaptive": true, "save_rates": "r.png", "strategies": "t.exr",
             "part": "p.part.exr", "spp": 8, "size": "8x8", "integrator": "bdpt"})";
     REQUIRE(studio.render(job).exit_code == 0);
     const Outcome again = studio.render(job);
     CAPTURE(again.err);
     CHECK(again.exit_code == 0);
-    for (const char* name : {"o.exr", "o.png", "o.jpg", "o.hdr", "s", "r.png", "t.exr", "t.png"}) {
+    for (const char* name :
+         {"o.exr", "o.png", "o.jpg", "o.hdr", "o.webp", "s", "r.png", "t.exr", "t.png"}) {
         const std::string file = studio.path("jobs/" + std::string(name));
         const std::string ours = read_text(file);
         for (const std::string& text : {std::string("thesis"), ours.substr(0, 8) + "theirs"}) {

@@ -128,16 +128,24 @@ bool is_file_of_ours(const fs::path& file)
 {
     using namespace std::string_view_literals;
     static constexpr std::array signatures{"\x76\x2f\x31\x01"sv, "\x89PNG\r\n\x1a\n"sv,
-                                           "\xff\xd8\xff"sv, "#?RADIANCE\n"sv};
+                                           "\xff\xd8\xff"sv, "#?RADIANCE\n"sv, "RIFF"sv};
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) {
         return false;
     }
-    constexpr std::size_t max_length = std::size_t{1} << 20;
-    std::string start(max_length, '\0');
     std::ifstream stream(file, std::ios::binary);
-    stream.read(start.data(), static_cast<std::streamsize>(start.size()));
-    start.resize(static_cast<std::size_t>(std::max(stream.gcount(), std::streamsize{0})));
+    const auto read = [&stream] {
+        constexpr std::size_t max_length = std::size_t{1} << 20;
+        std::string bytes(max_length, '\0');
+        stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        bytes.resize(static_cast<std::size_t>(std::max(stream.gcount(), std::streamsize{0})));
+        return bytes;
+    };
+    std::string start = read();
+    if (start.starts_with("RIFF"sv) && stream) {  // its metadata are at the end
+        stream.seekg(-static_cast<std::streamoff>(start.size()), std::ios::end);
+        start += read();
+    }
     const bool is_image =
         std::any_of(signatures.begin(), signatures.end(),
                     [&](std::string_view signature) { return start.starts_with(signature); });

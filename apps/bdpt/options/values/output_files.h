@@ -39,7 +39,7 @@ void check_outputs(std::span<const std::filesystem::path> outputs, const FileSet
 void check_output(std::string_view option, const std::filesystem::path& file, const FileSet& inputs,
                   const FileSet& outputs);
 
-/// Tests whether `file` is an image or a file of --stats that bdpt wrote. WebP files do not tell.
+/// Tests whether `file` is an image or a file of --stats that bdpt wrote.
 [[nodiscard]] bool is_file_of_ours(const std::filesystem::path& file);
 
 /// Tests whether one of `outputs` is an EXR file.

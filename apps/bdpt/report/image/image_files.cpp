@@ -60,7 +60,7 @@ void write_picture(const fs::path& file, ImageType type, const Picture& picture,
     } else if (type == ImageType::jpeg) {
         io::write_jpeg(file, texels, file_options);
     } else {
-        io::write_webp(file, texels);
+        io::write_webp(file, texels, file_options);
     }
 }
 

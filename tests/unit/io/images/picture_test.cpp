@@ -93,13 +93,14 @@ TEST_CASE("WebP files show what was written, alpha to the bit", "[picture]")
         for (std::size_t i = 3; channels == 4 && i < image.bytes.size(); i += 4) {
             image.bytes[i] = static_cast<std::uint8_t>(i % 7 == 0 ? 200 : 255);
         }
-        write_webp(folder / "a.webp", image);
+        write_webp(folder / "a.webp", image, with_metadata());
         const TexelImage read = read_back(folder / "a.webp");
         CHECK(read.channels == channels);
         CHECK(mean_difference(read, image) < 4.0);
         for (std::size_t i = 3; channels == 4 && i < image.bytes.size(); i += 4) {
             REQUIRE(read.bytes[i] == image.bytes[i]);
         }
+        CHECK(read_text(folder / "a.webp").find("\nbdpt.scene: room.glb\n") != std::string::npos);
     }
 }
 
@@ -151,7 +152,7 @@ TEST_CASE("images that are no pictures are not written", "[picture]")
     const ScratchFolder folder;
     const auto refuses = [&](const TexelImage& image) {
         CHECK(error_of([&] { write_jpeg(folder / "a", image, {}); }).code() == ErrorCode::usage);
-        CHECK(error_of([&] { write_webp(folder / "a", image); }).code() == ErrorCode::usage);
+        CHECK(error_of([&] { write_webp(folder / "a", image, {}); }).code() == ErrorCode::usage);
     };
     refuses({});
     refuses(slopes(4, 4, 2));
@@ -161,7 +162,7 @@ TEST_CASE("images that are no pictures are not written", "[picture]")
     TexelImage deep = slopes(4, 4, 3);
     deep.type = TexelType::unorm16;
     refuses(deep);
-    CHECK(error_of([&] { write_webp(folder / "a", slopes(16384, 1, 3)); }).code() ==
+    CHECK(error_of([&] { write_webp(folder / "a", slopes(16384, 1, 3), {}); }).code() ==
           ErrorCode::usage);
     CHECK(error_of([&] { write_jpeg(folder / "a", slopes(65535, 1, 3), {}); }).code() ==
           ErrorCode::output);

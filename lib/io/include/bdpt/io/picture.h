@@ -8,7 +8,7 @@
 /// {
 ///     const bdpt::TexelImage shown = bdpt::io::to_display(image, {}, {});
 ///     bdpt::io::write_jpeg("out.jpg", shown, {});
-///     bdpt::io::write_webp("out.webp", shown);
+///     bdpt::io::write_webp("out.webp", shown, {});
 ///     bdpt::io::write_hdr("out.hdr", image, {});
 /// }
 /// @endcode
@@ -31,10 +31,11 @@ namespace bdpt::io {
 BDPT_EXPORT void write_jpeg(const std::filesystem::path& file, const TexelImage& image,
                             const PngOptions& options);
 
-/// Writes a WebP file at quality 95 of 100, lossy except for alpha, without metadata. The image has
-/// 8 bits and 3 or 4 channels, sRGB and straight alpha, and at most 16383 pixels a side; usage for
-/// others.
-BDPT_EXPORT void write_webp(const std::filesystem::path& file, const TexelImage& image);
+/// Writes a WebP file at quality 95 of 100, lossy except for alpha, with the metadata as Exif's
+/// description. The image has 8 bits and 3 or 4 channels, sRGB and straight alpha, and at most
+/// 16383 pixels a side; usage for others.
+BDPT_EXPORT void write_webp(const std::filesystem::path& file, const TexelImage& image,
+                            const PngOptions& options);
 
 /// Writes linear pixels as a run-length encoded Radiance HDR file [Ward, "The RADIANCE Picture File
 /// Format"], with the metadata as comments. Values get 8 bits and a shared exponent; negative ones

@@ -109,6 +109,13 @@ std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
         }
         warnings.push_back(text.str());
     }
+    constexpr float max_exact = 1e12f;  // [m]; beyond it, shading overflows single precision
+    if (coarsest != nullptr && coarsest->distance > max_exact) {
+        std::ostringstream text;
+        text << name(*coarsest) << ": extends " << coarsest->distance
+             << " m from the origin: beyond " << max_exact << " m the image may be wrong";
+        warnings.push_back(text.str());
+    }
     if (coarsest == nullptr || !coarsest->is_flat()) {
         return warnings;
     }

@@ -193,6 +193,16 @@ TEST_CASE("what is small for its distance is named", "[precision]")
     CHECK(warnings_of(wall(1e8f, test::lambertian(Rgb(0.5f))).desc).empty());
 }
 
+TEST_CASE("what extends too far to be shaded exactly is named", "[precision]")
+{
+    CHECK(warnings_of(wall(9e11f, test::lambertian(Rgb(0.5f))).desc).empty());
+    const auto warnings = warnings_of(wall(7e13f, test::lambertian(Rgb(0.5f))).desc);
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0] ==
+          "instance 0: extends 7e+13 m from the origin: beyond 1e+12 m the image "
+          "may be wrong");
+}
+
 TEST_CASE("a lamp that is too near to a vast plane is named", "[precision]")
 {
     const auto with_lamp = [](float size, float height) {

@@ -132,6 +132,15 @@ TEST_CASE("options that no output takes are named")
     CHECK_FALSE(contains(said_of(exr, {"--half", "--tiled"}), "no effect"));
     CHECK(contains(said_of(exr, {"--png-bits", "16"}), "--png-bits 16 has no effect"));
     CHECK(contains(said_of(exr, {"--tone-map", "agx"}), "--tone-map has no effect"));
+    const std::vector<std::string> library{"--denoiser-library", BDPT_FAKE_OIDN};
+    const std::string unused = "--denoiser-library has no effect: no output is denoised";
+    CHECK(contains(said_of(exr, library), unused));
+    CHECK_FALSE(contains(said_of(png, library), unused));
+    const auto with = [&](const char* denoise) {
+        return std::vector<std::string>{library[0], library[1], denoise};
+    };
+    CHECK_FALSE(contains(said_of(exr, with("--denoise")), unused));
+    CHECK(contains(said_of(png, with("--denoise=false")), unused));
 }
 
 /// A grey cube, and behind it where the camera sees none of its light a tiny one that shines.

@@ -168,6 +168,13 @@ void tell_of_no_effect(Console& console, const RenderArguments& arguments,
     if (arguments.display.curve != io::ToneCurve::filmic && !writes(is_for_screens)) {
         tell("--tone-map", ".png, .jpg or .webp");
     }
+    if (arguments.denoise.library && !needs_denoiser(arguments.denoise, arguments.outputs)) {
+        console.note(
+            Note{"no_effect",
+                 "--denoiser-library has no effect: no output is denoised (--denoise denoises "
+                 "all images)"},
+            Repeat::never);
+    }
 }
 
 void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Size& size)

@@ -1,5 +1,8 @@
 #include "options/groups/denoise_arguments.h"
 
+#include <algorithm>
+
+#include "options/values/output_files.h"
 #include "options/values/value_types.h"
 
 namespace bdpt::app {
@@ -30,6 +33,13 @@ void add_denoise_options(OptionList& options, DenoiseArguments& denoise)
                     "libOpenImageDenoise.so.2",
                     denoise.library, some_text("a file or a folder"));
     library.uses = {.python_save = true, .stated_in = StatedIn::programs};  // it is code
+}
+
+bool needs_denoiser(const DenoiseArguments& asked, std::span<const std::filesystem::path> outputs)
+{
+    return asked.kind == Denoising::automatic
+               ? std::any_of(outputs.begin(), outputs.end(), is_for_screens)
+               : asked.is_asked() && !outputs.empty();
 }
 
 std::vector<Aov> missing_guides(const AovSet& known, const std::optional<Backdrop>& backdrop)

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "options/groups/display_arguments.h"
@@ -34,6 +35,10 @@ struct DenoiseArguments {
 
 /// Adds --denoise and --denoiser-library.
 void add_denoise_options(OptionList& options, DenoiseArguments& denoise);
+
+/// Tests whether one of `outputs` would be denoised if the denoiser is found.
+[[nodiscard]] bool needs_denoiser(const DenoiseArguments& asked,
+                                  std::span<const std::filesystem::path> outputs);
 
 /// Returns the layers that guide the denoiser, with opacity if the image has a `backdrop`, except
 /// those in `known`.

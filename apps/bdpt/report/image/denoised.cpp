@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "options/values/output_files.h"
 #include "report/image/visible_values.h"
 
 namespace bdpt::app {
@@ -26,17 +25,13 @@ std::optional<io::Denoiser> open_denoiser(const DenoiseArguments& asked,
                                           std::span<const std::filesystem::path> outputs,
                                           int threads)
 {
-    const bool is_automatic = asked.kind == Denoising::automatic;
-    const bool is_needed = is_automatic
-                               ? std::any_of(outputs.begin(), outputs.end(), is_for_screens)
-                               : asked.is_asked() && !outputs.empty();
-    if (!is_needed) {
+    if (!needs_denoiser(asked, outputs)) {
         return std::nullopt;
     }
     try {
         return io::Denoiser(asked.library, threads);
     } catch (const Error&) {
-        if (is_automatic && !asked.library) {
+        if (asked.kind == Denoising::automatic && !asked.library) {
             return std::nullopt;
         }
         throw;

@@ -249,6 +249,21 @@ def check_socket(server):
     check_frames(server)
 
 
+def is_ended(connection):
+    """Tests whether the server ends a connection before its web socket would time out."""
+    end = time.monotonic() + 20
+    connection.settimeout(20)
+    try:
+        while time.monotonic() < end:
+            if not connection.recv(1 << 16):
+                return True
+    except ConnectionError:
+        return True  # reset
+    except TimeoutError:
+        pass
+    return False
+
+
 def check_frames(server):
     """Tests that frames that violate the protocol close the web socket."""
     text = b'{"seq":1,"reset":true}'
@@ -266,6 +281,7 @@ def check_frames(server):
             except (ConnectionError, OSError):
                 pass
             expect(server.alive and server.memory() < before + 64, f"{name}: the web socket is closed")
+            expect(is_ended(window.connection), f"{name}: the connection ends, although the other side keeps it")
 
 
 def check_opened_address(bdpt, scene):

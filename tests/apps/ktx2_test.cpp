@@ -165,6 +165,14 @@ TEST_CASE("a signal ends a command at once while it loads, and the process that 
     process.send(SIGTERM);
     CHECK(process.finish().exit_code == 128 + SIGTERM);
     CHECK(await_decoding(sleeping, false));
+
+    // There a signal is the usual end, although this scene is never loaded.
+    Subprocess view(Launch{.arguments = {"view", lantern.path("cube.gltf"), "--ktx-library",
+                                         sleeping, "--listen", "127.0.0.1:0"}});
+    REQUIRE(await_decoding(sleeping, true));
+    view.send(SIGTERM);
+    CHECK(view.finish().exit_code == 0);
+    CHECK(await_decoding(sleeping, false));
 }
 
 }  // namespace bdpt::test::apps_ktx2_test

@@ -2,16 +2,22 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "catch.hpp"
+#include "commands/render_command.h"
 #include "image_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
+#include "terminal/console.h"
 #include "terminal/interrupt.h"
 
 namespace bdpt::test::interrupt_test {
@@ -24,6 +30,46 @@ std::vector<std::string> endless(const ScratchFolder& folder, const std::string&
             "--spp",  "2000000000",
             "--size", size,
             "-o",     (folder / "out.exr").string()};
+}
+
+/// Stops a render when it first asks how it is to be stopped: after the scene is loaded.
+class StopAfterLoading final : public app::Interrupt {
+public:
+    void set_outputs(app::PendingOutputs /*outputs*/) override {}
+    void allow_stop() override {}
+    void forbid_stop() override {}
+    [[nodiscard]] std::stop_token stop_token() const override
+    {
+        source_.request_stop();
+        return source_.get_token();
+    }
+    [[nodiscard]] std::optional<std::string> stopped_by() const override
+    {
+        return source_.stop_requested() ? std::optional<std::string>("the test") : std::nullopt;
+    }
+    [[nodiscard]] bool take_checkpoint_request() override { return false; }
+
+private:
+    mutable std::stop_source source_;
+};
+
+TEST_CASE("a stop after loading, before the first pass, writes nothing")
+{
+    const ScratchFolder folder;
+    app::RenderArguments arguments;
+    arguments.file = write_cube(folder, "cube", {});
+    arguments.outputs = {folder / "out.exr"};
+    arguments.size = app::Size{16, 8};
+    arguments.goal.samples = 1;
+    arguments.memory.bytes = std::uint64_t{1} << 30U;
+    arguments.options.integrator = GENERATE(IntegratorKind::automatic, IntegratorKind::bdpt);
+    app::TerminalConsole console(app::Format::text, app::Verbosity::quiet);
+    StopAfterLoading interrupt;
+    const JobResult result = app::run_render(arguments, {"bdpt", "render"}, console, interrupt);
+    CHECK(interrupt.stopped_by());
+    CHECK(result.stopped);
+    CHECK(result.images.empty());
+    CHECK_FALSE(std::filesystem::exists(folder / "out.exr"));
 }
 
 TEST_CASE("a signal finishes the pass, writes the image and sets the exit code")

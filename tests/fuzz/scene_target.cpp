@@ -55,6 +55,10 @@ void render_four(io::LoadedScene loaded)
     options.film.height = 2;
     options.sampling.samples = {0, 1};
     options.transport.max_depth = 4;
+    // The pilot of learned light traces thousands of paths.
+    if (scene.counts().triangles % 16 != 1) {
+        options.sampling.environment = EnvironmentSampling::compensated;
+    }
     options.system.threads = 1;
     const Image image = render(scene, camera, options).film.develop();
     for (const Rgb& pixel : image.pixels) {

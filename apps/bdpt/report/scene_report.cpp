@@ -220,6 +220,9 @@ void add_scene(Lines& lines, const SceneReport& report)
                   fmt::format("{} in meshes, {} in the scene ({} without area, {} emit)",
                               counts.triangles, counts.instanced_triangles,
                               counts.degenerate_triangles, counts.emissive_triangles));
+        if (counts.contacts > 0) {
+            lines.add("contacts", fmt::format("{} of bodies", counted(counts.contacts, "pair")));
+        }
     }
     lines.add("instances",
               fmt::format("{} ({} nodes, {} meshes of {} primitives)", report.instances,
@@ -257,6 +260,8 @@ ordered_json scene_json(const SceneReport& report)
                                              {"degenerate", counts.degenerate_triangles},
                                              {"emissive", counts.emissive_triangles}}
                               : ordered_json();
+    result["contacts"] =
+        report.knowledge == Knowledge::built ? ordered_json(counts.contacts) : ordered_json();
     result["bounds"] = report.bounds ? ordered_json{{"min", to_json(report.bounds->min)},
                                                     {"max", to_json(report.bounds->max)}}
                                      : ordered_json();

@@ -312,6 +312,11 @@ PreparedScene prepare_scene(const RenderArguments& asked)
         warnings.push_back(fmt::format("{}: {}", file, warning));
     }
     warnings.insert(warnings.end(), lit.warnings.begin(), lit.warnings.end());
+    if (const std::size_t pairs = scene.counts().contacts) {
+        lit.notes.push_back(
+            {"contacts", fmt::format("{}: {} of bodies touch: a thin film of air is between them",
+                                     file, counted(pairs, "pair"))});
+    }
     if (!from_file && !arguments.camera && !arguments.view.from && !arguments.view.frames()) {
         lit.notes.push_back(
             {"framed", fmt::format("{}: no camera: the whole scene is framed (--view, or --from "

@@ -89,6 +89,10 @@ struct SceneDesc {
     /// Medium outside of all bodies; it fills the bounding sphere of the scene.
     std::optional<MediumDesc> fog{};
     std::vector<VolumeDesc> volumes{};
+    /// Place of the world's origin in the coordinates of the file or the application [m]: loaders
+    /// set it, as the world must be near its origin, and it moves nothing. `aov position` and the
+    /// like tell coordinates of the file.
+    DVec3 origin{0.0};
 };
 
 /// Mapping of directions or points to the film.
@@ -136,7 +140,7 @@ inline constexpr auto fields<SceneDesc> =
                Field{"meshes", &SceneDesc::meshes}, Field{"instances", &SceneDesc::instances},
                Field{"profiles", &SceneDesc::profiles}, Field{"lights", &SceneDesc::lights},
                Field{"texture filter", &SceneDesc::texture_filter}, Field{"fog", &SceneDesc::fog},
-               Field{"volumes", &SceneDesc::volumes});
+               Field{"volumes", &SceneDesc::volumes}, Field{"origin", &SceneDesc::origin});
 /// Fields of `CameraDesc`, with names and limits.
 template <>
 inline constexpr auto fields<CameraDesc> = all_fields(

@@ -82,7 +82,7 @@ struct BDPT_EXPORT SharedSceneDesc {
     [[nodiscard]] auto members() const
     {
         return std::tie(images, materials, meshes, instances, profiles, lights, texture_filter, fog,
-                        volumes);
+                        volumes, origin);
     }
 
     SharedList<TexelImage> images;
@@ -94,6 +94,7 @@ struct BDPT_EXPORT SharedSceneDesc {
     TextureFilter texture_filter = TextureFilter::bilinear;
     std::optional<MediumDesc> fog{};
     SharedList<VolumeDesc> volumes;
+    DVec3 origin{0.0};
 };
 
 }  // namespace bdpt

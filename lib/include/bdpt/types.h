@@ -21,6 +21,7 @@ namespace bdpt {
 using Vec2 = glm::vec2;    ///< two floats
 using Vec3 = glm::vec3;    ///< three floats: a point [m], a direction, a normal
 using Vec4 = glm::vec4;    ///< four floats
+using DVec3 = glm::dvec3;  ///< three doubles: a place on a map [m]
 using UVec3 = glm::uvec3;  ///< three vertex indices of a triangle
 using Mat3 = glm::mat3;    ///< in columns
 using Mat4 = glm::mat4;    ///< in columns

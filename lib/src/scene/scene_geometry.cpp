@@ -93,17 +93,30 @@ bool same_sphere(const Sphere& a, const Sphere& b)
 
 }  // namespace
 
-SceneGeometry::SceneGeometry(const SharedSceneDesc& desc)
+SceneGeometry::SceneGeometry(const SharedSceneDesc& desc, const SceneGeometry* like)
     : meshes(desc.meshes),
       instances(desc.instances),
       lights(desc.lights),
       volumes(desc.volumes),
+      roles(contact_roles(desc)),
+      shells(find_shells(desc, roles,
+                         like != nullptr && like->meshes.is_shared_with(desc.meshes)
+                             ? like->shells
+                             : ShellTable())),
       spheres(light_spheres(lights)),
       counts(count(desc))
 {
     placed.reserve(instances.size());
     for (const InstanceDesc& instance : instances) {
         placed.emplace_back(meshes[static_cast<std::size_t>(instance.mesh)], instance);
+    }
+    contacts = separate_contacts(desc, placed, roles, shells);
+    counts.contacts = contacts.pairs;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const auto mesh = contacts.meshes.find(static_cast<std::size_t>(instances[i].mesh));
+        if (mesh != contacts.meshes.end()) {
+            placed[i] = PlacedMesh(mesh->second, instances[i]);
+        }
     }
     boxes.reserve(meshes.size());
     for (const MeshDesc& mesh : meshes) {
@@ -116,7 +129,7 @@ SceneGeometry::SceneGeometry(const SharedSceneDesc& desc)
 bool SceneGeometry::fits(const SharedSceneDesc& desc) const
 {
     if (!meshes.is_shared_with(desc.meshes) || !volumes.is_shared_with(desc.volumes) ||
-        !same_places(instances, desc.instances)) {
+        !same_places(instances, desc.instances) || roles != contact_roles(desc)) {
         return false;
     }
     const std::vector<Sphere> others = light_spheres(desc.lights);
@@ -125,7 +138,8 @@ bool SceneGeometry::fits(const SharedSceneDesc& desc) const
 
 void SceneGeometry::build(const AnyHitFilter& filter, Isa isa, const SceneGeometry* like)
 {
-    const bool same_meshes = like != nullptr && meshes.is_shared_with(like->meshes);
+    const bool same_meshes = like != nullptr && meshes.is_shared_with(like->meshes) &&
+                             contacts.meshes.empty() && like->contacts.meshes.empty();
     trees.emplace(instances, placed, meshes.size(), spheres, filter, isa,
                   same_meshes ? &*like->trees : nullptr);
 }

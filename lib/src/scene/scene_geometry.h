@@ -4,6 +4,7 @@
 #include "geometry/placed_mesh.h"
 #include "geometry/sphere.h"
 #include "light/bounding_sphere.h"
+#include "scene/contacts/contacts.h"
 
 #include <bdpt/scene.h>
 
@@ -22,8 +23,9 @@ struct MeshBox {
 /// Everything that rays hit: placed meshes and spheres, without materials. An edited scene shares
 /// it with the original scene if it is unchanged.
 struct SceneGeometry {
-    /// Constructs the geometry of a valid description, without BVHs.
-    explicit SceneGeometry(const SharedSceneDesc& desc);
+    /// Constructs the geometry of a valid description, without BVHs. What meshes have in common
+    /// with those of `like` is not computed again.
+    explicit SceneGeometry(const SharedSceneDesc& desc, const SceneGeometry* like = nullptr);
     SceneGeometry(const SceneGeometry&) = delete;
     SceneGeometry& operator=(const SceneGeometry&) = delete;
 
@@ -37,6 +39,9 @@ struct SceneGeometry {
     SharedList<InstanceDesc> instances;
     SharedList<LightDesc> lights;
     SharedList<VolumeDesc> volumes;
+    std::vector<ContactRole> roles;  // one per instance
+    ShellTable shells;               // of meshes that bound bodies, or shine
+    Contacts contacts;
 
     std::vector<PlacedMesh> placed;  // one per instance
     std::vector<Sphere> spheres;

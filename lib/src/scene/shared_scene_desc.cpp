@@ -14,7 +14,8 @@ SharedSceneDesc::SharedSceneDesc(SceneDesc desc)
       lights(std::move(desc.lights)),
       texture_filter(desc.texture_filter),
       fog(desc.fog),
-      volumes(std::move(desc.volumes))
+      volumes(std::move(desc.volumes)),
+      origin(desc.origin)
 {}
 
 SceneDesc SharedSceneDesc::copy() const
@@ -27,7 +28,8 @@ SceneDesc SharedSceneDesc::copy() const
             .lights = lights,
             .texture_filter = texture_filter,
             .fog = fog,
-            .volumes = volumes};
+            .volumes = volumes,
+            .origin = origin};
 }
 
 }  // namespace bdpt

@@ -214,8 +214,7 @@ private:
     std::span<const PlacedMesh> placed_;  // view of `geometry_`
     SceneCounts counts_;
     std::unique_ptr<const EmbreeScene> embree_;
-    std::shared_ptr<const Bodies> bodies_;           // null if there are none
-    std::map<std::size_t, std::size_t> open_edges_;  // by mesh, for meshes that bound bodies
+    std::shared_ptr<const Bodies> bodies_;  // null if there are none
     std::vector<std::string> warnings_;
     std::shared_ptr<const Lit> lit_;
     const LightSet* lights_ = nullptr;  // points into `lit_`

@@ -42,7 +42,8 @@ void WorldBuilder::build(Isa isa)
     if (like_ != nullptr && like_->geometry_->fits(w.desc_)) {
         w.set_geometry(like_->geometry_);
     } else {
-        own_geometry_ = std::make_shared<SceneGeometry>(w.desc_);
+        own_geometry_ = std::make_shared<SceneGeometry>(
+            w.desc_, like_ != nullptr ? like_->geometry_.get() : nullptr);
         w.set_geometry(own_geometry_);
     }
     w.moves_ = std::any_of(w.placed_.begin(), w.placed_.end(),
@@ -73,7 +74,8 @@ void WorldBuilder::build_trees(Isa isa)
     if (!own_geometry_ &&
         w.geometry_->trees->filtered() !=
             filtered_meshes(w.desc_.instances.values(), w.desc_.meshes.size(), filter)) {
-        own_geometry_ = std::make_shared<SceneGeometry>(w.desc_);
+        own_geometry_ = std::make_shared<SceneGeometry>(
+            w.desc_, like_ != nullptr ? like_->geometry_.get() : nullptr);
         w.set_geometry(own_geometry_);
     }
     if (own_geometry_) {

@@ -1,5 +1,4 @@
 #include "scene/checks/value_checks.h"
-#include "scene/open_edges.h"
 #include "scene/world_builder.h"
 
 #include <glm/geometric.hpp>
@@ -114,9 +113,6 @@ void WorldBuilder::measure_bodies()
 void WorldBuilder::warn_of_open_volumes()
 {
     const SharedSceneDesc& desc = world_.desc_;
-    if (is_shared(&SharedSceneDesc::meshes)) {
-        world_.open_edges_ = like_->open_edges_;
-    }
     std::vector<bool> asked(desc.meshes.size());
     for (const InstanceDesc& instance : desc.instances) {
         const auto mesh = static_cast<std::size_t>(instance.mesh);
@@ -125,11 +121,7 @@ void WorldBuilder::warn_of_open_volumes()
             continue;
         }
         asked[mesh] = true;
-        const auto [known, is_new] = world_.open_edges_.try_emplace(mesh, 0);
-        if (is_new) {
-            known->second = count_open_edges(desc.meshes[mesh]);
-        }
-        if (const std::size_t open = known->second) {
+        if (const std::size_t open = world_.geometry_->shells.at(mesh)->open_edges) {
             world_.warnings_.push_back(
                 label("mesh", mesh, desc.meshes[mesh].name) + ": " + std::to_string(open) +
                 (open == 1 ? " edge is" : " edges are") +

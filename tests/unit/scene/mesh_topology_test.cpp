@@ -1,4 +1,4 @@
-#include "scene/open_edges.h"
+#include "scene/contacts/mesh_topology.h"
 
 #include "catch.hpp"
 #include "scene/world.h"
@@ -6,20 +6,20 @@
 
 #include <string>
 
-namespace bdpt::test::open_edges_test {
+namespace bdpt::test::mesh_topology_test {
 using test::SceneBuilder;
 
 TEST_CASE("closed meshes have no open edges, whatever their seams", "[bodies]")
 {
     SceneBuilder builder;
     builder.cube({}, 1.0f, test::glass(0.0f));
-    CHECK(count_open_edges(builder.desc.meshes.back()) == 0);
+    CHECK(find_shells(builder.desc.meshes.back()).open_edges == 0);
     // The seam of texture coordinates and the poles have several vertices at one place.
     MeshDesc sphere = builder.desc.meshes[static_cast<std::size_t>(builder.sphere_mesh(12))];
     for (Vec3& p : sphere.positions) {
         p = glm::round(p * 1024.0f) / 1024.0f;
     }
-    CHECK(count_open_edges(sphere) == 0);
+    CHECK(find_shells(sphere).open_edges == 0);
 }
 
 TEST_CASE("holes and faces that look the other way are open edges", "[bodies]")
@@ -28,11 +28,11 @@ TEST_CASE("holes and faces that look the other way are open edges", "[bodies]")
     builder.cube({}, 1.0f, test::glass(0.0f));
     MeshDesc cube = builder.desc.meshes.back();
     std::swap(cube.triangles[5].x, cube.triangles[5].y);
-    CHECK(count_open_edges(cube) == 3);
+    CHECK(find_shells(cube).open_edges == 3);
     cube.triangles.erase(cube.triangles.begin() + 5);
-    CHECK(count_open_edges(cube) == 3);
+    CHECK(find_shells(cube).open_edges == 3);
     builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, test::glass(0.0f));
-    CHECK(count_open_edges(builder.desc.meshes.back()) == 4);
+    CHECK(find_shells(builder.desc.meshes.back()).open_edges == 4);
 }
 
 TEST_CASE("open bodies are told, sheets and walls are not", "[bodies]")
@@ -52,4 +52,26 @@ TEST_CASE("open bodies are told, sheets and walls are not", "[bodies]")
     CHECK(warnings(test::lambertian(Rgb(0.5f))).empty());
 }
 
-}  // namespace bdpt::test::open_edges_test
+TEST_CASE("boxes that touch in one mesh are shells of their own", "[bodies]")
+{
+    const MeshDesc lower = box_mesh({-1, 0, -1}, {1, 1, 1});
+    const MeshDesc upper = box_mesh({-1, 1, -1}, {1, 2, 1});
+    MeshDesc both = lower;
+    for (const UVec3& triangle : upper.triangles) {
+        both.triangles.push_back(triangle + static_cast<unsigned>(lower.positions.size()));
+    }
+    both.positions.insert(both.positions.end(), upper.positions.begin(), upper.positions.end());
+    const Shells shells = find_shells(both);
+    REQUIRE(shells.are_closed.size() == 2);
+    CHECK(shells.are_closed[0]);
+    CHECK(shells.are_closed[1]);
+    for (std::size_t t = 0; t < both.triangles.size(); ++t) {
+        CHECK((shells.of_triangles[t] == shells.of_triangles[0]) == (t < lower.triangles.size()));
+    }
+    both.triangles.pop_back();
+    const Shells opened = find_shells(both);
+    CHECK(opened.are_closed[opened.of_triangles[0]]);
+    CHECK_FALSE(opened.are_closed[opened.of_triangles.back()]);
+}
+
+}  // namespace bdpt::test::mesh_topology_test

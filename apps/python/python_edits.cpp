@@ -116,7 +116,16 @@ PythonScene with_material(const PythonScene& scene, const NameOrNumber& which,
 
 PythonScene with_lights(const PythonScene& scene, const std::vector<ArrayLight>& lights)
 {
-    const std::vector<LightDesc> descs = to_lights(lights);
+    std::vector<LightDesc> descs = to_lights(lights);
+    for (LightDesc& desc : descs) {
+        std::visit(
+            [&origin = scene.stage.scene.description().origin](auto& light) {
+                if constexpr (requires { light.position; }) {
+                    light.position = app::to_world(DVec3(light.position), origin);
+                }
+            },
+            desc);
+    }
     const bool has_environment = std::any_of(
         descs.begin(), descs.end(),
         [](const LightDesc& light) { return std::holds_alternative<EnvironmentLightDesc>(light); });

@@ -70,14 +70,15 @@ int run_inspect(const InspectArguments& arguments)
     if (arguments.directions) {
         write_directions(arguments, stage, options);
     }
+    const DVec3 origin = stage.scene.description().origin;
     if (what.printed.format == Format::json) {
-        nlohmann::ordered_json json = inspect_json(sample, arguments.sample);
+        nlohmann::ordered_json json = inspect_json(sample, arguments.sample, origin);
         json["settings"] = transport_json(options);
         print_text(json.dump(2) + "\n");
     } else {
         print_text(fmt::format("{}, camera {}, {}\n{}", what.file.string(), stage.camera.name,
                                integrator_text(options, chosen),
-                               inspect_text(sample, arguments.sample)));
+                               inspect_text(sample, arguments.sample, origin)));
     }
     return 0;
 }

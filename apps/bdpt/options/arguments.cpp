@@ -21,6 +21,26 @@ std::optional<Number> parse_number(std::string_view text)
     return value;
 }
 
+/// Parses "x,y,z", all finite.
+template <typename Vector>
+std::optional<Vector> parse_numbers(std::string_view text)
+{
+    Vector result(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t comma = text.find(',');
+        if ((comma == std::string_view::npos) != (axis == 2)) {
+            return std::nullopt;
+        }
+        const auto value = parse_number<typename Vector::value_type>(text.substr(0, comma));
+        if (!value || !std::isfinite(*value)) {
+            return std::nullopt;
+        }
+        result[axis] = *value;
+        text.remove_prefix(axis == 2 ? text.size() : comma + 1);
+    }
+    return result;
+}
+
 }  // namespace
 
 std::string lower_case(std::string_view text)
@@ -105,22 +125,13 @@ std::optional<double> parse_share(std::string_view text)
 
 std::optional<Vec3> parse_vec3(std::string_view text)
 {
-    Vec3 result(0.0f);
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::size_t comma = text.find(',');
-        if ((comma == std::string_view::npos) != (axis == 2)) {
-            return std::nullopt;
-        }
-        const auto value = parse_float(text.substr(0, comma));
-        if (!value) {
-            return std::nullopt;
-        }
-        result[axis] = *value;
-        text.remove_prefix(axis == 2 ? text.size() : comma + 1);
-    }
-    return result;
+    return parse_numbers<Vec3>(text);
 }
 
+std::optional<DVec3> parse_dvec3(std::string_view text)
+{
+    return parse_vec3(text) ? parse_numbers<DVec3>(text) : std::nullopt;
+}
 std::optional<double> parse_double(std::string_view text)
 {
     const auto value = parse_number<double>(text);

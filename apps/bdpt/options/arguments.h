@@ -35,6 +35,8 @@ struct Size {
 
 /// Parses "x,y,z", all finite.
 [[nodiscard]] std::optional<Vec3> parse_vec3(std::string_view text);
+/// The same in double precision, if single precision can hold it, too.
+[[nodiscard]] std::optional<DVec3> parse_dvec3(std::string_view text);
 
 /// Parses a finite number.
 [[nodiscard]] std::optional<float> parse_float(std::string_view text);

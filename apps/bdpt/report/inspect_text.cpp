@@ -44,15 +44,22 @@ std::string color_text(const Rgb& color)
     return fmt::format("{:.4g} {:.4g} {:.4g}", color.r, color.g, color.b);
 }
 
-std::string path_text(const char* title, const std::vector<InspectedVertex>& path)
+/// Returns what to add to the position of a vertex; nothing if it is a direction.
+DVec3 shift_of_vertex(const InspectedVertex& vertex, const DVec3& origin)
+{
+    return vertex.kind == InspectedKind::infinite ? DVec3(0.0) : origin;
+}
+
+std::string path_text(const char* title, const std::vector<InspectedVertex>& path,
+                      const DVec3& origin)
 {
     std::string text = fmt::format("\n{}\n{:>4} {:<15} {:<28} {:<28} {:>10}  {}\n", title, "", "on",
                                    "position [m]", "throughput", "pdf", "scatters");
     for (std::size_t i = 0; i < path.size(); ++i) {
         const InspectedVertex& vertex = path[i];
         text += fmt::format("{:>4} {:<15} {:<28} {:<28} {:>10.4g}  {}\n", i, kind_text(vertex),
-                            to_text(vertex.position), color_text(vertex.beta), vertex.pdf_fwd,
-                            scattering_text(vertex));
+                            to_text(vertex.position, shift_of_vertex(vertex, origin)),
+                            color_text(vertex.beta), vertex.pdf_fwd, scattering_text(vertex));
     }
     return text;
 }
@@ -76,12 +83,12 @@ double brightness(const InspectedContribution& contribution)
            static_cast<double>(value.b);
 }
 
-ordered_json path_json(const std::vector<InspectedVertex>& path)
+ordered_json path_json(const std::vector<InspectedVertex>& path, const DVec3& origin)
 {
     ordered_json result = ordered_json::array();
     for (const InspectedVertex& vertex : path) {
         result.push_back({{"on", kind_text(vertex)},
-                          {"position", to_json(vertex.position)},
+                          {"position", to_json(vertex.position, shift_of_vertex(vertex, origin))},
                           {"normal", to_json(vertex.normal)},
                           {"throughput", to_json(vertex.beta)},
                           {"emission", to_json(vertex.emission)},
@@ -94,15 +101,16 @@ ordered_json path_json(const std::vector<InspectedVertex>& path)
 
 }  // namespace
 
-std::string inspect_text(const InspectedSample& sample, const PixelSample& which)
+std::string inspect_text(const InspectedSample& sample, const PixelSample& which,
+                         const DVec3& origin)
 {
     std::string text =
         fmt::format("pixel {},{}, sample {}: {} nit\nthrough {:.4f},{:.4f}", which.x, which.y,
                     which.index, color_text(sample.value), sample.raster.x, sample.raster.y);
     text += sample.time > 0.0f ? fmt::format(", at {:.4f} of the shutter\n", sample.time) : "\n";
-    text += path_text("camera path", sample.camera_path);
+    text += path_text("camera path", sample.camera_path, origin);
     if (!sample.light_path.empty()) {
-        text += path_text("light path", sample.light_path);
+        text += path_text("light path", sample.light_path, origin);
     }
     constexpr const char* row = "{:<8} {:<30} {:>10}   {:<30} {}\n";  // three numbers take up to 29
     text += "\n" + fmt::format(row, "strategy", "alone [nit]", "weight", "brings [nit]",
@@ -118,7 +126,8 @@ std::string inspect_text(const InspectedSample& sample, const PixelSample& which
     return text + (sorted.empty() ? "no contributions\n" : "");
 }
 
-ordered_json inspect_json(const InspectedSample& sample, const PixelSample& which)
+ordered_json inspect_json(const InspectedSample& sample, const PixelSample& which,
+                          const DVec3& origin)
 {
     ordered_json contributions = ordered_json::array();
     for (const InspectedContribution& found : sample.contributions) {
@@ -134,8 +143,8 @@ ordered_json inspect_json(const InspectedSample& sample, const PixelSample& whic
             {"raster", {sample.raster.x, sample.raster.y}},
             {"time", sample.time},
             {"value", to_json(sample.value)},
-            {"camera_path", path_json(sample.camera_path)},
-            {"light_path", path_json(sample.light_path)},
+            {"camera_path", path_json(sample.camera_path, origin)},
+            {"light_path", path_json(sample.light_path, origin)},
             {"contributions", std::move(contributions)}};
 }
 

@@ -51,15 +51,24 @@ std::string radius_text(float metres)
 
 // A kind without its own text is described by its fields: all numbers and vectors, but no motion.
 
+/// Returns what to add to a field: only positions depend on the origin.
+DVec3 shift_of_field(std::string_view field, const DVec3& origin)
+{
+    return field == "position" ? origin : DVec3(0.0);
+}
+
 struct LightText {
+    DVec3 origin;
+
     template <typename Light>
     std::string operator()(const Light& light) const
     {
         std::string text = fmt::format("{} \"{}\"", short_kind<Light>, light.name);
-        for_each_field(light, [&text]<typename T>(const auto& field, const T& value) {
+        for_each_field(light, [&text, this]<typename T>(const auto& field, const T& value) {
             if constexpr (std::is_same_v<T, Vec3>) {
                 const auto [before, after] = find_phrase(field.name);
-                text += fmt::format("{}{}{}", before, to_text(value), after);
+                text += fmt::format("{}{}{}", before,
+                                    to_text(value, shift_of_field(field.name, origin)), after);
             } else if constexpr (std::is_arithmetic_v<T>) {
                 text += field.name == "radius" ? radius_text(value)
                                                : fmt::format(", {} {:.4g}", field.name, value);
@@ -70,7 +79,7 @@ struct LightText {
     std::string operator()(const SpotLightDesc& light) const
     {
         return fmt::format("spot \"{}\" at {}, {} cd, cone {:.3g} to {:.3g} degrees{}", light.name,
-                           to_text(light.position), to_text(light.intensity),
+                           to_text(light.position, origin), to_text(light.intensity),
                            degrees(light.inner_cone_angle), degrees(light.outer_cone_angle),
                            radius_text(light.radius));
     }
@@ -78,7 +87,7 @@ struct LightText {
     {
         return fmt::format("profile {} \"{}\" at {}, times {}",
                            static_cast<std::size_t>(light.profile), light.name,
-                           to_text(light.position), to_text(light.scale));
+                           to_text(light.position, origin), to_text(light.scale));
     }
     std::string operator()(const EnvironmentLightDesc& light) const
     {
@@ -87,15 +96,17 @@ struct LightText {
 };
 
 struct LightJson {
+    DVec3 origin;
+
     template <typename Light>
     ordered_json operator()(const Light& light) const
     {
         ordered_json result{{"kind", short_kind<Light>}, {"name", light.name}};
-        for_each_field(light, [&result]<typename T>(const auto& field, const T& value) {
+        for_each_field(light, [&result, this]<typename T>(const auto& field, const T& value) {
             std::string name(field.name);
             std::replace(name.begin(), name.end(), ' ', '_');
             if constexpr (std::is_same_v<T, Vec3>) {
-                result[name] = to_json(value);
+                result[name] = to_json(value, shift_of_field(field.name, origin));
             } else if constexpr (std::is_arithmetic_v<T>) {
                 result[name] = value;
             }
@@ -106,7 +117,7 @@ struct LightJson {
     {
         return {{"kind", "spot"},
                 {"name", light.name},
-                {"position", to_json(light.position)},
+                {"position", to_json(light.position, origin)},
                 {"direction", to_json(light.direction)},
                 {"intensity", to_json(light.intensity)},
                 {"inner_cone_degrees", degrees(light.inner_cone_angle)},
@@ -117,7 +128,7 @@ struct LightJson {
     {
         return {{"kind", "profile"},
                 {"name", light.name},
-                {"position", to_json(light.position)},
+                {"position", to_json(light.position, origin)},
                 {"profile", static_cast<std::size_t>(light.profile)},
                 {"scale", to_json(light.scale)}};
     }
@@ -141,14 +152,14 @@ LightDesc without_pixels(const LightDesc& light)
     return light;
 }
 
-std::string light_text(const LightDesc& light)
+std::string light_text(const LightDesc& light, const DVec3& origin)
 {
-    return std::visit(LightText{}, light);
+    return std::visit(LightText{origin}, light);
 }
 
-ordered_json light_json(const LightDesc& light)
+ordered_json light_json(const LightDesc& light, const DVec3& origin)
 {
-    return std::visit(LightJson{}, light);
+    return std::visit(LightJson{origin}, light);
 }
 
 }  // namespace bdpt::app

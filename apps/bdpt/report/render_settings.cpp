@@ -13,6 +13,7 @@
 
 #include "options/groups/film_arguments.h"
 #include "options/groups/transport_arguments.h"
+#include "options/values/view.h"
 #include "report/values.h"
 #include "terminal/text.h"
 
@@ -106,7 +107,8 @@ ordered_json make_settings(const RenderArguments& arguments, const PreparedScene
     }
     if (options.film.aovs.contains(Aov::shadow)) {
         settings["ground"] = "shadow";
-        settings["ground_height"] = options.film.ground_height.value_or(stage.scene.bounds().min.y);
+        const Vec3 lowest(to_file(stage.scene.bounds().min, stage.scene.description().origin));
+        settings["ground_height"] = options.film.ground_height.value_or(lowest.y);
     }
     if (arguments.texture_filter == TextureFilter::mip_mapped) {
         settings["texture_filter"] = "mip";
@@ -166,6 +168,7 @@ io::ImageMetadata make_metadata(const RenderArguments& arguments, const Prepared
     metadata.integrator = to_name(arguments.options.integrator);
     metadata.seed = arguments.options.sampling.seed;
     metadata.camera = stage.camera;
+    metadata.origin = stage.scene.description().origin;
     metadata.created = std::chrono::system_clock::now();
     if (arguments.sequence_view && arguments.sequence_view->frame) {
         metadata.frame = io::FrameNumber{.number = *arguments.sequence_view->frame,

@@ -70,7 +70,7 @@ std::string view_text(const CameraDesc& camera)
                              degrees(camera.vertical_fov), lens_text(camera));
 }
 
-std::vector<std::string> camera_lines(const std::vector<CameraDesc>& cameras)
+std::vector<std::string> camera_lines(const std::vector<CameraDesc>& cameras, const DVec3& origin)
 {
     std::vector<std::string> lines;
     for (const CameraDesc& camera : cameras) {
@@ -79,8 +79,8 @@ std::vector<std::string> camera_lines(const std::vector<CameraDesc>& cameras)
             aspect = fmt::format(", aspect ratio {:.4g}", *camera.aspect_ratio);
         }
         lines.push_back(fmt::format("{} \"{}\" at {}, {}{}", lines.size(), camera.name,
-                                    to_text(Vec3(camera.world_from_camera[3])), view_text(camera),
-                                    aspect));
+                                    to_text(Vec3(camera.world_from_camera[3]), origin),
+                                    view_text(camera), aspect));
     }
     return lines;
 }
@@ -116,10 +116,10 @@ std::vector<std::string> numbered(const std::vector<std::string>& names)
     return lines;
 }
 
-ordered_json camera_json(const CameraDesc& camera)
+ordered_json camera_json(const CameraDesc& camera, const DVec3& origin)
 {
     ordered_json result{{"name", camera.name},
-                        {"position", to_json(Vec3(camera.world_from_camera[3]))}};
+                        {"position", to_json(Vec3(camera.world_from_camera[3]), origin)}};
     if (camera.projection == Projection::orthographic) {
         result["projection"] = "orthographic";
         result["vertical_extent"] = camera.vertical_extent;
@@ -228,8 +228,8 @@ void add_scene(Lines& lines, const SceneReport& report)
               fmt::format("{} ({} nodes, {} meshes of {} primitives)", report.instances,
                           facts.nodes, facts.meshes, facts.primitives));
     if (report.bounds) {
-        lines.add("bounds", fmt::format("{} to {} m", to_text(report.bounds->min),
-                                        to_text(report.bounds->max)));
+        lines.add("bounds", fmt::format("{} to {} m", to_text(report.bounds->min, report.origin),
+                                        to_text(report.bounds->max, report.origin)));
     }
     lines.add("materials", fmt::format("{}", facts.materials));
     std::vector<std::string> emissive;
@@ -241,10 +241,10 @@ void add_scene(Lines& lines, const SceneReport& report)
     lines.add("textures",
               fmt::format("{} of {} images{}{}", facts.textures, facts.images,
                           report.texture_sizes.empty() ? "" : ": ", summary(report.texture_sizes)));
-    lines.add_list("cameras", camera_lines(report.cameras));
+    lines.add_list("cameras", camera_lines(report.cameras, report.origin));
     std::vector<std::string> lights;
     for (const LightDesc& light : report.lights) {
-        lights.push_back(light_text(light));
+        lights.push_back(light_text(light, report.origin));
     }
     lines.add_list("lights", lights);
 }
@@ -262,9 +262,10 @@ ordered_json scene_json(const SceneReport& report)
                               : ordered_json();
     result["contacts"] =
         report.knowledge == Knowledge::built ? ordered_json(counts.contacts) : ordered_json();
-    result["bounds"] = report.bounds ? ordered_json{{"min", to_json(report.bounds->min)},
-                                                    {"max", to_json(report.bounds->max)}}
-                                     : ordered_json();
+    result["bounds"] = report.bounds
+                           ? ordered_json{{"min", to_json(report.bounds->min, report.origin)},
+                                          {"max", to_json(report.bounds->max, report.origin)}}
+                           : ordered_json();
     if (report.knowledge == Knowledge::facts) {
         for (const char* name : {"materials", "emissive_materials", "texture_sizes", "cameras",
                                  "lights", "warnings", "defaults"}) {
@@ -280,8 +281,12 @@ ordered_json scene_json(const SceneReport& report)
     result["texture_sizes"] = make_array(report.texture_sizes, [](const Size& size) {
         return ordered_json::array({size.width, size.height});
     });
-    result["cameras"] = make_array(report.cameras, camera_json);
-    result["lights"] = make_array(report.lights, light_json);
+    result["cameras"] = make_array(report.cameras, [&report](const CameraDesc& camera) {
+        return camera_json(camera, report.origin);
+    });
+    result["lights"] = make_array(report.lights, [&report](const LightDesc& light) {
+        return light_json(light, report.origin);
+    });
     result["warnings"] = report.warnings;
     result["defaults"] = default_names(report.defaults);
     return result;
@@ -296,6 +301,7 @@ SceneReport make_report(const std::string& file, const io::LoadedScene& loaded)
     report.file = file;
     report.facts = loaded.facts;
     report.cameras = loaded.cameras;
+    report.origin = loaded.scene.origin;
     report.warnings = loaded.warnings;
     report.instances = loaded.scene.instances.size();
     for (const LightDesc& light : loaded.scene.lights) {

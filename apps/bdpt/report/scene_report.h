@@ -58,6 +58,7 @@ struct SceneReport {
     Knowledge knowledge = Knowledge::facts;
     SceneCounts counts;
     std::optional<Bounds> bounds;  ///< none: nothing is visible
+    DVec3 origin{0.0};             ///< of the world, which cameras, lights and bounds are in
 };
 
 /// Collects all but what only a built scene knows.

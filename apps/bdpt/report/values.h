@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "options/values/view.h"
+
 namespace bdpt::app {
 
 [[nodiscard]] inline double degrees(float radians)
@@ -25,6 +27,20 @@ namespace bdpt::app {
 [[nodiscard]] inline nlohmann::ordered_json to_json(Vec3 v)
 {
     return nlohmann::ordered_json::array({v.x, v.y, v.z});
+}
+
+// Points of the world in the coordinates of the file, where `origin` is that of the world
+// (`SceneDesc::origin`).
+
+[[nodiscard]] inline std::string to_text(Vec3 point, const DVec3& origin)
+{
+    return place_text(point, origin, 4);
+}
+
+[[nodiscard]] inline nlohmann::ordered_json to_json(Vec3 point, const DVec3& origin)
+{
+    const DVec3 place = to_file(point, origin);
+    return nlohmann::ordered_json::array({place.x, place.y, place.z});
 }
 
 /// Returns the names of `files` as an array.

@@ -139,10 +139,10 @@ void add_lights(LitScene& lit, DefaultLights missing, const FramedView& framed,
     lit.desc.lights.emplace_back(default_environment());
     if (missing == DefaultLights::sky_and_lamp) {
         lit.notes.push_back(
-            {"default_lamp", fmt::format("{}: a closed room without light: a lamp was added at "
-                                         "{:.3g},{:.3g},{:.3g} (--env none removes it)",
-                                         file, framed.lamp_position.x, framed.lamp_position.y,
-                                         framed.lamp_position.z)});
+            {"default_lamp",
+             fmt::format("{}: a closed room without light: a lamp was added at "
+                         "{} (--env none removes it)",
+                         file, place_text(framed.lamp_position, lit.desc.origin, 3))});
         lit.desc.lights.emplace_back(default_lamp(framed));
         ++lit.added;
     }
@@ -241,24 +241,23 @@ std::string why_no_triangles(const std::vector<std::string>& warnings)
 
 /// Loads the volume, and adds its warnings. One without any density, such as the first frame of a
 /// simulation, is left out.
-std::vector<VolumeDesc> load_volumes(const RenderArguments& arguments,
-                                     std::vector<std::string>& warnings)
+std::optional<io::LoadedVolume> load_volume(const RenderArguments& arguments,
+                                            std::vector<std::string>& warnings)
 {
-    std::vector<VolumeDesc> volumes;
-    if (arguments.volume) {
-        io::VolumeOptions options = arguments.volume->options;
-        options.limits = arguments.scene.limits;
-        options.memory = arguments.scene.memory;
-        io::LoadedVolume loaded = io::load_volume(arguments.volume->file, options);
-        for (const std::string& warning : loaded.warnings) {
-            warnings.push_back(fmt::format("{}: {}", arguments.volume->file.string(), warning));
-        }
-        const std::vector<float>& density = loaded.volume.density;
-        if (std::any_of(density.begin(), density.end(), [](float value) { return value > 0.0f; })) {
-            volumes.push_back(std::move(loaded.volume));
-        }
+    if (!arguments.volume) {
+        return std::nullopt;
     }
-    return volumes;
+    io::VolumeOptions options = arguments.volume->options;
+    options.limits = arguments.scene.limits;
+    options.memory = arguments.scene.memory;
+    io::LoadedVolume loaded = io::load_volume(arguments.volume->file, options);
+    for (const std::string& warning : loaded.warnings) {
+        warnings.push_back(fmt::format("{}: {}", arguments.volume->file.string(), warning));
+    }
+    const std::vector<float>& density = loaded.volume.density;
+    const bool is_empty =
+        std::none_of(density.begin(), density.end(), [](float value) { return value > 0.0f; });
+    return is_empty ? std::nullopt : std::optional(std::move(loaded));
 }
 
 }  // namespace
@@ -273,7 +272,7 @@ PreparedScene prepare_scene(const RenderArguments& asked)
     const std::string file = arguments.file.string();
     const ThreadLimit threads = limit_threads(arguments.options.system.threads);
     std::vector<std::string> warnings;
-    std::vector<VolumeDesc> volumes = load_volumes(arguments, warnings);
+    std::optional<io::LoadedVolume> volume = load_volume(arguments, warnings);
     io::LoadedScene loaded = io::load_gltf(arguments.file, arguments.scene);
 
     if (threads.allowed < threads.wanted) {
@@ -298,7 +297,11 @@ PreparedScene prepare_scene(const RenderArguments& asked)
 
     loaded.scene.texture_filter = arguments.texture_filter;
     loaded.scene.fog = arguments.fog;
-    loaded.scene.volumes = std::move(volumes);
+    if (volume) {
+        volume->volume.world_from_grid[3] =
+            Vec4(to_world(volume->translation, loaded.scene.origin), 1.0f);
+        loaded.scene.volumes.push_back(std::move(volume->volume));
+    }
     LitScene lit = choose_environment(std::move(loaded.scene), arguments);
     for (const std::string& note : loaded.notes) {
         lit.notes.push_back({"draft_extension", fmt::format("{}: {}", file, note)});
@@ -323,9 +326,10 @@ PreparedScene prepare_scene(const RenderArguments& asked)
                                    "and --look-at, choose another view)",
                                    file)});
     }
-    CameraDesc camera =
-        from_file ? apply(arguments.view, *from_file, std::nullopt)
-                  : apply(arguments.view, framed(scene, aspect, arguments), center(scene.bounds()));
+    const DVec3 origin = scene.description().origin;
+    CameraDesc camera = from_file ? apply(arguments.view, *from_file, std::nullopt, origin)
+                                  : apply(arguments.view, framed(scene, aspect, arguments),
+                                          center(scene.bounds()), origin);
     if (from_file) {
         note_small_picture(lit, scene, camera, aspect, arguments);
     }
@@ -352,7 +356,8 @@ PreparedScene prepare_scene(const RenderArguments& asked)
 
 Viewpoint viewpoint(const PreparedScene& stage, std::size_t index, const RenderArguments& arguments)
 {
-    CameraDesc camera = apply(arguments.view, stage.cameras.at(index), std::nullopt);
+    CameraDesc camera = apply(arguments.view, stage.cameras.at(index), std::nullopt,
+                              stage.scene.description().origin);
     camera.name = camera_names(stage).at(index);
     const Size size = arguments.size.value_or(default_size(camera.aspect_ratio));
     return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene), .size = size};
@@ -364,9 +369,10 @@ Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments
     const Size size =
         arguments.size.value_or(default_size(from_file ? from_file->aspect_ratio : std::nullopt));
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    CameraDesc camera = from_file ? apply(arguments.view, *from_file, std::nullopt)
+    const DVec3 origin = stage.scene.description().origin;
+    CameraDesc camera = from_file ? apply(arguments.view, *from_file, std::nullopt, origin)
                                   : apply(arguments.view, framed(stage.scene, aspect, arguments),
-                                          center(stage.scene.bounds()));
+                                          center(stage.scene.bounds()), origin);
     return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene),
             .size = size,
             .is_framed = !from_file.has_value()};

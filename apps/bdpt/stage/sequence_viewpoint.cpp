@@ -2,10 +2,12 @@
 
 #include <bdpt/framing.h>
 
+#include <optional>
 #include <utility>
 #include <variant>
 
 #include "options/values/orbit.h"
+#include "options/values/view.h"
 
 namespace bdpt::app {
 
@@ -23,8 +25,11 @@ Viewpoint sequence_viewpoint(const PreparedScene& stage, const Viewpoint& first,
         // A framed view has room for the whole turn around the middle.
         const bool is_framed =
             !view.camera && !image.view.from && !image.view.look_at && first.is_framed;
-        const Vec3 center =
-            is_framed ? middle : orbit_center(result.camera, image.view.look_at, middle);
+        std::optional<Vec3> target;
+        if (image.view.look_at) {
+            target = to_world(*image.view.look_at, stage.scene.description().origin);
+        }
+        const Vec3 center = is_framed ? middle : orbit_center(result.camera, target, middle);
         result.camera = orbited(std::move(result.camera), center, static_cast<float>(*view.turn));
     }
     return result;

@@ -36,7 +36,7 @@ std::string inspected_text(const PreparedScene& stage, RenderOptions options,
     options.film.width = stage.size.width;
     options.film.height = stage.size.height;
     const InspectedSample sample = inspect_sample(stage.scene, stage.camera, options, pixel);
-    ordered_json json = inspect_json(sample, pixel);
+    ordered_json json = inspect_json(sample, pixel, stage.scene.description().origin);
     add_places(json["camera_path"], sample.camera_path, stage);
     add_places(json["light_path"], sample.light_path, stage);
     json["settings"] = transport_json(options);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "options/values/view.h"
 #include "stage/environment_change.h"
 #include "stage/input_files.h"
 #include "stage/render_preparation.h"
@@ -97,7 +98,9 @@ std::optional<Vec3> LiveScene::picked(int x, int y) const
 Pose LiveScene::pose() const
 {
     if (arguments_.view.from && arguments_.view.look_at) {
-        return {.from = *arguments_.view.from, .look_at = *arguments_.view.look_at};
+        const DVec3& origin = stage_->scene.description().origin;
+        return {.from = to_world(*arguments_.view.from, origin),
+                .look_at = to_world(*arguments_.view.look_at, origin)};
     }
     const CameraDesc& camera = stage_->camera;
     const Pose one_away = compute_pose(camera, 1.0f);

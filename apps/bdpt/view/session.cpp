@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "options/values/view.h"
 #include "report/values.h"
 #include "stage/render_preparation.h"
 #include "terminal/text.h"
@@ -20,9 +21,14 @@
 namespace bdpt::app {
 namespace {
 
-std::string point_text(Vec3 point)
+/// Returns a point of the world as a value of --from, in coordinates of the file.
+std::string point_text(Vec3 point, const DVec3& origin)
 {
-    return fmt::format("{},{},{}", point.x, point.y, point.z);
+    if (origin == DVec3(0.0)) {
+        return fmt::format("{},{},{}", point.x, point.y, point.z);
+    }
+    const DVec3 place = to_file(point, origin);
+    return fmt::format("{:.12g},{:.12g},{:.12g}", place.x, place.y, place.z);
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start)
@@ -236,8 +242,9 @@ void Session::change_camera(const PageRequest& request)
         // With a field of view the view is complete, so the scene need not be framed.
         words_.set("--fov", fmt::format("{}", degrees(camera.vertical_fov)));
     }
-    words_.set("--from", point_text(pose.from));
-    words_.set("--look-at", point_text(pose.look_at));
+    const DVec3& origin = scene_.stage().scene.description().origin;
+    words_.set("--from", point_text(pose.from, origin));
+    words_.set("--look-at", point_text(pose.look_at, origin));
     pose_ = pose;
 }
 

@@ -179,6 +179,7 @@ ViewState Session::state()
     state.size = stage.size;
     state.camera_name = stage.camera.name;
     state.pose = pose;
+    state.origin = scene_.stage().scene.description().origin;
     state.vertical_fov = stage.camera.projection == Projection::orthographic
                              ? 0.0
                              : degrees(stage.camera.vertical_fov);

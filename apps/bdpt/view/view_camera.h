@@ -9,7 +9,7 @@
 
 namespace bdpt::app {
 
-/// Position of a camera, and its target [m].
+/// Position of a camera, and its target [m], in the world.
 struct Pose {
     Vec3 from{0.0f};
     Vec3 look_at{0.0f};

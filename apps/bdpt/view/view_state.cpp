@@ -52,8 +52,8 @@ void add_picture(ordered_json& json, const ViewState& state)
     json["size"] = {state.size.width, state.size.height};
     json["camera"] = {
         {"name", state.camera_name},
-        {"from", to_json(state.pose.from)},
-        {"look_at", to_json(state.pose.look_at)},
+        {"from", to_json(state.pose.from, state.origin)},
+        {"look_at", to_json(state.pose.look_at, state.origin)},
         {"fov", state.vertical_fov > 0.0 ? ordered_json(state.vertical_fov) : ordered_json()}};
     json["integrators"] = names_of_integrators();
     json["integrator_a"] = state.integrator_a;

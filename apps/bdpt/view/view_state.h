@@ -31,6 +31,7 @@ struct ViewState {
     Size size{};
     std::string camera_name;
     Pose pose{};
+    DVec3 origin{0.0};          ///< of the world, which `pose` is in
     double vertical_fov = 0.0;  ///< [deg]; 0: orthographic
     std::string integrator_a;
     std::string integrator_b;

@@ -33,7 +33,8 @@ enum class Aov : std::uint8_t {
     /// Distance along the camera's axis [m], averaged over rays that hit a surface; infinite if
     /// none does.
     depth,
-    /// Position in world space [m], averaged over rays that hit a surface; 0 if none does.
+    /// Position [m] in coordinates of the file (`SceneDesc::origin`), averaged over rays that hit a
+    /// surface; 0 if none does.
     position,
     /// Number of samples of the pixel.
     sample_count,

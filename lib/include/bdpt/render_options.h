@@ -117,8 +117,8 @@ struct FilmOptions {
     std::optional<PixelRect> crop{};
     FilterOptions filter{};
     AovSet aovs{};
-    /// World y of the ground of `Aov::shadow` [m]; nullopt: the lowest point of the scene's bounds
-    /// at any time while the shutter is open.
+    /// y of the ground of `Aov::shadow` [m], in coordinates of the file (`SceneDesc::origin`);
+    /// nullopt: the lowest point of the scene's bounds at any time while the shutter is open.
     std::optional<float> ground_height{};
     /// Maximum component [nit] of a contribution to a pixel, be it a camera sample or a splat;
     /// larger ones are scaled down. Removes fireflies, but also energy: biased. In (0, inf];

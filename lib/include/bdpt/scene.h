@@ -74,7 +74,7 @@ public:
     /// Replaces the environment, or adds one to the other lights; nullopt removes it.
     [[nodiscard]] Scene with_environment(std::optional<EnvironmentLightDesc> environment) const;
 
-    /// Returns the bounds of all instances; both corners are zero in an empty scene.
+    /// Returns the bounds of all instances in the world; both corners are zero in an empty scene.
     [[nodiscard]] Bounds bounds() const;
     [[nodiscard]] SceneCounts counts() const;
     /// Returns the instruction set of ray tracing; never `native` on x86.

@@ -101,7 +101,9 @@ enum class Projection : std::uint8_t { perspective, orthographic };
 /// A camera with the glTF axes: it looks down -z, +y is up.
 struct CameraDesc {
     std::string name{};
-    Mat4 world_from_camera{1.0f};  ///< scale is ignored
+    /// Scale is ignored. As all of a scene, cameras are in the world, whose origin may lie
+    /// elsewhere than the file's: subtract `SceneDesc::origin` from places in the file.
+    Mat4 world_from_camera{1.0f};
     Projection projection = Projection::perspective;
     float vertical_fov = 0.7853982f;  ///< perspective: [rad], in (0, pi)
     float vertical_extent = 2.0f;     ///< orthographic: height of the view [m], > 0

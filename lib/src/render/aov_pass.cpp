@@ -116,7 +116,7 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
             PrimaryHit first;
             first[Aov::albedo] = point.bsdf.base_color();
             first[Aov::normal] = dot(normal, ray.direction) > 0.0f ? -normal : normal;
-            first[Aov::position] = point.end.p;
+            first[Aov::position] = Vec3(DVec3(point.end.p) + world_.description().origin);
             first[Aov::depth].x = camera.depth(point.end.p);
             film.add(x, y, first);
         } else {

@@ -71,11 +71,12 @@ std::optional<Vec3> find_position(const LightDesc& light)
         light);
 }
 
-std::string known_to(const Placed& placed)
+std::string known_to(const Placed& placed, const DVec3& origin)
 {
     std::ostringstream text;
     text << "its points have a precision of " << placed.error << " m only, because it extends "
-         << placed.distance << " m from the origin";
+         << placed.distance << " m from the "
+         << (origin == DVec3(0.0) ? "origin" : "centre of the scene");
     return text.str();
 }
 
@@ -103,7 +104,7 @@ std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
     if (vaguest != nullptr) {
         std::ostringstream text;
         text << name(*vaguest) << ": is " << vaguest->size() << " m large, but "
-             << known_to(*vaguest);
+             << known_to(*vaguest, desc.origin);
         if (vague > 1) {
             text << " (and " << vague - 1 << " more of this kind)";
         }
@@ -137,7 +138,8 @@ std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
                             coarsest->error) {
             const std::string lamp = std::visit(
                 [i](const auto& light) { return light_label(light, i); }, desc.lights[i]);
-            warnings.push_back(name(*coarsest) + ": " + known_to(*coarsest) + ", but " + lamp +
+            warnings.push_back(name(*coarsest) + ": " + known_to(*coarsest, desc.origin) +
+                               ", but " + lamp +
                                " is nearer to it than that: its light may be lost");
             break;
         }

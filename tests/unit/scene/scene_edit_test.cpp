@@ -269,6 +269,7 @@ std::vector<NamedEdit> edits()
          [](SharedSceneDesc& d) {
              change(d.profiles, [](auto& list) { list.at(0).intensities[0] = 5.0f; });
          }},
+        {"origin", [](SharedSceneDesc& d) { d.origin.x = 448000.0; }},
         {"mip maps", [](SharedSceneDesc& d) { d.texture_filter = TextureFilter::mip_mapped; }},
         {"colour with mip maps", of_material("floor", [](auto& m) { m.base_color.x = 0.3f; })},
         {"smoke",

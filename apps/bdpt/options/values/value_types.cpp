@@ -174,10 +174,10 @@ ValueType<double> positive_number(std::string expected)
         std::move(expected));
 }
 
-ValueType<Vec3> point()
+ValueType<DVec3> point()
 {
-    ValueType<Vec3> type =
-        parsed_by([](const std::string& text) { return parse_vec3(text); }, "three numbers x,y,z");
+    ValueType<DVec3> type =
+        parsed_by([](const std::string& text) { return parse_dvec3(text); }, "three numbers x,y,z");
     type.info.separator = ',';
     return type;
 }

@@ -68,7 +68,7 @@ template <typename Parse>
 }
 
 /// Accepts "three numbers x,y,z".
-[[nodiscard]] ValueType<Vec3> point();
+[[nodiscard]] ValueType<DVec3> point();
 
 /// Accepts "a time like 60s, 2m or 1h30m", as seconds.
 [[nodiscard]] ValueType<double> duration(std::string expected = "a time like 60s, 2m or 1h30m");

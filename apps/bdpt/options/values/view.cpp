@@ -62,8 +62,20 @@ const CameraDesc& select_camera(std::span<const CameraDesc> cameras,
                           list_cameras(cameras)));
 }
 
+std::string place_text(Vec3 point, const DVec3& origin, int digits)
+{
+    constexpr int many = 9;
+    const DVec3 place = to_file(point, origin);
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis) {
+        text += fmt::format("{}{:.{}g}", axis == 0 ? "" : ",", place[axis],
+                            origin[axis] == 0.0 ? digits : many);
+    }
+    return text;
+}
+
 CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
-                 const std::optional<Vec3>& target)
+                 const std::optional<Vec3>& target, const DVec3& origin)
 {
     if (overrides.vertical_fov && camera.projection == Projection::orthographic) {
         throw Error(ErrorCode::usage,
@@ -76,18 +88,21 @@ CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
         return result;
     }
     result.motion.clear();  // The user fixes the position.
-    const Vec3 eye = overrides.from.value_or(Vec3(camera.world_from_camera[3]));
-    const std::optional<Vec3> goal = overrides.look_at ? overrides.look_at : target;
+    const Vec3 eye =
+        overrides.from ? to_world(*overrides.from, origin) : Vec3(camera.world_from_camera[3]);
+    const std::optional<Vec3> goal =
+        overrides.look_at ? to_world(*overrides.look_at, origin) : target;
     if (!goal) {
         result.world_from_camera[3] = Vec4(eye, 1.0f);
         return result;
     }
     const Vec3 forward = *goal - eye;
     if (!(glm::dot(forward, forward) > 0.0f)) {
+        const Vec3 place(to_file(eye, origin));
         throw Error(ErrorCode::usage,
                     fmt::format("the camera at {},{},{} cannot look at its own position: --from "
                                 "and --look-at must differ",
-                                eye.x, eye.y, eye.z));
+                                place.x, place.y, place.z));
     }
     result.world_from_camera = look_at(eye, *goal);
     return result;

@@ -18,10 +18,28 @@ namespace bdpt::app {
                                               const std::string& name_or_index,
                                               const std::string& file);
 
+// The world of a scene has its own origin (`SceneDesc::origin`); users know the coordinates of the
+// file.
+
+/// Returns a point of the file in the world.
+[[nodiscard]] inline Vec3 to_world(const DVec3& point, const DVec3& origin)
+{
+    return Vec3(point - origin);
+}
+/// Returns a point of the world in the coordinates of the file.
+[[nodiscard]] inline DVec3 to_file(Vec3 point, const DVec3& origin)
+{
+    return DVec3(point) + origin;
+}
+
+/// Formats a point of the world as "x,y,z" in the coordinates of the file, with `digits` digits of
+/// each, or nine along axes where the origin is distant.
+[[nodiscard]] std::string place_text(Vec3 point, const DVec3& origin, int digits);
+
 /// User's changes of a view.
 struct ViewOverrides {
-    std::optional<Vec3> from{};           ///< [m]
-    std::optional<Vec3> look_at{};        ///< [m]
+    std::optional<DVec3> from{};          ///< [m], in coordinates of the file
+    std::optional<DVec3> look_at{};       ///< [m], in coordinates of the file
     std::optional<float> vertical_fov{};  ///< [rad]
     // Options of a view that frames the whole scene.
     std::optional<ViewDirection> direction{};
@@ -36,11 +54,12 @@ struct ViewOverrides {
     }
 };
 
-/// Returns `camera` with `overrides`. A camera that is moved without a `look_at` keeps its
-/// direction or, given `target`, turns to it. Throws `Error` (usage) if it would look at itself, or
-/// has no field of view to change.
+/// Returns `camera` with `overrides`. `camera` and `target` are in the world, whose origin in the
+/// file is `origin`. A camera that is moved without a `look_at` keeps its direction or, given
+/// `target`, turns to it. Throws `Error` (usage) if it would look at itself, or has no field of
+/// view to change.
 [[nodiscard]] CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
-                               const std::optional<Vec3>& target);
+                               const std::optional<Vec3>& target, const DVec3& origin = DVec3(0.0));
 
 /// Returns the largest size within 1280 x 720 with the camera's aspect ratio; 1280 x 720 if it has
 /// none.

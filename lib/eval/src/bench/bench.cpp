@@ -63,6 +63,7 @@ void keep(const Trial& trial, const BenchFiles& files, const BenchScene& scene,
     exr.metadata.seed = trial.run.seed;
     exr.metadata.samples_per_pixel = goals.equal_time;
     exr.metadata.camera = scene.camera;
+    exr.metadata.origin = scene.scene.description().origin;
     exr.metadata.created = std::chrono::system_clock::now();
     io::write_exr(files.image(goals.integrator, trial.run.seed), trial.image, exr);
     // Written last: a run without its numbers does not count.

@@ -103,6 +103,7 @@ void keep(const KeyedReference& keyed, const BenchFiles& files, const BenchScene
     exr.metadata.version = BDPT_VERSION;
     exr.metadata.scene = scene.file;
     exr.metadata.camera = scene.camera;
+    exr.metadata.origin = scene.scene.description().origin;
     exr.metadata.created = std::chrono::system_clock::now();
     io::write_exr(keyed.file, keyed.reference.image, exr);
     // Written last: a reference without its facts does not count.

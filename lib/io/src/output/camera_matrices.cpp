@@ -19,14 +19,16 @@ Mat4 rigid(const Mat4& world_from_camera)
 
 }  // namespace
 
-Mat4 camera_from_world(const CameraDesc& camera)
+Mat4 camera_from_file(const CameraDesc& camera, const DVec3& origin)
 {
     Mat4 flip_z(1.0f);  // glTF looks along -z
     flip_z[2][2] = -1.0f;
-    return flip_z * glm::inverse(rigid(camera.world_from_camera));
+    Mat4 result = flip_z * glm::inverse(rigid(camera.world_from_camera));
+    result[3] = Vec4(Vec3(DVec3(result[3]) - glm::dmat3(result) * origin), 1.0f);
+    return result;
 }
 
-Mat4 ndc_from_world(const CameraDesc& camera, float aspect)
+Mat4 ndc_from_file(const CameraDesc& camera, const DVec3& origin, float aspect)
 {
     if (camera.projection == Projection::orthographic) {
         // x' = x / width + 0.5, y' = -y / height + 0.5; the depth [m] is unchanged.
@@ -34,7 +36,7 @@ Mat4 ndc_from_world(const CameraDesc& camera, float aspect)
         const Mat4 projection(Vec4(1.0f / (aspect * height), 0.0f, 0.0f, 0.0f),
                               Vec4(0.0f, -1.0f / height, 0.0f, 0.0f), Vec4(0.0f, 0.0f, 1.0f, 0.0f),
                               Vec4(0.5f, 0.5f, 0.0f, 1.0f));
-        return projection * camera_from_world(camera);
+        return projection * camera_from_file(camera, origin);
     }
     // The remaining depth goes from 0 here to 1 at infinity.
     constexpr float near_plane = 0.01f;
@@ -44,7 +46,7 @@ Mat4 ndc_from_world(const CameraDesc& camera, float aspect)
     const Mat4 projection(Vec4(0.5f / half_width, 0.0f, 0.0f, 0.0f),
                           Vec4(0.0f, -0.5f / half_height, 0.0f, 0.0f), Vec4(0.5f, 0.5f, 1.0f, 1.0f),
                           Vec4(0.0f, 0.0f, -near_plane, 0.0f));
-    return projection * camera_from_world(camera);
+    return projection * camera_from_file(camera, origin);
 }
 
 }  // namespace bdpt::io

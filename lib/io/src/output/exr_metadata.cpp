@@ -45,8 +45,8 @@ void add_exr_metadata(Imf::Header& header, const ImageMetadata& metadata, float 
     const std::time_t created = std::chrono::system_clock::to_time_t(metadata.created);
     Imf::addCapDate(header, fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::gmtime(created)));
     Imf::addUtcOffset(header, 0.0f);
-    Imf::addWorldToCamera(header, to_imath(camera_from_world(metadata.camera)));
-    Imf::addWorldToNDC(header, to_imath(ndc_from_world(metadata.camera, aspect)));
+    Imf::addWorldToCamera(header, to_imath(camera_from_file(metadata.camera, metadata.origin)));
+    Imf::addWorldToNDC(header, to_imath(ndc_from_file(metadata.camera, metadata.origin, aspect)));
 
     header.insert("software", Imf::StringAttribute(software_name(metadata)));
     for (const auto& [name, text] : text_entries(metadata)) {

@@ -174,6 +174,9 @@ ordered_json to_json(const ImageMetadata& metadata)
     if (metadata.frame) {
         json["frame"] = {metadata.frame->number, metadata.frame->per_second};
     }
+    if (metadata.origin != DVec3(0.0)) {
+        json["origin"] = {metadata.origin.x, metadata.origin.y, metadata.origin.z};
+    }
     for_each_field(metadata.camera, [&json](const auto& field, const auto& value) {
         json["camera"][std::string(field.name)] = value_to_json(value);
     });
@@ -195,6 +198,13 @@ ImageMetadata read_metadata(const JsonValue& json)
         constexpr double max_rate = 1e6;
         metadata.frame = FrameNumber{.number = frame.at(0).number<int>(),
                                      .per_second = frame.at(1).number(0.0, max_rate)};
+    }
+    if (json.has("origin")) {
+        constexpr double most = 1e15;
+        for (int axis = 0; axis < 3; ++axis) {
+            metadata.origin[axis] =
+                json.at("origin").at(static_cast<std::size_t>(axis)).number(-most, most);
+        }
     }
     for_each_field(metadata.camera, [&json](const auto& field, auto& value) {
         value_from_json(json.at("camera").at(field.name), value);

@@ -36,11 +36,12 @@ glm::dmat4 turned_up(UpAxis up)
 
 /// Maps grid indices to the world, with voxel `first` at (0, 0, 0). Indices of OpenVDB are centres
 /// of voxels, ours their lower corners.
-Mat4 world_from_grid(const VdbReply& header, UpAxis up)
+glm::dmat4 world_from_grid(const VdbReply& header, UpAxis up)
 {
     const glm::dvec3 first(header.first[0], header.first[1], header.first[2]);
-    const Mat4 matrix = turned_up(up) * glm::make_mat4(header.world_from_index.data()) *
-                        glm::translate(glm::dmat4(1.0), first - 0.5);
+    const glm::dmat4 precise = turned_up(up) * glm::make_mat4(header.world_from_index.data()) *
+                               glm::translate(glm::dmat4(1.0), first - 0.5);
+    const Mat4 matrix(precise);
     const float determinant = glm::determinant(glm::mat3(matrix));
     bool finite = std::isnormal(determinant);
     for (int column = 0; column < 4; ++column) {
@@ -54,7 +55,7 @@ Mat4 world_from_grid(const VdbReply& header, UpAxis up)
                                 "precision (determinant {})",
                                 header.name.data(), determinant));
     }
-    return matrix;
+    return precise;
 }
 
 std::string voxel_label(const VdbReply& header, std::size_t index)
@@ -107,11 +108,14 @@ std::vector<std::string> mend(VdbGrid& grid)
 LoadedVolume load(const std::filesystem::path& file, const VolumeOptions& options)
 {
     VdbGrid grid = read_vdb(file, options);
-    LoadedVolume loaded{.volume = {}, .warnings = mend(grid)};
+    LoadedVolume loaded;
+    loaded.warnings = mend(grid);
     VolumeDesc& volume = loaded.volume;
     volume.name = grid.header.name.data();
     volume.size = {grid.header.size[0], grid.header.size[1], grid.header.size[2]};
-    volume.world_from_grid = world_from_grid(grid.header, options.up);
+    const glm::dmat4 transform = world_from_grid(grid.header, options.up);
+    volume.world_from_grid = Mat4(transform);
+    loaded.translation = DVec3(transform[3]);
     volume.density = std::move(grid.density);
     volume.extinction = options.extinction;
     volume.albedo = options.albedo;

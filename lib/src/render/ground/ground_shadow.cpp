@@ -54,7 +54,11 @@ struct GroundShadow::Point {
 };
 
 GroundShadow::GroundShadow(const World& world, const RenderOptions& options)
-    : world_(world), height_(options.film.ground_height.value_or(world.bounds().min.y))
+    : world_(world),
+      height_(options.film.ground_height
+                  ? static_cast<float>(static_cast<double>(*options.film.ground_height) -
+                                       world.description().origin.y)
+                  : world.bounds().min.y)
 {
     if (!options.film.aovs.contains(Aov::shadow)) {
         return;

@@ -100,6 +100,16 @@ TEST_CASE("voxels of an OpenVDB file have their values and their places", "[volu
     check_lookups(volume, *grid, as_it_is);
 }
 
+TEST_CASE("the place of an OpenVDB file on a map is known in double precision", "[volume]")
+{
+    VdbFiles files;
+    auto grid = density_grid({3, 5, 7}, {3, 5, 7}, [](openvdb::Coord) { return 8.0f; });
+    grid->transform().postTranslate({448000.0625, 2.0, -5411840.03125});
+    const io::LoadedVolume loaded = io::load_volume(files.write({grid}));
+    CHECK(loaded.translation == DVec3(448001.5625, 5.5, -5411834.53125));
+    CHECK(Vec3(loaded.volume.world_from_grid[3]) == Vec3(loaded.translation));
+}
+
 TEST_CASE("a voxel of an OpenVDB file is where its index is", "[volume]")
 {
     VdbFiles files;

@@ -42,6 +42,7 @@ struct ImageMetadata {
     std::int64_t samples_per_pixel = 0;
     double render_seconds = 0.0;
     CameraDesc camera;
+    DVec3 origin{0.0};  ///< `SceneDesc::origin` of the scene that the camera is in
     std::chrono::system_clock::time_point created{};
     std::optional<FrameNumber> frame{};  ///< none: a single image
     /// Name and version of what denoised the image, or its layer "denoised"; empty: nothing.

@@ -46,6 +46,9 @@ struct VolumeOptions {
 /// The result of `load_volume`.
 struct LoadedVolume {
     VolumeDesc volume;
+    /// Translation of the volume's transform in double precision [m]. In a scene with an origin of
+    /// its own, the transform has that minus `SceneDesc::origin`.
+    DVec3 translation{0.0};
     std::vector<std::string> warnings;  ///< one line each, without the file's name
 };
 

@@ -50,6 +50,24 @@ def test_what_is_wrong_with_bytes_is_told_without_a_file():
                   b'"accessors": [{"bufferView": 0, "componentType": 5126, "count": 1, "type": "VEC3"}]}')
 
 
+def test_a_scene_on_a_map_has_the_coordinates_of_its_file():
+    content = json.loads(BOX.read_bytes())
+    roots = content["scenes"][0]["nodes"]
+    content["nodes"].append({"children": roots, "translation": [448000, 0, -512000]})
+    content["scenes"][0]["nodes"] = [len(content["nodes"]) - 1]
+    near, far = bdpt.load(BOX), bdpt.load(json.dumps(content).encode())
+
+    def seen(scene, x, z):
+        lamp = bdpt.PointLight(position=(x + 0.25, 0.25, z + 0.25), intensity=(9, 9, 9))
+        return bdpt.render(scene.with_lights([lamp]), from_=(x + 0.25, 0.25, z - 0.75), look_at=(x + 0.25, 0.25, z),
+                           aov="position", **SMALL)
+
+    here, there = seen(near, 0, 0), seen(far, 448000, -512000)
+    assert here.image.any() and np.isclose(here.image, there.image, rtol=1e-3).mean() > 0.9
+    hit = np.isfinite(here.layers["position"]).all(axis=2) & here.layers["position"].any(axis=2)
+    assert np.allclose((there.layers["position"] - [448000, 0, -512000])[hit], here.layers["position"][hit], atol=0.05)
+
+
 @pytest.mark.parametrize("name", ["exr", "hdr", "png", "jpg", "webp", "part.exr"])
 def test_save_writes_into_objects_what_it_writes_into_files(tmp_path, name):
     render = bdpt.render(bdpt.load(BOX), **SMALL)

@@ -55,7 +55,7 @@ Samples take_samples(tinygltf::Model& model, std::span<const AnimatedProperty> p
     for (std::size_t i = 0; i <= steps; ++i) {
         const double u = static_cast<double>(i) / static_cast<double>(steps);
         pose(model, properties, (1.0 - u) * open + u * close);
-        NodeTransforms transforms(model, context);
+        NodeTransforms transforms(model, DVec3(0.0), context);
         for (const std::size_t node : movable.nodes) {
             samples.world[node].push_back(transforms.world(node));
         }
@@ -139,6 +139,15 @@ NodeMotion::NodeMotion(tinygltf::Model& model, std::span<const AnimatedProperty>
             weights_ = every_second(samples.weights);
             steps_ = world_.empty() && weights_.empty() ? 0 : steps;
             return;
+        }
+    }
+}
+
+void NodeMotion::set_origin(const DVec3& origin)
+{
+    for (auto& [node, worlds] : world_) {
+        for (glm::dmat4& world : worlds) {
+            world[3] -= glm::dvec4(origin, 0.0);
         }
     }
 }

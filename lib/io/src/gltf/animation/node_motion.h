@@ -4,6 +4,7 @@
 #include "gltf/animation/animation.h"
 
 #include <bdpt/io/gltf.h>
+#include <bdpt/types.h>
 
 #include <glm/mat4x4.hpp>
 
@@ -25,6 +26,9 @@ public:
     /// are times of the animation. Throws `Error` (invalid_input).
     NodeMotion(tinygltf::Model& model, std::span<const AnimatedProperty> properties, double open,
                double close, LoadContext& context);
+
+    /// Moves the world's origin, given in the coordinates of the file; it was there.
+    void set_origin(const DVec3& origin);
 
     /// Returns the number of steps after the opening; 0: nothing moves.
     [[nodiscard]] std::size_t steps() const { return steps_; }

@@ -23,8 +23,10 @@ void check_finite(const glm::dmat4& world, std::size_t node)
 
 }  // namespace
 
-NodeTransforms::NodeTransforms(const tinygltf::Model& model, LoadContext& context)
+NodeTransforms::NodeTransforms(const tinygltf::Model& model, const DVec3& origin,
+                               LoadContext& context)
     : model_(model),
+      origin_(origin),
       context_(context),
       parents_(model.nodes.size(), no_node),
       world_(model.nodes.size())
@@ -46,7 +48,10 @@ const glm::dmat4& NodeTransforms::world(std::size_t node)
         const std::size_t i = unknown.back();
         const std::size_t parent = parents_[i];
         const glm::dmat4 local = local_transform(model_, i, context_);
-        const glm::dmat4 world = parent == no_node ? local : *world_[parent] * local;
+        glm::dmat4 world = parent == no_node ? local : *world_[parent] * local;
+        if (parent == no_node) {
+            world[3] -= glm::dvec4(origin_, 0.0);
+        }
         check_finite(world, i);
         world_[i] = world;
     }

@@ -123,10 +123,12 @@ std::optional<ShownMesh> MeshTable::get(std::size_t node, std::size_t primitive)
     const auto [found, is_new] = known_.try_emplace(Key{id.mesh, primitive, skin, weights});
     if (is_new) {
         if (std::optional<MeshDesc> desc = read(id, weights, skinned ? joints(skin) : Joints())) {
-            found->second = add(std::move(*desc), id);
+            const bool recenters = storage_ == Storage::recentered && !skinned;
+            const DVec3 center = recenters ? recenter(*desc) : DVec3(0.0);
+            found->second = ShownMesh{add(std::move(*desc), id), skinned, center};
         }
     }
-    return found->second ? std::optional(ShownMesh{*found->second, skinned}) : std::nullopt;
+    return found->second;
 }
 
 std::optional<MeshId> MeshTable::flatten(MeshId mesh, PrimitiveId id,

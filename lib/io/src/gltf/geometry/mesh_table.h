@@ -24,18 +24,23 @@ namespace bdpt::io {
 struct ShownMesh {
     MeshId mesh{};
     bool in_world = false;  ///< skinned: already in world space, so no node transform applies
+    DVec3 center{0.0};      ///< was subtracted from its positions; else zero
 };
 
 /// Reads primitives, and each deformation of a primitive only once.
 class MeshTable {
 public:
+    /// How meshes are stored that lie far from the origin of their space.
+    enum class Storage : std::uint8_t { as_in_file, recentered };
+
     /// The arguments must outlive the table. Meshes are added to `meshes`.
     MeshTable(const tinygltf::Model& model, NodeTransforms& transforms, const NodeMotion& motion,
-              std::vector<MeshDesc>& meshes, LoadContext& context)
+              std::vector<MeshDesc>& meshes, Storage storage, LoadContext& context)
         : model_(model),
           transforms_(transforms),
           motion_(motion),
           meshes_(meshes),
+          storage_(storage),
           context_(context)
     {}
 
@@ -67,8 +72,9 @@ private:
     NodeTransforms& transforms_;
     const NodeMotion& motion_;
     std::vector<MeshDesc>& meshes_;
+    Storage storage_;
     LoadContext& context_;
-    std::map<Key, std::optional<MeshId>> known_;
+    std::map<Key, std::optional<ShownMesh>> known_;
     std::map<int, Joints> joints_;  // by skin
     std::uint64_t triangles_ = 0;
 };

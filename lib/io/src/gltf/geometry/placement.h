@@ -15,4 +15,14 @@ namespace bdpt::io {
 [[nodiscard]] std::optional<MeshDesc> place_mesh(const MeshDesc& mesh,
                                                  std::span<const glm::dmat4> world_from_object);
 
+/// Returns the origin that a world needs whose coordinates are far larger than it, as on a map: its
+/// centre, along those axes where it lies far away. All bits of the coordinates remain when it is
+/// subtracted. None: an ordinary scene. It is zero if only the meshes have such coordinates, which
+/// their instances undo.
+[[nodiscard]] std::optional<DVec3> distant_origin(const SceneDesc& scene);
+
+/// Subtracts the centre of a mesh from its positions, along those axes where it lies far away;
+/// returns what was subtracted, which its instances must add.
+[[nodiscard]] DVec3 recenter(MeshDesc& mesh);
+
 }  // namespace bdpt::io

@@ -10,6 +10,7 @@
 #include "gltf/checks/animations.h"
 #include "gltf/document/model.h"
 #include "gltf/geometry/mesh_table.h"
+#include "gltf/geometry/placement.h"
 #include "gltf/light_camera/camera.h"
 #include "gltf/light_camera/image_based_light.h"
 #include "gltf/light_camera/light.h"
@@ -23,6 +24,7 @@
 #include <bdpt/motion.h>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -50,21 +52,29 @@ bool is_visible(const tinygltf::Node& node)
 /// Flattens the node hierarchy of one scene.
 class SceneBuilder {
 public:
+    /// `origin`: the world's origin in the coordinates of the file, if the scene needs one.
     SceneBuilder(const tinygltf::Model& model, const NodeMotion& motion,
-                 std::optional<std::size_t> variant, LoadContext& context)
+                 std::optional<std::size_t> variant, const std::optional<DVec3>& origin,
+                 LoadContext& context)
         : model_(model),
           motion_(motion),
           variant_(variant),
           context_(context),
           images_(model, result_.scene.images, context),
           profiles_(model, result_.scene.profiles, context),
-          transforms_(model, context),
-          meshes_(model, transforms_, motion, result_.scene.meshes, context),
+          transforms_(model, origin.value_or(DVec3(0.0)), context),
+          meshes_(model, transforms_, motion, result_.scene.meshes,
+                  origin ? MeshTable::Storage::recentered : MeshTable::Storage::as_in_file,
+                  context),
           visited_(model.nodes.size(), false)
-    {}
+    {
+        result_.scene.origin = origin.value_or(DVec3(0.0));
+    }
 
-    [[nodiscard]] LoadedScene build(const std::vector<std::size_t>& roots,
-                                    const std::function<void(const LoadProgress&)>& on_progress)
+    [[nodiscard]] const SceneDesc& scene() const { return result_.scene; }
+
+    /// Adds all but the materials.
+    void add_nodes(const std::vector<std::size_t>& roots)
     {
         struct Pending {
             std::size_t node;
@@ -94,6 +104,10 @@ public:
                 stack.push_back({static_cast<std::size_t>(children[i]), visible});
             }
         }
+    }
+
+    [[nodiscard]] LoadedScene finish(const std::function<void(const LoadProgress&)>& on_progress)
+    {
         result_.scene.materials =
             read_materials(model_, wanted_materials_, images_, on_progress, context_);
         return std::move(result_);
@@ -143,8 +157,11 @@ private:
                 continue;
             }
             for (const glm::dmat4& place : places) {
-                add_instance(node, {mesh, i}, shown->mesh,
-                             compute_worlds(node, place, shown->mesh));
+                const bool is_centered = shown->center == DVec3(0.0);
+                add_instance(
+                    node, {mesh, i}, shown->mesh,
+                    compute_worlds(node, is_centered ? place : glm::translate(place, shown->center),
+                                   shown->mesh));
             }
         }
     }
@@ -273,13 +290,27 @@ LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice,
     }
     const double open = choice.time + choice.shutter.open;
     const double close = choice.time + choice.shutter.close;
-    const NodeMotion motion(model, properties, open, close, context);
+    NodeMotion motion(model, properties, open, close, context);
     if (open < close && motion.steps() == 0 && !choice.animations.empty()) {
         context.warn("nothing moves while the shutter is open",
                      fmt::format("/animations: from {} s to {} s", open, close));
     }
-    LoadedScene loaded = SceneBuilder(model, motion, choice.variant, context)
-                             .build(find_roots(model, choice.scene), on_progress);
+    const std::vector<std::size_t> roots = find_roots(model, choice.scene);
+    const DataBudget data = context.budget;
+    const MemoryBudget memory = context.budget.memory();
+    std::optional<SceneBuilder> builder(std::in_place, model, motion, choice.variant, std::nullopt,
+                                        context);
+    builder->add_nodes(roots);
+    if (const std::optional<DVec3> origin = distant_origin(builder->scene())) {
+        // Again, with coordinates that are subtracted in double precision before they are rounded.
+        const Silence silence(context.warnings);
+        context.budget = data;
+        context.budget.memory() = memory;
+        motion.set_origin(*origin);
+        builder.emplace(model, motion, choice.variant, origin, context);
+        builder->add_nodes(roots);
+    }
+    LoadedScene loaded = builder->finish(on_progress);
     if (choice.scene) {
         if (std::optional<EnvironmentLightDesc> environment =
                 read_image_based_light(model, *choice.scene, context)) {

@@ -4,6 +4,7 @@
 #include <bdpt/io/read_image.h>
 
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <filesystem>
 #include <fstream>
@@ -329,6 +330,36 @@ TEST_CASE("a pixel tells where its light comes from", "[live_view]")
     CHECK(std::abs(raster.at(0).get<double>() - 24.5) < 1.0);
     CHECK(std::abs(raster.at(1).get<double>() - 12.5) < 1.0);
     CHECK(sample.contains("contributions"));
+}
+
+TEST_CASE("a page has the coordinates of a file on a map", "[live_view]")
+{
+    Viewing viewing({"--spp=2"}, two_cameras, [](const fs::path& file) {
+        json scene = json::parse(text_of(file));
+        json& roots = scene["scenes"][0]["nodes"];
+        scene["nodes"].push_back({{"children", roots}, {"translation", {128000, 0, -64000}}});
+        roots = {scene["nodes"].size() - 1};
+        write_text(file, scene.dump());
+    });
+    const auto is_at = [](const json& point, double x, double y, double z) {
+        CAPTURE(point.dump());
+        CHECK(point.at(0).get<double>() == Approx(x).margin(1e-3).epsilon(0));
+        CHECK(point.at(1).get<double>() == Approx(y).margin(1e-3).epsilon(0));
+        CHECK(point.at(2).get<double>() == Approx(z).margin(1e-3).epsilon(0));
+    };
+    is_at(viewing.finished().at("camera").at("from"), 128000, 0, -63995);
+    // The camera turns about the front of the cube by a right angle, and comes twice as near.
+    const auto quarter = static_cast<float>(std::acos(0.0));
+    static_cast<void>(viewing.ask({{"move", {{"orbit", {-quarter, 0.0}}, {"dolly", 0.5}}}}));
+    const json state = viewing.finished({"--from=12800"});
+    is_at(state.at("camera").at("from"), 128002, 0, -63999);
+    is_at(state.at("camera").at("look_at"), 128000, 0, -63999);
+    CHECK(same_pixels(viewing.saved("save.exr"), viewing.rendered(state, "command.exr")));
+    const json answer = viewing.ask({{"inspect", {24, 12}}, {"sample", 0}});
+    const json& path = answer.at("inspect").at("camera_path");
+    is_at(path.at(0).at("position"), 128002, 0, -63999);
+    CHECK(std::abs(path.at(1).at("raster").at(0).get<double>() - 24.5) < 1.0);
+    CHECK(path.at(1).at("position").at(0).get<double>() == Approx(128001.0).epsilon(1e-7));
 }
 
 TEST_CASE("noise and strategies are layers", "[live_view]")

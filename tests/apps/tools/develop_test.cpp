@@ -16,6 +16,16 @@
 namespace bdpt::test::develop_test {
 namespace {
 
+/// Returns the chunks of a WebP file that hold its image: those between its header and Exif.
+std::string coded_image(const std::filesystem::path& file)
+{
+    constexpr std::size_t header = 30;
+    const std::string bytes = read_text(file);
+    const std::size_t end = bytes.rfind("EXIF");
+    REQUIRE(end != std::string::npos);
+    return bytes.substr(header, end - header);
+}
+
 using Words = std::vector<std::string>;
 
 Words joined(Words words, const Words& more)
@@ -74,7 +84,7 @@ public:
         CHECK(rendered.channels == developed.channels);
         CHECK(rendered.bits == developed.bits);
         CHECK(rendered.values == developed.values);
-        CHECK(read_text(path("r.webp")) == read_text(path("d.webp")));
+        CHECK(coded_image(path("r.webp")) == coded_image(path("d.webp")));
         CHECK(rendered.text.at("bdpt.exposure") == developed.text.at("bdpt.exposure"));
         CHECK(developed.text.at("bdpt.scene") == "cube.gltf");
     }

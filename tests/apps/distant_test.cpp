@@ -108,7 +108,7 @@ TEST_CASE("a scene on a map gives the picture of one at the origin", "[distant]"
                render(folder, "far", {"--view", "three-quarter"}));
 }
 
-TEST_CASE("--from and --look-at are in coordinates of the file", "[distant]")
+TEST_CASE("a viewpoint is in coordinates of the file", "[distant]")
 {
     const ScratchFolder folder;
     write_scenes(folder);

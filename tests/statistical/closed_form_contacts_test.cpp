@@ -44,8 +44,9 @@ void check_mean(const SceneDesc& desc, const Mat4& world, double expected)
     for (const auto kind : {IntegratorKind::pt, IntegratorKind::mis, IntegratorKind::bdpt}) {
         TileMeans means(scene, camera, deep(kind));
         const MeanComparison result = compare_means(means, expected, {.detectable_bias = 0.01});
-        INFO("scale " << world[0].x << ", at " << world[3].x << ", integrator " << static_cast<int>(kind) << ", expected " << expected << ": "
-                           << result.text());
+        INFO("scale " << world[0].x << ", at " << world[3].x << ", integrator "
+                      << static_cast<int>(kind) << ", expected " << expected << ": "
+                      << result.text());
         CHECK(result.sharp_enough);
         CHECK(result.equal);
     }

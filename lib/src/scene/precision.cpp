@@ -111,12 +111,12 @@ std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
         warnings.push_back(text.str());
     }
     if (const std::vector<std::size_t>& thin = geometry.contacts.thin; !thin.empty()) {
-        const auto first =
-            std::find_if(all.begin(), all.end(),
-                         [&thin](const Placed& placed) { return placed.instance == thin[0]; });
+        const auto first = std::find_if(all.begin(), all.end(), [&thin](const Placed& placed) {
+            return placed.instance == thin[0];
+        });
         std::ostringstream text;
         text << name(*first) << ": is too thin: opposite faces are hardly told apart, as "
-             << known_to(*first) << "; light may pass it wrongly";
+             << known_to(*first, desc.origin) << "; light may pass it wrongly";
         if (thin.size() > 1) {
             text << " (and " << thin.size() - 1 << " more of this kind)";
         }

@@ -126,10 +126,21 @@ SceneGeometry::SceneGeometry(const SharedSceneDesc& desc, const SceneGeometry* l
     sphere = sphere_around(bounds);
 }
 
+bool SceneGeometry::same_contacts(const SharedSceneDesc& desc) const
+{
+    const std::vector<ContactRole> others = contact_roles(desc);
+    if (roles == others) {
+        return true;
+    }
+    const Contacts found =
+        separate_contacts(desc, placed, others, find_shells(desc, others, shells));
+    return contacts.meshes.empty() && found.meshes.empty() && contacts.thin == found.thin;
+}
+
 bool SceneGeometry::fits(const SharedSceneDesc& desc) const
 {
     if (!meshes.is_shared_with(desc.meshes) || !volumes.is_shared_with(desc.volumes) ||
-        !same_places(instances, desc.instances) || roles != contact_roles(desc)) {
+        !same_places(instances, desc.instances) || !same_contacts(desc)) {
         return false;
     }
     const std::vector<Sphere> others = light_spheres(desc.lights);

@@ -31,6 +31,8 @@ struct SceneGeometry {
 
     /// Tests whether the geometry of `desc` would be the same, apart from BVHs.
     [[nodiscard]] bool fits(const SharedSceneDesc& desc) const;
+    /// Tests whether the materials of `desc` move the same faces where things touch.
+    [[nodiscard]] bool same_contacts(const SharedSceneDesc& desc) const;
     /// Builds the BVHs, and reuses those of unchanged meshes from `like`.
     void build(const AnyHitFilter& filter, Isa isa, const SceneGeometry* like);
 

@@ -121,7 +121,11 @@ void WorldBuilder::warn_of_open_volumes()
             continue;
         }
         asked[mesh] = true;
-        if (const std::size_t open = world_.geometry_->shells.at(mesh)->open_edges) {
+        const ShellTable& known = world_.geometry_->shells;
+        const auto shells = known.find(mesh);  // none if an edit made this a body
+        const std::size_t open = shells != known.end() ? shells->second->open_edges
+                                                       : find_shells(desc.meshes[mesh]).open_edges;
+        if (open > 0) {
             world_.warnings_.push_back(
                 label("mesh", mesh, desc.meshes[mesh].name) + ": " + std::to_string(open) +
                 (open == 1 ? " edge is" : " edges are") +

@@ -209,7 +209,6 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
           [](SceneDesc& s) { s.lights.emplace_back(PointLightDesc{}); });
     scene("scene: texture filter",
           [](SceneDesc& s) { s.texture_filter = TextureFilter::mip_mapped; });
-    scene("scene: contacts", [](SceneDesc& s) { s.contacts = Contacts::bonded; });
     scene("scene: origin", [](SceneDesc& s) { s.origin.x = 1.0; });
 
     check(message_of([&] {

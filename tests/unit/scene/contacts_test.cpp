@@ -88,6 +88,12 @@ TEST_CASE("materials decide what a contact is", "[contacts]")
     }
     desc.materials = materials;
     CHECK_FALSE(geometry.fits(desc));
+
+    // Where nothing touches, materials do not matter.
+    SharedSceneDesc apart(pile(2, 0.01f).desc);
+    const SceneGeometry other(apart);
+    apart.materials = desc.materials;
+    CHECK(other.fits(apart));
 }
 
 TEST_CASE("a body that is thinner than points are known is told", "[contacts]")

@@ -63,6 +63,8 @@ public:
         }
     }
 
+    [[nodiscard]] const std::vector<Bounds>& boxes() const { return boxes_; }
+
     /// Calls `visit` with the index of each box that overlaps `box`, in a fixed order, until it
     /// returns false.
     template <typename Visit>

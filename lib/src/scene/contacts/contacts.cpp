@@ -219,10 +219,15 @@ std::vector<Bounds> ContactSearch::instance_boxes() const
 
 std::vector<Face> ContactSearch::near_faces(std::uint32_t instance, const BoxTree& boxes) const
 {
-    constexpr float margin = 32.0f;  // errors: opposite faces of a thin body belong to it
+    constexpr float margin = 32.0f;     // errors: opposite faces of a thin body belong to it
+    constexpr float max_exact = 1e-5f;  // error in sizes of a body whose thickness is asked for
     const bool is_movable = roles_[instance] != ContactRole::sheet;
     const auto mesh = static_cast<std::size_t>(desc_.instances[instance].mesh);
-    const bool all = is_movable && shells_.at(mesh)->are_closed.size() > 1;
+    const Bounds& own = boxes.boxes()[instance];
+    const Vec3 reach_of_own = max(abs(own.min), abs(own.max));
+    const float error = position_error(std::max({reach_of_own.x, reach_of_own.y, reach_of_own.z}));
+    const bool all = is_movable && (shells_.at(mesh)->are_closed.size() > 1 ||
+                                    error > max_exact * distance(own.min, own.max));
     std::vector<Face> faces;
     for (std::uint32_t t = 0; t < placed_[instance].triangle_count(); ++t) {
         const auto face = make_face(placed_[instance], instance, t);

@@ -90,8 +90,8 @@ struct SceneDesc {
     std::optional<MediumDesc> fog{};
     std::vector<VolumeDesc> volumes{};
     /// Place of the world's origin in the coordinates of the file or the application [m]: loaders
-    /// set it, as the world must be near its origin, and it moves nothing. `aov position` and the
-    /// like tell coordinates of the file.
+    /// set it where a scene lies far from the origin. It moves nothing: `Aov::position` and other
+    /// outputs add it to places in the world.
     DVec3 origin{0.0};
 };
 

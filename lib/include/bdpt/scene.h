@@ -42,7 +42,7 @@ struct SceneCounts {
     std::size_t degenerate_triangles = 0;  ///< without area: skipped
     std::size_t emissive_triangles = 0;
     std::size_t lights = 0;    ///< emissive triangles and all other lights
-    std::size_t contacts = 0;  ///< pairs of instances that touch, one of them refracts or emits
+    std::size_t contacts = 0;  ///< pairs of instances that touch; one of each refracts or emits
 };
 
 /// A scene that is ready to trace: validated, with its Embree BVH built, immutable and safe to

@@ -214,7 +214,7 @@ std::vector<NamedEdit> edits()
          }},
         {"fog off", [](SharedSceneDesc& d) { d.fog.reset(); }},
         {"another material",
-         // A floor of glass is too thin, which the geometry tells.
+         // A ball's material on the floor moves faces, as the cube stands on it.
          of_instances([](auto& list) { std::swap(list[0].material, list.back().material); }), false},
         {"instance of a shared mesh moved",
          of_instances([](auto& list) { list.back().world_from_object[3].y -= 0.3f; }), false},

@@ -1,9 +1,6 @@
 """Defines the figures as lists of cells, each a scene and options of `bdpt render`. make_figures.py renders them."""
 
 import dataclasses
-import re
-
-BALL = re.compile(r"ball-(\d+)\.glb")  # scenes that make_large_scene.py writes; the number is that of triangles
 
 
 @dataclasses.dataclass(frozen=True)
@@ -11,7 +8,7 @@ class Cell:
     """Describes one image of a sheet. It has either a number of samples (`spp`) or a render time (`seconds`)."""
 
     label: str
-    scene: str  # a file of scenes/, or a BALL
+    scene: str  # a file of scenes/
     options: tuple  # options of `bdpt render`
     spp: int = None
     seconds: float = None
@@ -21,7 +18,6 @@ class Cell:
     profiled: bool = False  # prints the shares of phases; the image has a layer time.Y
     layer: str = None  # layer that the cell shows in false colours, with one scale for the sheet
     layer_scale: float = 1.5  # end of the colour scale, over the layer's mean
-    without_bvh: bool = False  # prints the rays per second with and without a BVH
     metric: str = "relmse"  # error metric of `bdpt compare`
 
 
@@ -137,7 +133,7 @@ def lamp_box_short():
 
 
 def pinhole_or_lens():
-    """Compares a pinhole and a lens at equal samples. lens_cost.py measures their times, as medians."""
+    """Compares a pinhole and a lens at equal samples."""
     views = (("pinhole", ("--lens-radius", "0")), ("lens", ()))
     return tuple(Cell(f"{name}, {view}", "nine-spheres-dof.gltf", by(name) + depth(5) + options, 64,
                       reference=depth(5) + options)
@@ -268,9 +264,6 @@ FIGURES = {
         for name in ("mis", "bdpt", "auto") for spp in (4, 16, 64, 256))),
     "adaptive": Figure("Uniform and adaptive at equal samples, and how many each pixel took", 3, adaptive()),
     "profile": Figure("Where the time of a sample goes, by phase and by pixel", 5, profile()),
-    "bvh": Figure("Rays per second with and without a BVH", 3, tuple(
-        Cell(f"{triangles:,} triangles", f"ball-{triangles}.glb", depth(5), 64, reference=depth(5), without_bvh=True)
-        for triangles in (5000, 50000, 130000))),
     "rays": Figure("What each integrator spends its rays on", 5, tuple(
         Cell(name, "fourteen-specular.gltf", by(name) + depth(5), 16, reference=None if name == "lt" else depth(5))
         for name in ("pt", "nee", "mis", "lt", "bdpt"))),

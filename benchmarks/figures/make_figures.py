@@ -9,7 +9,6 @@ Writes DIR/NAME.png, NAME.json and NAME.csv, and the images as DIR/NAME/NN.exr. 
 import argparse
 import csv
 import dataclasses
-import functools
 import json
 import pathlib
 import shlex
@@ -19,7 +18,7 @@ import sys
 
 sys.dont_write_bytecode = True
 import sheet
-from figures import BALL, FIGURES
+from figures import FIGURES
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 REFERENCE_SEED = 1000  # differs from the seeds of all cells: errors of equal random numbers would cancel
@@ -41,8 +40,6 @@ SCALES = {"quick": Scale(52, 64, 256, 0.3), "medium": Scale(128, 1024, 512, 4.0)
 
 def aspect_ratio(scene):
     """Returns the aspect ratio of the first camera of the file."""
-    if BALL.fullmatch(scene):
-        return 1.0
     cameras = json.loads((ROOT / "scenes" / scene).read_text(encoding="utf-8"))["cameras"]
     return cameras[0]["perspective"]["aspectRatio"]
 
@@ -71,33 +68,14 @@ def scaled(figure, scale):
 class Renderer:
     """Runs bdpt. Renders each reference once for all figures."""
 
-    def __init__(self, bdpt, ray_replay, scale, folder):
-        self.bdpt, self.ray_replay, self.scale, self.folder, self.references = bdpt, ray_replay, scale, folder, {}
-
-    @functools.lru_cache(maxsize=None)
-    def file(self, scene):
-        """Returns the file of a scene; generates spheres."""
-        ball = BALL.fullmatch(scene)
-        if not ball:
-            return str(ROOT / "scenes" / scene)
-        file = self.folder / scene
-        subprocess.run([sys.executable, str(ROOT / "benchmarks/make_large_scene.py"), str(file), "--triangles", ball[1]],
-                       check=True, stdout=subprocess.DEVNULL)
-        return str(file)
-
-    def measure_throughput(self, scene):
-        """Returns the rays per CPU second with and without a BVH."""
-        done = subprocess.run([self.ray_replay, self.file(scene), "--json", "--without-bvh", "--size",
-                               str(self.scale.width)], check=True, stdout=subprocess.PIPE, text=True)
-        report = json.loads(done.stdout)
-        return {"triangles": report["triangles"], "bvh_rays_per_second": report["embree_rays_per_second"],
-                "loop_rays_per_second": report["all_triangles_rays_per_second"]}
+    def __init__(self, bdpt, scale, folder):
+        self.bdpt, self.scale, self.folder, self.references = bdpt, scale, folder, {}
 
     def render(self, scene, options, limits, output, extra=()):
         """Renders a scene; returns the command line and its statistics."""
         width, height = compute_size(scene, self.scale)
         stats = output.with_suffix(".stats.json")
-        command = [self.bdpt, "render", self.file(scene), "--integrator", "bdpt", *options, "--size", f"{width}x{height}",
+        command = [self.bdpt, "render", str(ROOT / "scenes" / scene), "--integrator", "bdpt", *options, "--size", f"{width}x{height}",
                    *limits, "-o", str(output), "--stats", str(stats), "--json", *extra]
         lines = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
         done = next(event for event in map(json.loads, lines) if event["event"] == "done")
@@ -158,8 +136,7 @@ def write_numbers(name, figure, scale_name, rows, folder):
     (folder / f"{name}.json").write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
     keys = ["label", "scene", "samples", "seconds", "mean", "relmse", "bias", "bias_standard_error", "camera_rays",
             "light_rays", "shadow_rays"]
-    keys += [key for key in ("flip", "sample_nanoseconds", "triangles", "bvh_rays_per_second", "loop_rays_per_second")
-             if any(key in row for row in rows)]
+    keys += [key for key in ("flip", "sample_nanoseconds") if any(key in row for row in rows)]
     keys += [f"{phase}_share" for phase in rows[0].get("time_shares", ())]
     with open(folder / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
@@ -173,10 +150,6 @@ def write_numbers(name, figure, scale_name, rows, folder):
 
 def captions(row):
     """Returns the lines of text below the label."""
-    if "bvh_rays_per_second" in row:
-        bvh, loop = row["bvh_rays_per_second"], row["loop_rays_per_second"]
-        return [f"BVH {bvh / 1e6:.2g} M rays/s, without {loop / 1e3:.2g} k",
-                f"{float(f'{bvh / loop:.2g}'):,.0f} times as fast"]
     if "time_shares" in row:
         percent = {phase: f"{phase} {100 * share:.0f}" for phase, share in row["time_shares"].items()}
         return [f"{row['sample_nanoseconds']:.0f} ns; " + ", ".join(percent[p] for p in ("walk", "shade")),
@@ -198,8 +171,6 @@ def make(name, renderer, scale_name, folder):
         image = images / f"{number:02}.exr"
         row = {"label": cell.label, "scene": cell.scene, **renderer.cell(cell, image)}
         row["mean"] = sheet.mean(image)
-        if cell.without_bvh:
-            row.update(renderer.measure_throughput(cell.scene))
         if cell.layer:
             brightest = max(brightest, cell.layer_scale * sheet.mean(image, cell.layer)[0])
         reference = renderer.reference(cell, figure.reference_spp, references)
@@ -233,8 +204,6 @@ def main():
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR")
     parser.add_argument("--scale", choices=SCALES, default="quick", help="size and samples; quick if not given")
     parser.add_argument("--bdpt", default="bdpt", metavar="PATH", help="the command; found in PATH if not given")
-    parser.add_argument("--ray-replay", default="bdpt_ray_replay", metavar="PATH",
-                        help="the benchmark that measures for bvh; found in PATH if not given")
     arguments = parser.parse_args()
     if arguments.list:
         print("\n".join(f"{name:20} {len(figure.cells):3} cells  {figure.title}" for name, figure in FIGURES.items()))
@@ -243,13 +212,12 @@ def main():
     unknown = [name for name in names if name not in FIGURES]
     if unknown or not names or not arguments.output:
         parser.error(f"no such figure: {', '.join(unknown)}" if unknown else "NAME and -o DIR are required")
-    measuring = any(cell.without_bvh for name in names for cell in FIGURES[name].cells)
-    for tool in ["oiiotool", arguments.bdpt] + [arguments.ray_replay] * measuring:
+    for tool in ("oiiotool", arguments.bdpt):
         if not shutil.which(tool):
             parser.error(f"{tool}: no such program")
     if not sheet.font():
         print("make_figures: oiiotool finds no font; labels are in the .json files only", file=sys.stderr)
-    renderer = Renderer(arguments.bdpt, arguments.ray_replay, SCALES[arguments.scale], arguments.output)
+    renderer = Renderer(arguments.bdpt, SCALES[arguments.scale], arguments.output)
     for name in names:
         try:
             make(name, renderer, arguments.scale, arguments.output)

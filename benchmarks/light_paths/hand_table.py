@@ -11,6 +11,7 @@ import argparse
 import json
 import math
 import pathlib
+import re
 import statistics
 import subprocess
 import sys
@@ -20,9 +21,18 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import numpy as np
 import seed_errors
-from candidates import read_candidates
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+HEADER = ROOT / "lib/src/pilot/candidates.h"
+
+
+def read_candidates():
+    """Returns (light paths, connections, connection rays) of each candidate; the first, without light paths, is mis."""
+    text = HEADER.read_text()
+    found = re.findall(r"Candidate\{([\d., ]+)\}", text)
+    if len(found) != text.count("Candidate{") or not found:
+        sys.exit(f"{HEADER}: its candidates have another form than this script reads")
+    return [tuple(float(number) for number in (*each.split(","), "0")[:3]) for each in found]
 
 
 def render(scene, arguments, image, *options):

@@ -19,7 +19,7 @@ import subprocess
 import sys
 import tempfile
 
-import tiles
+import frames
 
 
 @dataclasses.dataclass
@@ -108,13 +108,13 @@ def main():
             shape = VIEWS.get(name, View()).size
             size = (options.width, round(options.width * shape[1] / shape[0]))
             if worked:
-                ours.append(tiles.labelled(tiles.opened(picture, size), [name]))
-            row = [tiles.labelled(tiles.opened(picture if worked else None, size), [f"bdpt: {name}"])]
-            row += [tiles.labelled(tiles.opened(other, size, (255, 255, 255)), [other.stem])
+                ours.append(frames.labelled(frames.opened(picture, size), [name]))
+            row = [frames.labelled(frames.opened(picture if worked else None, size), [f"bdpt: {name}"])]
+            row += [frames.labelled(frames.opened(other, size, (255, 255, 255)), [other.stem])
                     for other in sorted(folder.glob("*.webp"))]
-            tiles.grid(row, 6).save(options.output / f"{name}.png")
+            frames.grid(row, 6).save(options.output / f"{name}.png")
     if ours:
-        tiles.grid(ours, 7).save(options.output / "ours.png")
+        frames.grid(ours, 7).save(options.output / "ours.png")
 
 
 if __name__ == "__main__":

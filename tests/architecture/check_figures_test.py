@@ -110,11 +110,9 @@ class Table(unittest.TestCase):
 
 
     def test_captions(self):
-        """Tests the measurements below the label: rays with and without a BVH, phases, or else the error."""
+        """Tests the measurements below the label: phases, or else the error."""
         row = {"samples": 16, "seconds": 2.0, "relmse": 0.125}
         self.assertEqual(make_figures.captions(row), ["relMSE 0.125, 16 spp, 2 s"])
-        rays = {**row, "bvh_rays_per_second": 4.2e6, "loop_rays_per_second": 1.5e3}
-        self.assertEqual(make_figures.captions(rays), ["BVH 4.2 M rays/s, without 1.5 k", "2,800 times as fast"])
         shares = {"walk": 0.5, "shade": 0.1, "connect": 0.3, "weigh": 0.06, "splat": 0.04}
         phases = {**row, "time_shares": shares, "sample_nanoseconds": 1234.5}
         self.assertEqual(make_figures.captions(phases),

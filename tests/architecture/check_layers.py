@@ -56,7 +56,7 @@ ALLOWED = {
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, r"pthread\.h",
               INTRINSICS],
     "tests/unit/io/volume": [r"catch2/", r"openvdb/", POSIX],
-    "benchmarks": [r"glm/", r"CLI/", r"OpenImageIO/", r"benchmark/", r"nlohmann/", r"embree[34]/", r"(oneapi/)?tbb/", POSIX, INTRINSICS],
+    "benchmarks": [r"CLI/"],
 }
 # Maps an area to the headers of ours that it may include as <bdpt/...>.
 OWN = {
@@ -110,7 +110,7 @@ def check_quoted_include(path, header):
     if path.startswith("apps/bdpt/") and folder not in LAYERS:
         return check_layer_include(COMMAND_LAYERS, path.split("/")[2], header) if path.count("/") > 2 else None
     if not path.startswith("lib/src/"):
-        may_look_inside = path.startswith(("tests/", "benchmarks/"))
+        may_look_inside = path.startswith("tests/")
         internal = folder in LAYERS and "/" in header and not may_look_inside
         if internal:
             return f'reaches into lib/src: "{header}"'

@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 """Tests that the scripts of a Slurm plan handle signals and failures as docs/farm.md says, with programs in place of
-Slurm's that log their calls: plan_slurm_test.py COMMAND SCENE.
-
-benchmarks/farm/slurm_trial.py tests the same with a real Slurm."""
+Slurm's that log their calls: plan_slurm_test.py COMMAND SCENE."""
 
 import os
 import pathlib

@@ -257,7 +257,7 @@ def plans_and_rates(command):
     project = pathlib.Path(__file__).resolve().parents[2]
     kinds = {"image": ["--spp", "4", "--integrator", "bdpt", "--env", "none", "-o", "out.exr", "-o", "out.png", "--half", "--for", "make"],
              "frames": ["--spp", "2", "--frames", "1:3", "--fps", "8", "-o", "out.####.exr", "--for", "slurm"],
-             "cameras": ["--spp", "2", "--cameras", "all", "-o", "out.{camera}.exr", "--strategies", "all.{camera}.exr", "--for", "opencue"],
+             "cameras": ["--spp", "2", "--cameras", "all", "-o", "out.{camera}.exr", "--strategies", "all.{camera}.exr", "--for", "make"],
              "rates": ["--spp", "16", "--adaptive", "-o", "out.exr", "--denoise", "--exposure", "1", "--for", "kubernetes"]}
     plans = {}
     with tempfile.TemporaryDirectory() as scratch:

@@ -22,7 +22,7 @@
 
 #include "options/arguments.h"
 #include "options/values/output_files.h"
-#include "plan/engines/engine_files.h"
+#include "plan/engine_files.h"
 #include "plan/plan.h"
 #include "plan/plan_folder.h"
 #include "plan/plan_split.h"

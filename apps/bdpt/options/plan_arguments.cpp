@@ -15,11 +15,8 @@ constexpr double max_minutes = 1e6;          // two years
 
 Choices<Engine> engines()
 {
-    return {{{"slurm", Engine::slurm},
-             {"kubernetes", Engine::kubernetes},
-             {"make", Engine::make},
-             {"opencue", Engine::opencue},
-             {"aws-batch", Engine::aws_batch}}};
+    return {
+        {{"slurm", Engine::slurm}, {"kubernetes", Engine::kubernetes}, {"make", Engine::make}}};
 }
 
 /// Returns the given options that plans keep for the command of `use`, as words.
@@ -34,19 +31,6 @@ std::vector<std::string> kept_words(const OptionList& options, bool OptionUses::
     return words;
 }
 
-void check_parts(const PlanArguments& arguments, const OptionList& options)
-{
-    if (arguments.parts.has_value() == options.given("--minutes")) {
-        throw OptionError("either --parts or --minutes is required");
-    }
-    // AWS Batch has no arrays of one task, and none of more than 10,000.
-    constexpr std::int64_t max_array_tasks = 10'000;
-    if (arguments.engine == Engine::aws_batch && arguments.parts &&
-        (*arguments.parts < 2 || *arguments.parts > max_array_tasks)) {
-        options.reject_value("--parts", "2 to 10000 for aws-batch");
-    }
-}
-
 }  // namespace
 
 const char* const plan_footer = R"(Examples:
@@ -57,9 +41,10 @@ const char* const plan_footer = R"(Examples:
 
 The folder of -d gets plan.json and the files of the system that starts the tasks; their first lines
 say how. A task is bdpt render --plan job/plan.json --task 3; bdpt merge --plan job/plan.json writes
-the images. The plan fixes the choice of --integrator auto, the instruction set of this machine and
-the rates of --adaptive (rates.exr); each task checks that its scene is the planned one. Relative
-paths stay relative to the plan, for machines that have the same folders elsewhere.
+the images. Other systems can start them, too: docs/farm.md has AWS Batch and OpenCue. The plan
+fixes the choice of --integrator auto, the instruction set of this machine and the rates of
+--adaptive (rates.exr); each task checks that its scene is the planned one. Relative paths stay
+relative to the plan, for machines that have the same folders elsewhere.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
 5 unsupported feature, 6 output cannot be written (also: the folder has another plan), 7 out of
@@ -123,7 +108,9 @@ PlanArguments checked(const PlanRequest& request, const OptionList& options)
     if (render.outputs.empty()) {
         throw OptionError("--output is required");
     }
-    check_parts(result, options);
+    if (result.parts.has_value() == options.given("--minutes")) {
+        throw OptionError("either --parts or --minutes is required");
+    }
     if (render.file == "-" || render.environment == "-" || use_standard_output(render.outputs)) {
         throw OptionError(
             "-: a plan cannot use pipes; name files, which its tasks can read and write");

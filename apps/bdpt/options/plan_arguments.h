@@ -11,7 +11,7 @@
 namespace bdpt::app {
 
 /// System that starts the tasks of a plan.
-enum class Engine : std::uint8_t { slurm, kubernetes, make, opencue, aws_batch };
+enum class Engine : std::uint8_t { slurm, kubernetes, make };
 
 /// Treatment of an existing plan.
 enum class ExistingPlan : std::uint8_t { must_be_equal, replace };

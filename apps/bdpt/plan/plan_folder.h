@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "options/plan_arguments.h"
-#include "plan/engines/engine_files.h"
+#include "plan/engine_files.h"
 #include "plan/plan.h"
 
 namespace bdpt::app {

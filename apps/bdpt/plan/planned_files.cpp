@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 6> engine_file_names{
-    "submit.sh", "tasks.sbatch", "merge.sbatch", "kubernetes.yaml", "Makefile", "commands.txt"};
+constexpr std::array<std::string_view, 5> engine_file_names{
+    "submit.sh", "tasks.sbatch", "merge.sbatch", "kubernetes.yaml", "Makefile"};
 
 constexpr std::string_view part_start = "task-";
 constexpr std::string_view frame_place = ".####";

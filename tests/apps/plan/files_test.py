@@ -2,11 +2,9 @@
 """Tests that the render engines can read the files of bdpt plan: plan_files_test.py COMMAND SCENE.
 
 Checks shell scripts with bash, and with shellcheck if it is installed; manifests of Kubernetes with the Python package
-kubernetes-validate, and calls of AWS with botocore, if these are installed. Prints which are not."""
+kubernetes-validate, if these are installed. Prints which are not."""
 
 import importlib.util
-import json
-import os
 import pathlib
 import shutil
 import subprocess
@@ -45,46 +43,6 @@ def check_scripts(job):
     return [f"{job}: no scripts"] if not scripts else []
 
 
-def run_submit(job, folder):
-    """Returns the arguments of each call of the aws command by submit.sh."""
-    tools = folder / "tools"
-    tools.mkdir()
-    log = folder / "calls"
-    (tools / "aws").write_text(f'#!/bin/sh\nprintf "%s\\0" "$@" >> "{log}"; printf "\\n\\0" >> "{log}"\necho id-5\n')
-    (tools / "aws").chmod(0o755)
-    run("./submit.sh", "queue", "registry/bdpt:1", "fs-0123456789abcdef0", cwd=job,
-        env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"})
-    calls = [call.split("\0")[:-1] for call in log.read_text().split("\n\0")[:-1]]
-    return [dict(zip(call[2::2], call[3::2])) for call in calls]
-
-
-def check_aws(job, folder):
-    define, tasks, merge = run_submit(job, folder)
-    container = json.loads(define["--container-properties"])
-    retry = json.loads(define["--retry-strategy"])
-    overrides = json.loads(merge["--container-overrides"])
-    place = f"/data/aws-batch/{ODD}/plan.json"
-    seen = [container["command"][:3], container["image"], overrides["command"], tasks["--array-properties"],
-            merge["--depends-on"]]
-    expected = [["render", "--plan", place], "registry/bdpt:1", ["merge", "--plan", place], "size=4", "jobId=id-5"]
-    errors = [] if seen == expected else [f"aws-batch: {seen}, not {expected}"]
-    if is_installed("botocore"):
-        import botocore.loaders
-        import botocore.model
-        import botocore.validate
-        model = botocore.model.ServiceModel(botocore.loaders.Loader().load_service_model("batch", "service-2"))
-        validate = botocore.validate.ParamValidator().validate
-        calls = {"RegisterJobDefinition": {"jobDefinitionName": define["--job-definition-name"], "type": define["--type"],
-                                           "containerProperties": container, "retryStrategy": retry},
-                 "SubmitJob": {"jobName": merge["--job-name"], "jobQueue": merge["--job-queue"],
-                               "jobDefinition": merge["--job-definition"], "containerOverrides": overrides,
-                               "arrayProperties": {"size": 4}, "dependsOn": [{"jobId": "id-5"}]}}
-        for name, values in calls.items():
-            report = validate(values, model.operation_model(name).input_shape)
-            errors += [f"aws-batch: {name}: {report.generate_report()}"] if report.has_errors() else []
-    return errors
-
-
 def check_kubernetes(job):
     if not is_installed("kubernetes_validate"):
         return []
@@ -105,23 +63,13 @@ def check_kubernetes(job):
     return [] if container["workingDir"] == place else [f"kubernetes: works in {container['workingDir']}, not {place}"]
 
 
-def check_opencue(job):
-    lines = (job / "commands.txt").read_text().splitlines()
-    words = [run("bash", "-c", f"bdpt() {{ printf '%s\\n' \"$@\"; }}; {line}").splitlines() for line in lines]
-    expected = [["render", "--plan", str(job / "plan.json"), "--task", str(task)] for task in range(4)]
-    return [] if words == expected else [f"opencue: {words}, not {expected}"]
-
-
 def main():
     print(f"shellcheck: {'used' if shutil.which('shellcheck') else 'not installed'}")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name).resolve()
         shutil.copy(SCENE, folder)
         errors = check_scripts(plan(folder, "slurm"))
-        aws = plan(folder, "aws-batch")
-        errors += check_scripts(aws) + check_aws(aws, folder)
         errors += check_kubernetes(plan(folder, "kubernetes"))
-        errors += check_opencue(plan(folder, "opencue"))
     print("\n".join(errors) or "all files are what engines read")
     sys.exit(bool(errors))
 

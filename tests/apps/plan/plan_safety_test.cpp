@@ -221,7 +221,7 @@ TEST_CASE("each number and text of a plan is checked", "[plan]")
 TEST_CASE("the plans of all engines can be read again, and are replaced with their files", "[plan]")
 {
     const PlannedCube job;
-    for (const char* engine : {"slurm", "kubernetes", "make", "opencue", "aws-batch"}) {
+    for (const char* engine : {"slurm", "kubernetes", "make"}) {
         CAPTURE(engine);
         REQUIRE(job.plan({"--for", engine, "--restart"}).exit_code == 0);
         const app::Plan plan = app::read_plan(job.file());

@@ -378,7 +378,6 @@ TEST_CASE("words about plans that make no sense are refused, and nothing is writ
     refused(with({"--parts", "2", "--time", "3s"}), 2, {"--time"});
     refused(with({"--parts", "2", "--part", "a.exr"}), 2, {"--part"});
     refused(with({"--parts", "2", "--for", "sge"}), 2, {"--for"});
-    refused(with({"--parts", "1", "--for", "aws-batch"}), 2, {"--parts \"1\"", "aws-batch"});
     refused(with({"--parts", "2", "--camera", "none"}), 3, {"none"});
     refused({"-d", path(folder, "job"), "--parts", "2", "--for", "make"}, 2, {"--output"});
     refused({"-d", path(folder, "no/job"), "-o", path(folder, "out.exr"), "--for", "make",

@@ -26,14 +26,4 @@ struct EngineFile {
 /// Returns the command that the user types to start the tasks.
 [[nodiscard]] std::string start_command(Engine engine, const std::filesystem::path& folder);
 
-// Files of each engine.
-[[nodiscard]] std::vector<EngineFile> slurm_files(const Plan& plan);
-[[nodiscard]] std::vector<EngineFile> kubernetes_files(const Plan& plan,
-                                                       const std::filesystem::path& folder);
-[[nodiscard]] std::vector<EngineFile> make_files(const Plan& plan);
-[[nodiscard]] std::vector<EngineFile> opencue_files(const Plan& plan,
-                                                    const std::filesystem::path& folder);
-[[nodiscard]] std::vector<EngineFile> aws_batch_files(const Plan& plan,
-                                                      const std::filesystem::path& folder);
-
 }  // namespace bdpt::app

@@ -118,6 +118,7 @@ def main():
     render([link], scenes, folder / "linked.png", openvdb == "1")
     listed = (root / "share/doc/bdpt/libraries.txt").read_text(encoding="utf-8")
     assert "libstdc++.so.6: " in listed and "glibc 2." in listed, listed
+    assert list(root.glob("lib*/bdpt/denoiser/third-party-programs.txt")), "no licences of what is in the denoiser"
     print(check_bare_root(root, glibc, scenes, folder, openvdb == "1"))
 
 

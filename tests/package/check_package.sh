@@ -400,6 +400,7 @@ make_archive() {
   [[ $OPENVDB != 1 ]] || components+=";bdpt_openvdb"
   mkdir -p "$folder/denoiser/lib"
   cp "$FAKE_OIDN" "$folder/denoiser/lib/libOpenImageDenoise.so.2"
+  cp "$SOURCE/cmake/archive/third-party-programs.txt" "$folder/denoiser"
   "$CMAKE" -DBUILD="$BUILD" -DCONFIG="$CONFIG" -DNAME="$name" -DCOMPONENTS="$components" -DLIBDIR="$LIBDIR" \
     -DFOLDER="$folder" -DDENOISER="$folder/denoiser" -DLEVEL=0 -P "$SOURCE/cmake/archive/make_archive.cmake"
   check_names "$BUILD/archive" "$BUILD" "$SOURCE" "$WORK"

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -38,7 +39,7 @@ constexpr int max_image_side = 1 << 16;  // [pixels]
 /// No line of zeros compresses better; a file that claims so would only take our memory.
 constexpr std::uint64_t max_compression = 1100;
 
-/// Lets OpenEXR read a sealed file.
+/// Lets OpenEXR read a sealed file. OpenEXR asks for the texts of a header letter by letter.
 class SealedStream : public Imf::IStream {
 public:
     explicit SealedStream(const SealedFile& file) : Imf::IStream("part"), file_(file) {}
@@ -49,7 +50,12 @@ public:
         if (position_ > file_.size() || wanted > file_.size() - position_) {
             throw std::runtime_error("the file is truncated");
         }
-        file_.read(position_, {target, static_cast<std::size_t>(count)});
+        if (wanted > block_.size()) {
+            file_.read(position_, {target, static_cast<std::size_t>(count)});
+        } else {
+            const char* first = buffered(wanted);
+            std::copy(first, first + count, target);
+        }
         position_ += wanted;
         return position_ < file_.size();
     }
@@ -57,8 +63,22 @@ public:
     void seekg(std::uint64_t position) override { position_ = position; }
 
 private:
+    /// Returns the next `count` bytes, which are in the file.
+    const char* buffered(std::uint64_t count)
+    {
+        if (position_ < begin_ || position_ + count > end_) {
+            begin_ = position_;
+            end_ = std::min(position_ + block_.size(), file_.size());
+            file_.read(begin_, {block_.data(), static_cast<std::size_t>(end_ - begin_)});
+        }
+        return block_.data() + (position_ - begin_);
+    }
+
     const SealedFile& file_;
     std::uint64_t position_ = 0;
+    std::array<char, 4096> block_;  // what the file has from begin_ to end_
+    std::uint64_t begin_ = 0;
+    std::uint64_t end_ = 0;
 };
 
 /// Checks the header before OpenEXR allocates memory by it.

@@ -109,6 +109,15 @@ Error error_of(const std::filesystem::path& file)
     return {ErrorCode::internal, ""};
 }
 
+/// How often this process has asked the system for bytes [proc(5), /proc/pid/io].
+long read_calls()
+{
+    const std::string text = test::read_text("/proc/self/io");
+    const std::size_t place = text.find("syscr: ");
+    REQUIRE(place != std::string::npos);
+    return std::stol(text.substr(place + 7));
+}
+
 TEST_CASE("a part file holds all of a part", "[part]")
 {
     const ScratchFolder folder;
@@ -145,6 +154,19 @@ TEST_CASE("a part file holds all of a part", "[part]")
         std::filesystem::remove(folder / "b.part.exr");
         std::filesystem::remove(file);
     }
+}
+
+TEST_CASE("long texts of a part file are not read letter by letter", "[part]")
+{
+    const ScratchFolder folder;
+    const RenderResult part = part_of(options(), {.begin = 0, .end = 1});
+    PartNotes long_notes = notes();
+    long_notes.command.emplace_back(200'000, 'x');
+    write_part(folder / "a.part.exr", part, long_notes, OldPart::replace);
+    const long before = read_calls();
+    const PartInfo info = read_part_info(folder / "a.part.exr");
+    CHECK(read_calls() - before < 1000);
+    CHECK(info.notes.command == long_notes.command);
 }
 
 TEST_CASE("any viewer sees the image of a part file", "[part]")

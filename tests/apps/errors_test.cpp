@@ -30,7 +30,7 @@ void check_error(const ScratchFolder& folder, const Words& words, int code, cons
     CHECK(folder.names() == before);
 }
 
-TEST_CASE("wrong usage gives exit code 2 and names the option")
+TEST_CASE("wrong usage gives exit code 2 and names the option", "[long]")
 {
     const ScratchFolder folder;
     const std::string scene = write_cube(folder, "cube", {}).string();

@@ -155,7 +155,7 @@ TEST_CASE("a turntable goes around what the camera looks at", "[sequence]")
     CHECK(away.err.find("--look-at") != std::string::npos);
 }
 
-TEST_CASE("all cameras make images, named after them", "[sequence]")
+TEST_CASE("all cameras make images, named after them", "[sequence][long]")
 {
     const ScratchFolder folder;
     const std::string scene = write_cube(folder, "cube", {.cameras = two_cameras}).string();

@@ -185,14 +185,28 @@ use_pkg_config() {
   done
 }
 
-# Builds the libraries as a part of a project: static, with bdpt::io, and as a unity build, by default. Keeps the last
-# build. Must not look for the libraries of the tests. Everything has sanitizers, and the targets of tests/fuzz are built
-# too, with libFuzzer if a compiler has it, for tests that run them; they need parts of the command.
-use_add_subdirectory() {
-  local unneeded=() package
+# configure_subdirectory FOLDER CMAKE-OPTIONS...: configures a project that has bdpt as a part. It must not look for the
+# libraries of the tests.
+configure_subdirectory() {
+  local folder=$1 target=$2 unneeded=() package
+  shift 2
   for package in Catch2 Python3 benchmark; do
     unneeded+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
   done
+  build_consumer "$folder" "$target" -DBDPT_SOURCE="$SOURCE" -DBDPT_BUILD_IO=ON "${unneeded[@]}" "$@"
+  [[ -n $(find "$folder/bdpt" -name 'unity_0_cxx.cxx' -print -quit) ]] || fail "not a unity build"
+}
+
+# Compiles one file of a project that has bdpt as a part, and nothing of bdpt.
+compile_in_project() {
+  rm -rf "$WORK/in_project"
+  configure_subdirectory "$WORK/in_project" render_box_object -DCMAKE_BUILD_TYPE=Release
+}
+
+# Builds the libraries as a part of a project: static, with bdpt::io, and as a unity build, by default. Keeps the last
+# build. Everything has sanitizers, and the targets of tests/fuzz are built too, with libFuzzer if a compiler has it, for
+# tests that run them; they need parts of the command.
+use_add_subdirectory() {
   local folder=$WORK/add_subdirectory
   mkdir -p "$WORK"
   if [[ -n $FUZZER_CXX ]]; then
@@ -200,11 +214,9 @@ use_add_subdirectory() {
   else
     echo "no clang++ with libFuzzer: the fuzz targets only run mutants of seeds"
   fi
-  build_consumer "$folder" programs -DBDPT_SOURCE="$SOURCE" -DBDPT_BUILD_IO=ON -DBDPT_BUILD_EVAL=ON \
-    -DBDPT_BUILD_APPS=ON -DBDPT_BUILD_FUZZERS=ON \
+  configure_subdirectory "$folder" programs -DBDPT_BUILD_EVAL=ON -DBDPT_BUILD_APPS=ON -DBDPT_BUILD_FUZZERS=ON \
     -DBDPT_SANITIZE=address,undefined -DCMAKE_EXE_LINKER_FLAGS=-fsanitize=address,undefined \
-    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 "${unneeded[@]}"
-  [[ -n $(find "$folder/bdpt" -name 'unity_0_cxx.cxx' -print -quit) ]] || fail "not a unity build"
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0
   expect_version "$folder/render_box"
   write_tiff >"$folder/sky.tif"
   local files=("$SOURCE/scenes/cornell-box.gltf" "$folder/sky.tif")
@@ -385,8 +397,20 @@ check_python_package() {
   dpkg-deb -x "${packages[0]}" "$folder/unpacked"
   dpkg-deb -e "${packages[0]}" "$folder/control"
   [[ -x $folder/control/postinst && -x $folder/control/prerm ]] || fail "nothing removes what Python compiles"
-  PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$usr/lib/python3/dist-packages "$PYTHON" "$here/check_python.py" \
-    "$usr" "$usr/bin/bdpt" "$SOURCE/scenes/cornell-box.gltf" "$VERSION"
+  check_python "$usr" lib/python3/dist-packages debian
+}
+
+# check_python PREFIX FOLDER INSTALLER: tests the Python package in a folder of an installation.
+check_python() {
+  PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$1/$2 "$PYTHON" "$here/check_python.py" \
+    "$@" "$1/bin/bdpt" "$SOURCE/scenes/cornell-box.gltf" "$VERSION"
+}
+
+# Tests the installed Python package: what the build has compiled, where the wheel compiles all of it again.
+check_installed_python() {
+  local installer=cmake
+  [[ -z $PYTHON_DEPENDS ]] || installer=debian
+  check_python "$prefix" "$PYTHON_FOLDER" "$installer"
 }
 
 # Builds the archive with its libraries, with little compression.
@@ -420,9 +444,11 @@ case $1 in
   without_module) run_without_module ;;
   find_package) use_find_package ;;
   pkg-config) use_pkg_config ;;
+  compile_in_project) compile_in_project ;;
   add_subdirectory) use_add_subdirectory ;;
   debian) make_debian_packages ;;
   archive) make_archive ;;
+  python) check_installed_python ;;
   wheel) make_wheel ;;
   core_alone) configure_core_alone ;;
   bash | zsh | fish) check_completions "$1" ;;

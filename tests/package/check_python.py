@@ -1,7 +1,8 @@
-"""Tests the Python package of an unpacked Debian package: check_python.py USR BDPT SCENE VERSION.
+"""Tests the Python package of an installation or of an unpacked Debian package:
+check_python.py PREFIX FOLDER INSTALLER BDPT SCENE VERSION.
 
-USR is the folder where it was unpacked, PYTHONPATH the folder of packages in it. BDPT is the command whose images it
-must equal to the bit.
+PREFIX is where it was installed or unpacked, FOLDER and PYTHONPATH the folder of packages in it. INSTALLER is what its
+metadata name. BDPT is the command whose images it must equal to the bit.
 """
 
 import importlib.metadata
@@ -25,15 +26,15 @@ def check_bits(command, scene):
 
 
 def main():
-    usr, command, scene, version = sys.argv[1:]
+    prefix, folder, installer, command, scene, version = sys.argv[1:]
     package = pathlib.Path(bdpt.__file__).parent
-    assert package == pathlib.Path(usr, "lib/python3/dist-packages/bdpt"), package
+    assert package == pathlib.Path(prefix, folder, "bdpt"), package
     loaded = pathlib.Path("/proc/self/maps").read_text(encoding="utf-8")
     libraries = {line.split()[-1] for line in loaded.splitlines() if "/libbdpt" in line}
-    assert len(libraries) == 3 and all(name.startswith(usr + "/lib/") for name in libraries), libraries
+    assert len(libraries) == 3 and all(name.startswith(prefix + "/lib/") for name in libraries), libraries
     assert bdpt.__version__ == version, bdpt.__version__
     known = importlib.metadata.distribution("bdpt")
-    assert known.version == version and known.read_text("INSTALLER") == "debian\n", known.version
+    assert known.version == version and known.read_text("INSTALLER") == installer + "\n", known.version
     assert known.requires == ["numpy"] and known.metadata["Summary"].endswith("to images"), known.metadata
     for name in ("_bdpt.pyi", "py.typed"):
         assert (package / name).exists(), name

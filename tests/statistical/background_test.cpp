@@ -23,7 +23,7 @@ RenderOptions hidden(const EqualityCase& test, IntegratorKind integrator, std::u
 
 }  // namespace
 
-TEST_CASE("all integrators agree: without the background", "[equality][background]")
+TEST_CASE("all integrators agree: without the background", "[equality][background][long]")
 {
     const auto cases = equality_cases();
     const auto found = std::find_if(cases.begin(), cases.end(), [](const EqualityCase& test) {

@@ -84,7 +84,7 @@ TEST_CASE("white panes in a white furnace are invisible, whatever their alpha",
 }
 
 /// Le a (1 + (1 - a) + (1 - a)^2 + ...) over n panes that reflect nothing.
-TEST_CASE("panes that shine add up to Le (1 - (1 - a)^n)", "[closed-form][alpha]")
+TEST_CASE("panes that shine add up to Le (1 - (1 - a)^n)", "[closed-form][alpha][long]")
 {
     constexpr float alpha = 0.35f;
     const bool unlit = GENERATE(false, true);

@@ -44,7 +44,7 @@ SceneBuilder ball(Vec3 center, float radius, float radiance)
 
 }  // namespace
 
-TEST_CASE("sphere light: E = pi L (r / d)^2 cos", "[closed-form]")
+TEST_CASE("sphere light: E = pi L (r / d)^2 cos", "[closed-form][long]")
 {
     // The cone with half angle s around a direction at angle a from the normal projects onto the
     // unit disk as an ellipse with half axes sin s and sin s cos a: area pi sin^2 s cos a.
@@ -63,7 +63,7 @@ TEST_CASE("sphere light: E = pi L (r / d)^2 cos", "[closed-form]")
     }
 }
 
-TEST_CASE("sphere light, half below the horizon: E = L (s - sin s cos s)", "[closed-form]")
+TEST_CASE("sphere light, half below the horizon: E = L (s - sin s cos s)", "[closed-form][long]")
 {
     // The upper half of a cone around a horizontal axis projects onto the unit disk as the segment
     // that the chord at distance cos s from the centre cuts off.
@@ -73,7 +73,7 @@ TEST_CASE("sphere light, half below the horizon: E = L (s - sin s cos s)", "[clo
                      static_cast<double>(radiance) * (s - std::sin(s) * std::cos(s)));
 }
 
-TEST_CASE("sphere spot light: the cone is that of the direction of emission", "[closed-form]")
+TEST_CASE("sphere spot light: the cone is that of the direction of emission", "[closed-form][long]")
 {
     // The patch looks straight up at a sphere that shines straight down, with no fall-off between
     // the cones: light arrives from the directions within the outer cone, however wide the sphere

@@ -74,7 +74,7 @@ TEST_CASE("fog that absorbs nothing under an even sky is not seen", "[closed-for
     }
 }
 
-TEST_CASE("a volume of even density is a medium", "[closed-form][media]")
+TEST_CASE("a volume of even density is a medium", "[closed-form][media][long]")
 {
     SceneBuilder fog;
     fog.light(EnvironmentLightDesc{.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(1)}}});
@@ -103,7 +103,7 @@ TEST_CASE("a volume of even density is a medium", "[closed-form][media]")
     }
 }
 
-TEST_CASE("single scattering of a point light", "[closed-form][media]")
+TEST_CASE("single scattering of a point light", "[closed-form][media][long]")
 {
     // In a sphere of radius 1 around the origin, along the z axis, seen from +z. One number for
     // all channels, as the scattering is white.

@@ -65,7 +65,7 @@ const std::array<glm::dvec3, 4> square{
 }  // namespace
 
 TEST_CASE("point and sphere lights that move: the mean of their irradiances",
-          "[closed-form][motion]")
+          "[closed-form][motion][long]")
 {
     const auto height = [](double t) { return 0.6 + 1.2 * t; };
     SceneBuilder point = lambertian_floor();
@@ -96,7 +96,7 @@ TEST_CASE("a sun that turns: the mean of its cosines", "[closed-form][motion]")
 }
 
 TEST_CASE("an emitter that travels, turns and grows: the mean of its irradiances",
-          "[closed-form][motion]")
+          "[closed-form][motion][long]")
 {
     // Between two steps matrices and vertices go along straight lines, so the corners do.
     const auto pose = [](float t) {

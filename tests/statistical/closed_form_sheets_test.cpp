@@ -39,7 +39,7 @@ MaterialDesc sheet(float tint)
 }  // namespace
 
 TEST_CASE("light samples reach a floor under a clear sheet, which is seen through it",
-          "[closed-form][sheet]")
+          "[closed-form][sheet][long]")
 {
     constexpr float albedo = 0.8f;
     constexpr float tint = 0.7f;
@@ -71,7 +71,7 @@ TEST_CASE("light samples reach a floor under a clear sheet, which is seen throug
 }
 
 TEST_CASE("light paths that reach the lens itself have the tint of the sheets that they pass",
-          "[closed-form][sheet]")
+          "[closed-form][sheet][long]")
 {
     // A mirror that shows a lamp behind the camera: light paths find it by hitting the lens.
     constexpr float tint = 0.6f;

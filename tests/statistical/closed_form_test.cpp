@@ -39,7 +39,7 @@ Scene furnace_room()
 
 }  // namespace
 
-TEST_CASE("closed Lambertian furnace: L = Le (1 - a^k) / (1 - a)", "[closed-form]")
+TEST_CASE("closed Lambertian furnace: L = Le (1 - a^k) / (1 - a)", "[closed-form][long]")
 {
     const Scene scene = furnace_room();
     const CameraDesc camera = camera_at({0.3f, 0.1f, 0.6f}, {-0.2f, -0.1f, -1.0f}, 1.2f);

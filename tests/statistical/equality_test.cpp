@@ -83,7 +83,10 @@ void check_every_fourth(std::size_t first)
 {
     const auto cases = equality_cases();
     for (std::size_t i = first; i < cases.size(); i += 4) {
-        check_case(cases[i], 100 * i);
+        DYNAMIC_SECTION(cases[i].name)
+        {
+            check_case(cases[i], 100 * i);
+        }
     }
 }
 
@@ -101,59 +104,52 @@ void check_cases(const std::vector<EqualityCase>& cases, std::uint64_t seed)
 
 }  // namespace
 
-TEST_CASE("all integrators agree: cases 0, 4, ...", "[equality]")
+TEST_CASE("all integrators agree: cases 0, 4, ...", "[equality][cases][long]")
 {
     check_every_fourth(0);
 }
 
-TEST_CASE("all integrators agree: cases 1, 5, ...", "[equality]")
+TEST_CASE("all integrators agree: cases 1, 5, ...", "[equality][cases][long]")
 {
     check_every_fourth(1);
 }
 
-TEST_CASE("all integrators agree: cases 2, 6, ...", "[equality]")
+TEST_CASE("all integrators agree: cases 2, 6, ...", "[equality][cases][long]")
 {
     check_every_fourth(2);
 }
 
-TEST_CASE("all integrators agree: cases 3, 7, ...", "[equality]")
+TEST_CASE("all integrators agree: cases 3, 7, ...", "[equality][cases][long]")
 {
     check_every_fourth(3);
 }
 
-TEST_CASE("all integrators agree: layered materials", "[equality][layers]")
+TEST_CASE("all integrators agree: layered materials", "[equality][cases][layers][long]")
 {
     check_cases(layer_cases(), 300000);
 }
 
-TEST_CASE("all integrators agree: bodies in bodies", "[equality][bodies]")
+TEST_CASE("all integrators agree: bodies in bodies", "[equality][cases][bodies][long]")
 {
-    std::uint64_t seed = 320000;
-    for (const EqualityCase& test : volume_cases()) {
-        seed += 100;
-        DYNAMIC_SECTION(test.name)
-        {
-            check_case(test, seed);
-        }
-    }
+    check_cases(volume_cases(), 320000);
 }
 
-TEST_CASE("all integrators agree: steep normal maps", "[equality][layers]")
+TEST_CASE("all integrators agree: steep normal maps", "[equality][cases][layers][long]")
 {
     check_cases(normal_map_cases(), 310000);
 }
 
-TEST_CASE("all integrators agree: silhouettes of coarse meshes", "[equality]")
+TEST_CASE("all integrators agree: silhouettes of coarse meshes", "[equality][cases][long]")
 {
     check_cases(silhouette_cases(), 330000);
 }
 
-TEST_CASE("all integrators agree: many lights", "[equality][tree]")
+TEST_CASE("all integrators agree: many lights", "[equality][cases][tree][long]")
 {
     check_cases(many_light_cases(), 400000);
 }
 
-TEST_CASE("a tree of lights changes noise only", "[equality][tree]")
+TEST_CASE("a tree of lights changes noise only", "[equality][tree][long]")
 {
     std::uint64_t seed = 410000;
     for (const EqualityCase& test : many_light_cases()) {
@@ -170,22 +166,22 @@ TEST_CASE("a tree of lights changes noise only", "[equality][tree]")
     }
 }
 
-TEST_CASE("all integrators agree: what moves", "[equality][motion]")
+TEST_CASE("all integrators agree: what moves", "[equality][cases][motion][long]")
 {
     check_cases(motion_cases(), 420000);
 }
 
-TEST_CASE("all integrators agree: media", "[equality][media]")
+TEST_CASE("all integrators agree: media", "[equality][cases][media][long]")
 {
     check_cases(media_cases(), 450000);
 }
 
-TEST_CASE("all integrators agree: light profiles", "[equality][profiles]")
+TEST_CASE("all integrators agree: light profiles", "[equality][cases][profiles][long]")
 {
     check_cases(profile_cases(), 430000);
 }
 
-TEST_CASE("all integrators agree: mip-mapped textures", "[equality][textures]")
+TEST_CASE("all integrators agree: mip-mapped textures", "[equality][cases][textures][long]")
 {
     check_cases(mip_map_cases(), 440000);
 }
@@ -242,7 +238,7 @@ TEST_CASE("each channel of a sky behind glass refracts as if there were no other
     check_equal(test, "no dispersion = bdpt", expected, bdpt);
 }
 
-TEST_CASE("each channel refracts as if there were no other", "[equality][layers]")
+TEST_CASE("each channel refracts as if there were no other", "[equality][layers][long]")
 {
     // Indices of 1.25, 1.5 and 1.75.
     const auto [light, ior] =
@@ -318,7 +314,7 @@ TEST_CASE("a tiny sphere lights like a point", "[equality]")
     }
 }
 
-TEST_CASE("Sobol points and independent numbers agree", "[equality]")
+TEST_CASE("Sobol points and independent numbers agree", "[equality][long]")
 {
     const auto cases = equality_cases();
     for (const char* name : {"area light", "all kinds of light", "half transmission"}) {

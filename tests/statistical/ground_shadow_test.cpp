@@ -150,7 +150,7 @@ TEST_CASE("the shadow on the ground is that of a floor under direct light", "[gr
     }
 }
 
-TEST_CASE("a pixel has the mean shadow of the pixels that it could be", "[ground]")
+TEST_CASE("a pixel has the mean shadow of the pixels that it could be", "[ground][long]")
 {
     // Under an even sky all of the ground gets as much light, so opacities add up. Where a ray
     // meets the ground must not tell which light it looks for.

@@ -14,7 +14,7 @@
 namespace bdpt::test::sample_counts_test {
 
 TEST_CASE("bdpt with any numbers of light paths and connections agrees with mis",
-          "[equality][light-paths]")
+          "[equality][light-paths][long]")
 {
     // Half of all cases, each with other numbers.
     std::vector<EqualityCase> cases = equality_cases();
@@ -44,7 +44,7 @@ TEST_CASE("bdpt with any numbers of light paths and connections agrees with mis"
     }
 }
 
-TEST_CASE("several light samples agree with one", "[equality]")
+TEST_CASE("several light samples agree with one", "[equality][long]")
 {
     std::vector<EqualityCase> cases = equality_cases();
     const auto more = many_light_cases();
@@ -84,7 +84,7 @@ TEST_CASE("light tracing with a fraction of a light path agrees with mis",
                 test.detectable_bias_of_light_sampling);
 }
 
-TEST_CASE("several light paths have the time of their sample", "[equality][motion]")
+TEST_CASE("several light paths have the time of their sample", "[equality][motion][long]")
 {
     const EqualityCase test = motion_cases().front();
     const Scene scene(test.scene);

@@ -76,7 +76,7 @@ std::vector<std::pair<std::string, RenderOptions>> kinds()
 
 }  // namespace
 
-TEST_CASE("rates change no mean", "[rates]")
+TEST_CASE("rates change no mean", "[rates][long]")
 {
     const Scene scene = furnished();
     for (const auto& [name, plain] : kinds()) {
@@ -172,7 +172,7 @@ Moments means_by(Rule rule, const Scene& scene)
 }  // namespace
 
 TEST_CASE("rates that a pilot has found are unbiased, those of a render's own samples are not",
-          "[rates]")
+          "[rates][long]")
 {
     const Scene scene = rarely_lit();
     const Moments truth = means_by(Rule::uniform, scene);

@@ -107,7 +107,7 @@ void check_each_strategy(Options& options, const Scene& scene, const CameraDesc&
 
 }  // namespace
 
-TEST_CASE("each strategy alone, pinhole", "[strategies]")
+TEST_CASE("each strategy alone, pinhole", "[strategies][long]")
 {
     Options options(41000);
     const Scene scene = open_prepared_scene();
@@ -116,7 +116,7 @@ TEST_CASE("each strategy alone, pinhole", "[strategies]")
     }
 }
 
-TEST_CASE("each strategy alone, with connections that are chosen", "[strategies]")
+TEST_CASE("each strategy alone, with connections that are chosen", "[strategies][long]")
 {
     Options options(49000);
     const Scene scene = open_prepared_scene();
@@ -132,7 +132,7 @@ TEST_CASE("each strategy alone, with connections that are chosen", "[strategies]
     }
 }
 
-TEST_CASE("each strategy alone, many lights", "[strategies][tree]")
+TEST_CASE("each strategy alone, many lights", "[strategies][tree][long]")
 {
     Options options(42000);
     // The same stage under nine panels, some of which face up or to both sides.
@@ -152,7 +152,7 @@ TEST_CASE("each strategy alone, many lights", "[strategies][tree]")
     check_each_strategy(options, scene, pinhole(), 2, 2, 0.08);
 }
 
-TEST_CASE("each strategy alone, thin lens: t = 0 as well", "[strategies]")
+TEST_CASE("each strategy alone, thin lens: t = 0 as well", "[strategies][long]")
 {
     Options options(43000);
     const Scene scene = open_prepared_scene();
@@ -180,7 +180,7 @@ TEST_CASE("each strategy alone, in a body that absorbs", "[strategies]")
     }
 }
 
-TEST_CASE("each strategy alone, in fog", "[strategies][media]")
+TEST_CASE("each strategy alone, in fog", "[strategies][media][long]")
 {
     // Joins of vertices in a medium, which may be as close as they like, have no finite variance by
     // themselves. The lamp has the colour that the fog takes away most, so that walks from it and
@@ -202,7 +202,7 @@ TEST_CASE("each strategy alone, in fog", "[strategies][media]")
     }
 }
 
-TEST_CASE("each strategy alone, in a volume that colours light", "[strategies][media]")
+TEST_CASE("each strategy alone, in a volume that colours light", "[strategies][media][long]")
 {
     // The means of all channels would agree if one strategy took the volume for grey, so the lamp
     // is blue, which the volume takes away most.
@@ -252,7 +252,7 @@ TEST_CASE("each strategy alone makes long paths as bright as they are", "[strate
     }
 }
 
-TEST_CASE("a join refracts each channel as if there were no other", "[strategies]")
+TEST_CASE("a join refracts each channel as if there were no other", "[strategies][long]")
 {
     // A floor in a rough block of glass, seen from within, under a small lamp, which seems the
     // farther away the smaller the index is: 1.25 of red, around 1.5.
@@ -288,7 +288,7 @@ TEST_CASE("each strategy alone, orthographic", "[strategies]")
     check_each_strategy(options, scene, parallel(), 2, 2);
 }
 
-TEST_CASE("each strategy alone, all of it moving", "[strategies][motion]")
+TEST_CASE("each strategy alone, all of it moving", "[strategies][motion][long]")
 {
     Options options(45000);
     SceneBuilder builder;
@@ -317,7 +317,7 @@ TEST_CASE("each strategy alone, all of it moving", "[strategies][motion]")
     check_each_strategy(options, scene, moving(parallel()), 2, 2, bias);
 }
 
-TEST_CASE("all integrators agree through all cameras", "[strategies]")
+TEST_CASE("all integrators agree through all cameras", "[strategies][long]")
 {
     Options options(46000);
     const Scene scene = open_prepared_scene();
@@ -344,7 +344,7 @@ TEST_CASE("light seen directly: s = t = 1 and hits share it", "[strategies]")
     check_equal("mis = lt", mis, lt, 0.02);
 }
 
-TEST_CASE("heuristics, more light paths and roulette change noise only", "[strategies]")
+TEST_CASE("heuristics, more light paths and roulette change noise only", "[strategies][long]")
 {
     Options options(48000);
     const Scene scene = open_prepared_scene();
@@ -379,7 +379,7 @@ TEST_CASE("heuristics, more light paths and roulette change noise only", "[strat
     }
 }
 
-TEST_CASE("strategies that are left out are made up for by the others", "[strategies]")
+TEST_CASE("strategies that are left out are made up for by the others", "[strategies][long]")
 {
     Options options(49000);
     const Scene scene = open_prepared_scene();

@@ -84,13 +84,13 @@ EqualityCase room_of(const char* name, const MaterialDesc& material)
 
 }  // namespace
 
-TEST_CASE("vcm with a small radius agrees with mis", "[equality][vcm]")
+TEST_CASE("vcm with a small radius agrees with mis", "[equality][vcm][long]")
 {
     check_small_radius(equality_cases(), 3, 500000);
 }
 
 TEST_CASE("vcm with a small radius agrees with mis: alpha, layers and many lights",
-          "[equality][vcm]")
+          "[equality][vcm][long]")
 {
     check_small_radius(alpha_cases(), 2, 510000);
     check_small_radius(layer_cases(), 3, 520000);
@@ -99,7 +99,7 @@ TEST_CASE("vcm with a small radius agrees with mis: alpha, layers and many light
     check_small_radius(normal_map_cases(), 3, 560000);
 }
 
-TEST_CASE("vcm with a small radius agrees with mis: media", "[equality][media][vcm]")
+TEST_CASE("vcm with a small radius agrees with mis: media", "[equality][media][vcm][long]")
 {
     check_small_radius(media_cases(), 2, 590000);
 }
@@ -110,7 +110,7 @@ TEST_CASE("vcm with a small radius agrees with mis: what moves", "[equality][mot
     check_small_radius({motion_cases()[2]}, 1, 530000, SamplerKind::sobol);
 }
 
-TEST_CASE("merging alone finds all light of two edges and more", "[equality][vcm]")
+TEST_CASE("merging alone finds all light of two edges and more", "[equality][vcm][long]")
 {
     SceneBuilder panes;
     MaterialDesc pane = plastic({0.2f, 0.6f, 0.8f}, 0.4f);
@@ -136,7 +136,7 @@ TEST_CASE("merging alone finds all light of two edges and more", "[equality][vcm
     }
 }
 
-TEST_CASE("merging is biased by its radius, and less so as that shrinks", "[vcm]")
+TEST_CASE("merging is biased by its radius, and less so as that shrinks", "[vcm][long]")
 {
     // Light does not arrive beyond the edges of a plate, where the disk of merging does: of a
     // square of side 2 that is 4 / 2 * 2 / (3 pi) of the radius, if that is small.

@@ -234,7 +234,7 @@ TEST_CASE("SIGUSR1 writes a part, and the render goes on", "[part]")
     CHECK(read_exr(part).integer("bdpt.spp") == done["samples"]);
 }
 
-TEST_CASE("a second SIGTERM does not keep the part from being written", "[part]")
+TEST_CASE("a second SIGTERM does not keep the part from being written", "[part][long]")
 {
     const ScratchFolder folder;
     write_cube(folder, "cube", {});

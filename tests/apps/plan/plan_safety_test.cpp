@@ -239,7 +239,7 @@ TEST_CASE("the plans of all engines can be read again, and are replaced with the
 
 // The time limit of tests is what this fails by: with the product of images and tasks it takes
 // hours.
-TEST_CASE("a plan of many images and tasks is merged in time", "[plan]")
+TEST_CASE("a plan of many images and tasks is merged in time", "[plan][long]")
 {
     const ScratchFolder folder;
     constexpr int count = 100'000;

@@ -191,7 +191,7 @@ TEST_CASE("tasks of an adaptive plan take the rates of the plan", "[command]")
     CHECK(changed.err.find("option: rates") != std::string::npos);
 }
 
-TEST_CASE("auto gives noisy pixels more samples where that helps", "[command]")
+TEST_CASE("auto gives noisy pixels more samples where that helps", "[command][long]")
 {
     const ScratchFolder folder;
     const Words words{BDPT_SOURCE_DIR "/scenes/veach-plates.gltf", "--size", "64x48", "--max-depth", "4"};

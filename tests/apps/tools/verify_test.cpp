@@ -46,7 +46,7 @@ bool contains(const std::string& text, const std::string& part)
 
 }  // namespace
 
-TEST_CASE("verify: a sound renderer passes")
+TEST_CASE("verify: a sound renderer passes", "[long]")
 {
     const Room room;
     // Time for it on any machine; it ends when it is sharp enough.
@@ -89,7 +89,7 @@ TEST_CASE("verify: options choose camera, light and seed as in render")
           0.9 * plain);  // the sky alone
 }
 
-TEST_CASE("verify: light paths are chosen by hand or by auto")
+TEST_CASE("verify: light paths are chosen by hand or by auto", "[long]")
 {
     const Room room;
     const auto report = [&](const Words& more) {
@@ -145,7 +145,7 @@ TEST_CASE("verify: vcm is judged beside the rest if it is asked for")
     CHECK(integrators({"--integrator", "vcm", "--merge-radius", "0.03"}) != by_default);
 }
 
-TEST_CASE("verify: light samples are those of the option, and agree with the rest")
+TEST_CASE("verify: light samples are those of the option, and agree with the rest", "[long]")
 {
     const Room room;
     const auto report = [&](const Words& more, int code) {

@@ -80,7 +80,7 @@ TEST_CASE("a viewer shows what the file has in the end", "[display]")
     }
 }
 
-TEST_CASE("a viewer that hangs changes nothing", "[display]")
+TEST_CASE("a viewer that hangs changes nothing", "[display][long]")
 {
     const ScratchFolder folder;
     // More than the buffers of sockets hold.

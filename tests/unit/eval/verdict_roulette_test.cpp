@@ -157,7 +157,7 @@ TEST_CASE("a strategy that is wrong fails although roulette thins it")
     CHECK(judge(wrong, options).verdict == Verdict::fail);
 }
 
-TEST_CASE("a sound renderer does not fail in a room that is nearly black")
+TEST_CASE("a sound renderer does not fail in a room that is nearly black", "[long]")
 {
     const Scene scene = dark_room();
     const CameraDesc camera = test::camera_at({0.0f, 0.0f, 0.9f}, {0.0f, -0.1f, 0.0f}, 1.2f);

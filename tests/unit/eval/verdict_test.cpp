@@ -59,7 +59,8 @@ const IntegratorFinding& finding(const VerifyReport& report, IntegratorKind kind
 
 }  // namespace
 
-TEST_CASE("a sound renderer passes, although strategies are blind, rare or without variance")
+TEST_CASE("a sound renderer passes, although strategies are blind, rare or without variance",
+          "[long]")
 {
     const VerifyReport report = judge_toy({});
     CHECK(report.verdict == Verdict::pass);
@@ -91,7 +92,7 @@ TEST_CASE("a sound renderer with few samples is inconclusive")
     CHECK(judge_toy({}, 2).verdict == Verdict::inconclusive);
 }
 
-TEST_CASE("what is noisier than was asked for is inconclusive, with many samples too")
+TEST_CASE("what is noisier than was asked for is inconclusive, with many samples too", "[long]")
 {
     VerifyOptions strict = toy_options();
     strict.detectable_bias = 1e-4;
@@ -101,7 +102,7 @@ TEST_CASE("what is noisier than was asked for is inconclusive, with many samples
     CHECK(report.detectable < 0.02);
 }
 
-TEST_CASE("nothing is said to be detectable with so few samples that it would not be")
+TEST_CASE("nothing is said to be detectable with so few samples that it would not be", "[long]")
 {
     const int fewest = static_cast<int>(trusted_samples / (16 * bdpt_samples));
     VerifyOptions lenient = toy_options();
@@ -120,7 +121,7 @@ TEST_CASE("nothing can be said about the dark")
     CHECK(report.radiance == 0.0);
 }
 
-TEST_CASE("a strategy with a wrong factor fails")
+TEST_CASE("a strategy with a wrong factor fails", "[long]")
 {
     for (std::size_t s = 0; s < 3; ++s) {
         for (const double factor : {0.93, 1.07}) {
@@ -137,7 +138,7 @@ TEST_CASE("a strategy with a wrong factor fails")
     }
 }
 
-TEST_CASE("light in the wrong channel fails, although the mean of all is right")
+TEST_CASE("light in the wrong channel fails, although the mean of all is right", "[long]")
 {
     const Rgb tint(1.07f, 1.0f, 0.93f);
     const VerifyReport strategy = judge_toy({.tint = tint});
@@ -156,7 +157,8 @@ TEST_CASE("light in the wrong channel fails, although the mean of all is right")
     CHECK(fails(mis.channels.at(0), integrator));
 }
 
-TEST_CASE("a wrong factor is seen in what others find, if hardly anyone checks the strategy")
+TEST_CASE("a wrong factor is seen in what others find, if hardly anyone checks the strategy",
+          "[long]")
 {
     // Where strategy 3 finds anything, in a hundredth of the image, its weight is nearly one.
     ToyFault fault;
@@ -183,7 +185,7 @@ TEST_CASE("a strategy that is wrong in a part of the image fails there")
     CHECK_FALSE(fails(tiles[3], report));
 }
 
-TEST_CASE("an integrator with a wrong factor fails")
+TEST_CASE("an integrator with a wrong factor fails", "[long]")
 {
     for (std::size_t i = 0; i < 4; ++i) {
         CAPTURE(i);
@@ -195,7 +197,7 @@ TEST_CASE("an integrator with a wrong factor fails")
     }
 }
 
-TEST_CASE("weights that do not sum to one fail")
+TEST_CASE("weights that do not sum to one fail", "[long]")
 {
     ToyFault scaled;
     scaled.weights = 0.99;
@@ -306,7 +308,7 @@ TEST_CASE("rare samples count as far as they have not been seen")
     CHECK(error_of_pt(false) == Approx(spread).epsilon(0.02));
 }
 
-TEST_CASE("what is said to be detectable is detected nine times out of ten")
+TEST_CASE("what is said to be detectable is detected nine times out of ten", "[long]")
 {
     // As few as anything is said of.
     const int batches = static_cast<int>(trusted_samples / (16 * bdpt_samples));
@@ -360,7 +362,7 @@ TEST_CASE("the tests of a family are corrected for their number")
     CHECK(min_tile->p < min_tile->p_adjusted);
 }
 
-TEST_CASE("false alarms are as rare as promised")
+TEST_CASE("false alarms are as rare as promised", "[long]")
 {
     constexpr int runs = 300;
     constexpr double false_alarm = 0.05;

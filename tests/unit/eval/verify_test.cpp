@@ -56,7 +56,7 @@ std::string text_of(VerifyReport report)
 
 }  // namespace
 
-TEST_CASE("verify passes on a stage through all cameras")
+TEST_CASE("verify passes on a stage through all cameras", "[long]")
 {
     const Scene scene = stage();
     for (const CameraDesc& view :
@@ -76,7 +76,7 @@ TEST_CASE("verify passes on a stage through all cameras")
     }
 }
 
-TEST_CASE("verify passes with shared light paths and any number of connections")
+TEST_CASE("verify passes with shared light paths and any number of connections", "[long]")
 {
     const Scene scene = stage();
     struct Choice {
@@ -96,7 +96,7 @@ TEST_CASE("verify passes with shared light paths and any number of connections")
     }
 }
 
-TEST_CASE("verify judges vcm: right with a small merge radius, blurred with a great one")
+TEST_CASE("verify judges vcm: right with a small merge radius, blurred with a great one", "[long]")
 {
     const Scene scene = stage();
     const auto verdict = [&](double radius, std::int64_t batches) {

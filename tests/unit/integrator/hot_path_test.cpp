@@ -229,7 +229,7 @@ TEST_CASE("hot path: a sample allocates nothing, takes no lock and throws nothin
     }
 }
 
-TEST_CASE("hot path: nor do the options change that", "[hot_path]")
+TEST_CASE("hot path: nor do the options change that", "[hot_path][long]")
 {
     const World world(everything());
     const CameraDesc camera = cameras()[1];

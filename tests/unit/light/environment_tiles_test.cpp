@@ -117,7 +117,7 @@ EnvironmentLight turned_sky()
 
 }  // namespace
 
-TEST_CASE("environment tiles: samples have the density that is told", "[light][tiles]")
+TEST_CASE("environment tiles: samples have the density that is told", "[light][tiles][long]")
 {
     constexpr double significance = 1e-4;
     const std::vector<Normal> all = normals();

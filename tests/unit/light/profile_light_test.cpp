@@ -162,7 +162,7 @@ TEST_CASE("profile light: a profile without light sends none", "[light]")
     CHECK_FALSE(thin.sample({0.3f, 0.6f}).has_value());
 }
 
-TEST_CASE("profile light: the flux is the integral of the intensity", "[light]")
+TEST_CASE("profile light: the flux is the integral of the intensity", "[light][long]")
 {
     for (const LightProfile& grid : {lopsided(), wedge(), narrow(), striped()}) {
         const IntensityProfile profile(grid);

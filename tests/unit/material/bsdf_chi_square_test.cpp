@@ -8,7 +8,7 @@
 
 namespace bdpt::test::bsdf_chi_square_test {
 
-TEST_CASE("samples of every BSDF are distributed by its density")
+TEST_CASE("samples of every BSDF are distributed by its density", "[long]")
 {
     const std::vector<test::BsdfCase> cases = test::bsdf_cases();
     const std::vector<Vec3> directions = test::bsdf_directions();

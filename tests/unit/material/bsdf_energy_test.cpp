@@ -30,7 +30,7 @@ std::array<test::Moments, 3> albedo_of(const test::TestedBsdf& bsdf, Vec3 wo, in
 
 }  // namespace
 
-TEST_CASE("no BSDF makes energy")
+TEST_CASE("no BSDF makes energy", "[long]")
 {
     for (test::BsdfCase bsdf_case : test::bsdf_cases()) {
         bsdf_case.surface.base_color = Rgb{1.0f};
@@ -48,7 +48,7 @@ TEST_CASE("no BSDF makes energy")
     }
 }
 
-TEST_CASE("a white surface without loss is invisible in a white furnace")
+TEST_CASE("a white surface without loss is invisible in a white furnace", "[long]")
 {
     // Roughness that does not lose light between facets, or whose loss the base makes good.
     constexpr Body solid = Body::solid;
@@ -82,7 +82,7 @@ TEST_CASE("a white surface without loss is invisible in a white furnace")
     }
 }
 
-TEST_CASE("rough white metal and clear glass are invisible in a white furnace, too")
+TEST_CASE("rough white metal and clear glass are invisible in a white furnace, too", "[long]")
 {
     constexpr Body solid = Body::solid;
     const Rgb white{1.0f};

@@ -36,7 +36,7 @@ bool sound(SolidAnglePdf pdf)
 
 }  // namespace
 
-TEST_CASE("BSDFs stay finite in the corners of their domain")
+TEST_CASE("BSDFs stay finite in the corners of their domain", "[long]")
 {
     std::vector<test::BsdfCase> cases = test::bsdf_cases();
     const Rgb white{1.0f};

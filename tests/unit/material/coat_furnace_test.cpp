@@ -70,7 +70,7 @@ double mean_albedo(const test::MappedSurface& surface, int eyes, int samples_of_
 
 }  // namespace
 
-TEST_CASE("a white surface below any coat is invisible in a white furnace")
+TEST_CASE("a white surface below any coat is invisible in a white furnace", "[long]")
 {
     const float coat = GENERATE(0.0f, 0.2f, 0.5f, 1.0f);
     for (const test::BsdfCase& bsdf_case : white_cases(coat)) {
@@ -137,7 +137,7 @@ TEST_CASE("a coat over the facets of a normal map gives back what the map's mean
     }
 }
 
-TEST_CASE("a coat with a normal map of its own makes no light, and loses little")
+TEST_CASE("a coat with a normal map of its own makes no light, and loses little", "[long]")
 {
     const Rgb white{1.0f};
     const std::vector<test::BsdfCase> bases{{"metal 0.3", {white, 1, 0.3f}},
@@ -173,7 +173,7 @@ TEST_CASE("a coat with a normal map of its own makes no light, and loses little"
     }
 }
 
-TEST_CASE("a coat and its base with a normal map each hardly make light")
+TEST_CASE("a coat and its base with a normal map each hardly make light", "[long]")
 {
     const Rgb white{1.0f};
     for (const float base : {0.3f, 0.6f, 1.0f}) {

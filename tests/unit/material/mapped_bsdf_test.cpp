@@ -64,7 +64,7 @@ test::Moments furnace(const test::MappedSurface& surface, const test::BsdfCase& 
 
 }  // namespace
 
-TEST_CASE("a white surface with any normal map is invisible in a white furnace")
+TEST_CASE("a white surface with any normal map is invisible in a white furnace", "[long]")
 {
     for (const test::BsdfCase& what : lossless_cases()) {
         for (const float lean : test::leans()) {
@@ -81,7 +81,7 @@ TEST_CASE("a white surface with any normal map is invisible in a white furnace")
     }
 }
 
-TEST_CASE("no surface with a normal map makes light")
+TEST_CASE("no surface with a normal map makes light", "[long]")
 {
     for (test::BsdfCase what : test::bsdf_cases()) {
         if (what.refracts() && what.ior == 1.0f) {
@@ -118,7 +118,7 @@ TEST_CASE("whoever chooses lights knows the side of the surface, not that of a n
     CHECK(behind_facet > 100);
 }
 
-TEST_CASE("walks from both ends see one normal-mapped surface")
+TEST_CASE("walks from both ends see one normal-mapped surface", "[long]")
 {
     // K*(wo, wi) / |wi.ng| = K(wi, wo) / |wo.ng|: the definition of the adjoint [Veach 1997, sec.
     // 5.3.2], here with a geometric normal that differs from the interpolated one, too.
@@ -173,7 +173,7 @@ TEST_CASE("walks from both ends see one normal-mapped surface")
     }
 }
 
-TEST_CASE("samples from both ends of a normal-mapped surface carry the same light")
+TEST_CASE("samples from both ends of a normal-mapped surface carry the same light", "[long]")
 {
     // The integral of f(eye, light) |cos eye| |cos light| h over all pairs, h being any function:
     // from the eye's side and from light's. Delta lobes take part.

@@ -71,7 +71,7 @@ bool is_tested(const std::string& name)
 
 }  // namespace
 
-TEST_CASE("samples over normal maps are distributed by their density, from both ends")
+TEST_CASE("samples over normal maps are distributed by their density, from both ends", "[long]")
 {
     constexpr int samples = 70000;
     constexpr double significance = 2e-5;  // of some 300 tests

@@ -74,7 +74,7 @@ float sampled_loss(const SpecularAlbedo& albedo, RefractionLoss::Side side, floa
 
 }  // namespace
 
-TEST_CASE("RefractionLoss holds the integrals, also between its nodes")
+TEST_CASE("RefractionLoss holds the integrals, also between its nodes", "[long]")
 {
     for (const float ior : {1.1f, 1.33f, 1.5f, 2.4f}) {
         const SpecularAlbedo albedo(ior);

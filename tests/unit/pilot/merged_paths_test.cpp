@@ -62,7 +62,7 @@ PilotResult pilot_of(const Scene& scene)
 
 }  // namespace
 
-TEST_CASE("a pilot knows by merging what rare hits of a lamp bring", "[pilot]")
+TEST_CASE("a pilot knows by merging what rare hits of a lamp bring", "[pilot][long]")
 {
     const Scene scene = under_glass(0.07f);
     RenderOptions options = options_of(16);

@@ -139,7 +139,7 @@ double measured_error(const Scene& scene, const Candidate& candidate)
 
 }  // namespace
 
-TEST_CASE("a pilot predicts errors of renders with other numbers of light paths", "[pilot]")
+TEST_CASE("a pilot predicts errors of renders with other numbers of light paths", "[pilot][long]")
 {
     const Scene scene = indirect_room();
     const PilotResult pilot = pilot_of(scene, inside(), small());

@@ -51,7 +51,7 @@ const EnvironmentLight& environment(const World& world)
 
 }  // namespace
 
-TEST_CASE("nothing blocks light from where nothing is known to stand", "[ground]")
+TEST_CASE("nothing blocks light from where nothing is known to stand", "[ground][long]")
 {
     // At its height some things are below the ground or reach through it.
     const auto [builder, height] = GENERATE(std::pair{table(), 0.0f}, std::pair{table(), 0.25f},

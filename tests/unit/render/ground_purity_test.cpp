@@ -90,7 +90,8 @@ TEST_CASE("the shadow on the ground is pure, and the same for every integrator",
     CHECK_FALSE(render(scene, view, o).aovs == whole.aovs);
 }
 
-TEST_CASE("pixels beside the scene skip rays that find no shadow, and no bit changes", "[purity][ground]")
+TEST_CASE("pixels beside the scene skip rays that find no shadow, and no bit changes",
+          "[purity][ground][long]")
 {
     SceneBuilder builder;
     builder.quad({-1.0f, 1.0f, 0.6f}, {1.0f, 1.0f, 0.6f}, {1.0f, 1.0f, -0.6f}, {-1.0f, 1.0f, -0.6f},

@@ -86,7 +86,8 @@ TEST_CASE("cards are the same on any number of threads, and none where nothing i
     CHECK(white_cards(scene, camera_at({0, 0, 4}, {0, 0, 8}, 0.8f)).empty());
 }
 
-TEST_CASE("cards of few paths have the same mean as those of many, and more noise", "[light_meter]")
+TEST_CASE("cards of few paths have the same mean as those of many, and more noise",
+          "[light_meter][long]")
 {
     SceneBuilder builder;
     const MaterialDesc wall = lambertian(Rgb(0.7f));

@@ -65,7 +65,7 @@ TEST_CASE("noise is the deviation of pixels over their mean", "[noise]")
     CHECK(estimate_noise(noisy_film(grey, From::light)) == Approx(1.07 * expected).epsilon(0.03));
 }
 
-TEST_CASE("noise is that of nearly all tiles", "[noise]")
+TEST_CASE("noise is that of nearly all tiles", "[noise][long]")
 {
     const auto some = [](int one_of) {
         return [one_of](int tile) { return Grey{.deviation = tile % one_of == 0 ? 0.4 : 0.04}; };
@@ -190,7 +190,7 @@ double relative_square_error(const Image& image, const Image& reference)
     return error / pixels / (mean * mean / pixels / pixels);
 }
 
-TEST_CASE("noise is the true error, as references have it", "[noise]")
+TEST_CASE("noise is the true error, as references have it", "[noise][long]")
 {
     SceneBuilder builder;
     builder.walls(lambertian(Rgb(0.7f)), plastic(Rgb(0.6f), 0.4f));
@@ -257,7 +257,7 @@ TEST_CASE("a render stops at a level of noise, whatever the threads and passes",
     }
 }
 
-TEST_CASE("a render that stops and goes on stops at the same level of noise", "[noise]")
+TEST_CASE("a render that stops and goes on stops at the same level of noise", "[noise][long]")
 {
     const Scene scene = room();
     RenderOptions o = options(IntegratorKind::bdpt, 7);

@@ -139,7 +139,7 @@ TEST_CASE("shares of all strategies sum to one and are those behind the weight",
 }
 
 TEST_CASE("paths are known to scatter in a body: they bring what a body without scattering lacks",
-          "[paths][media]")
+          "[paths][media][long]")
 {
     const auto integrator = GENERATE(IntegratorKind::bdpt, IntegratorKind::lt);
     CAPTURE(static_cast<int>(integrator));

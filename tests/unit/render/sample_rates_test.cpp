@@ -95,7 +95,7 @@ std::string refusal(const Scene& scene, const RenderOptions& options)
 
 }  // namespace
 
-TEST_CASE("rates of one each change no bit", "[rates]")
+TEST_CASE("rates of one each change no bit", "[rates][long]")
 {
     const Scene scene = room();
     for (const RenderOptions& o : kinds()) {
@@ -107,7 +107,7 @@ TEST_CASE("rates of one each change no bit", "[rates]")
     }
 }
 
-TEST_CASE("renders with rates are pure", "[rates]")
+TEST_CASE("renders with rates are pure", "[rates][long]")
 {
     const Scene scene = room();
     for (const RenderOptions& kind : kinds()) {

@@ -357,7 +357,8 @@ TEST_CASE("an edited scene has the bits of one that is built from its descriptio
     CHECK(before.identity == after.identity);
 }
 
-TEST_CASE("edits of edited scenes have their bits, too, when the scenes before are gone", "[edit]")
+TEST_CASE("edits of edited scenes have their bits, too, when the scenes before are gone",
+          "[edit][long]")
 {
     Scene scene(all_kinds());
     const RenderResult first_part = rendered(scene, IntegratorKind::bdpt);

@@ -137,7 +137,8 @@ TEST_CASE("ratio tracking lets through what the optical depth says", "[volume]")
     CHECK(opaque >= 2);
 }
 
-TEST_CASE("delta tracking stops where the extinction is, and gets through as often", "[volume]")
+TEST_CASE("delta tracking stops where the extinction is, and gets through as often",
+          "[volume][long]")
 {
     // Grey and coloured: what walks bring is what light loses, in all channels.
     VolumeDesc grey = smoke();

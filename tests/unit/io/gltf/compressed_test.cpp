@@ -327,7 +327,7 @@ TEST_CASE("broken descriptions of compressed data are refused by name")
     }
 }
 
-TEST_CASE("any changed byte of compressed data is an error or a mesh, mostly another one")
+TEST_CASE("any changed byte of compressed data is an error or a mesh, mostly another one", "[long]")
 {
     for (const char* name : {"wave-draco.glb", "wave-draco-sequential.glb", "wave-meshopt.glb"}) {
         CAPTURE(name);

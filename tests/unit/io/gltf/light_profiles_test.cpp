@@ -351,7 +351,8 @@ TEST_CASE("light profiles that are wrong are refused by line and value")
     }
 }
 
-TEST_CASE("light profiles are files, data or views, each read once and only if it is used")
+TEST_CASE("light profiles are files, data or views, each read once and only if it is used",
+          "[long]")
 {
     const std::string text = IesText{}.text();
     GltfFixture fixture = with_profiles({{{"uri", "some%20lamps/a.ies"}}, {{"uri", "none.ies"}}});

@@ -561,7 +561,7 @@ TEST_CASE("textures of real models are decoded as the transcoder of Basis Univer
     CHECK(warns(lamp.warnings, {"VkFormat 23, not Basis Universal", "2 more"}));
 }
 
-TEST_CASE("broken KTX2 images do no harm to libktx's caller")
+TEST_CASE("broken KTX2 images do no harm to libktx's caller", "[long]")
 {
     const auto library = real_library();
     if (!library) {

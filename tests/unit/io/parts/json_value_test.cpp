@@ -118,7 +118,7 @@ TEST_CASE("only regular files of a sensible size are read", "[json]")
 
 // The time limit of tests is what these fail by: with the square of the numbers they take hours.
 
-TEST_CASE("objects of a million keys are read in time", "[json]")
+TEST_CASE("objects of a million keys are read in time", "[json][long]")
 {
     std::string text = "{";
     for (int i = 0; i < 1'000'000; ++i) {

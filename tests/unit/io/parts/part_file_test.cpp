@@ -249,7 +249,7 @@ void write_sealed(const std::filesystem::path& path, std::string_view bytes)
     file.commit();
 }
 
-TEST_CASE("a part file that lies about itself is refused before it costs memory", "[part]")
+TEST_CASE("a part file that lies about itself is refused before it costs memory", "[part][long]")
 {
     const ScratchFolder folder;
     write_part(folder / "a.part.exr", part_of(options(), {.begin = 0, .end = 2}), notes(),

@@ -99,7 +99,7 @@ TEST_CASE("each number in the header of a part is checked before it is converted
 }
 
 // The time limit of tests is what this fails by: with the square of the numbers it takes hours.
-TEST_CASE("headers of a million components and ranges are read in time", "[part]")
+TEST_CASE("headers of a million components and ranges are read in time", "[part][long]")
 {
     PartHeader large = header();
     std::string ranges;

@@ -40,7 +40,7 @@ std::uint64_t peak_of_children()
 
 }  // namespace
 
-TEST_CASE("broken OpenVDB files are refused or read, and do no harm", "[volume]")
+TEST_CASE("broken OpenVDB files are refused or read, and do no harm", "[volume][long]")
 {
     VdbFiles files;
     auto other = small_grid();

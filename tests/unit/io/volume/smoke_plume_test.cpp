@@ -24,7 +24,7 @@ TEST_CASE("write scenes/smoke.vdb", "[.write-smoke]")
     out.write({smoke_plume()});
 }
 
-TEST_CASE("scenes/smoke.vdb is what this program writes", "[volume]")
+TEST_CASE("scenes/smoke.vdb is what this program writes", "[volume][long]")
 {
     openvdb::initialize();
     CHECK(std::filesystem::file_size(file) < 150'000);

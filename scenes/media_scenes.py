@@ -92,12 +92,13 @@ def body(ior, attenuation, scattered, anisotropy=0.0):
 
 
 def tea_glass(title):
-    """Leaves a tiny gap of air between tea and glass: nested media must not overlap partly, or rays from glass to glass
-    would ignore the tea."""
+    """Lets the tea share faces with its glass, which it wets."""
     gltf = table(title, lamp=((-0.35, 0.5, -0.12), 0.14, (420, 390, 340)))
-    tumbler = filleted([(0, 0.012, 0), (0.032, 0.012, 0.008), (0.038, 0.1, 0.0008), (0.041, 0.1, 0.0008),
-                        (0.036, 0, 0.003), (0, 0, 0)])
-    tea = filleted([(0, 0.075, 0), (0.0359, 0.075, 0.0006), (0.0319, 0.0122, 0.0078), (0, 0.0122, 0)])
+    bottom, level, rim = 0.012, 0.075, 0.1
+    at_level = 0.032 + (level - bottom) / (rim - bottom) * (0.038 - 0.032)
+    tumbler = filleted([(0, bottom, 0), (0.032, bottom, 0.008), (at_level, level, 0), (0.038, rim, 0.0008),
+                        (0.041, rim, 0.0008), (0.036, 0, 0.003), (0, 0, 0)])
+    tea = filleted([(0, level, 0), (at_level, level, 0), (0.032, bottom, 0.008), (0, bottom, 0)])
     liquid = gltf.material("tea", (1, 1, 1), roughness=0, extensions={
         "transmission": {"transmissionFactor": 1},
         **body(1.33, ((0.78, 0.33, 0.08), 0.03), (0.4, 0.18, 0.06), 0.6)})

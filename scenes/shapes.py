@@ -139,8 +139,9 @@ def filleted(corners, steps=4, closed=False):
             continue
         back, side = radius * math.tan(abs(turn) / 2), math.copysign(radius, turn)
         centre = (r - back * before[0] + side * left[0], y - back * before[1] + side * left[1])
-        for k in range(steps + 1):
-            n = turned(left, turn * k / steps)
+        parts = steps if radius > 0 else 1
+        for k in range(parts + 1):
+            n = turned(left, turn * k / parts)
             outline.append((centre[0] - side * n[0], centre[1] - side * n[1], *n))
     return outline
 
@@ -157,6 +158,8 @@ def lathe(outline, segments, closed=False):
         here, there = i * count, (i + 1) % segments * count
         for k in range(count if closed else count - 1):
             m = (k + 1) % count
+            if outline[k][:2] == outline[m][:2]:
+                continue  # the two normals of a sharp edge
             if outline[m][0] > 0:
                 triangles.append((here + k, here + m, there + m))
             if outline[k][0] > 0:

@@ -342,6 +342,15 @@ void add_view_options(OptionList& options, RenderRequest& request)
                 "Texture filter: bilinear (default) or mip (mip mapping: faster for large "
                 "textures, but blurs them in magnifying mirrors and lenses)",
                 arguments.texture_filter, filters.type());
+    const Choices<ContactKind> kinds{{{"auto", ContactKind::automatic},
+                                      {"air", ContactKind::air},
+                                      {"bonded", ContactKind::bonded}}};
+    options.add(
+        "--contacts", choice_text(kinds.words()),
+        "Between bodies of glass that touch: air (a thin film: two boundaries), bonded (one "
+        "boundary) or auto (default: bonded if their indices of refraction differ, like "
+        "those of a liquid and its glass, else air)",
+        arguments.contacts, kinds.type());
     options.section("What to render", of_view);
     add_lens_options(options, arguments.lens);
 }

@@ -73,6 +73,7 @@ struct RenderArguments {
     io::MemoryLimit memory{};                  ///< for scene and film
     std::optional<std::string> environment{};  ///< a file, or "none", "default" or "studio"
     TextureFilter texture_filter = TextureFilter::bilinear;
+    ContactKind contacts = ContactKind::automatic;
     EnvironmentChange environment_change{};  ///< applied to whichever environment it is
     std::optional<MediumDesc> fog{};         ///< around all bodies, if any
     std::optional<VolumeChoice> volume{};    ///< in the scene, if any

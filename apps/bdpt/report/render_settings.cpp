@@ -113,6 +113,9 @@ ordered_json make_settings(const RenderArguments& arguments, const PreparedScene
     if (arguments.texture_filter == TextureFilter::mip_mapped) {
         settings["texture_filter"] = "mip";
     }
+    if (arguments.contacts != ContactKind::automatic) {
+        settings["contacts"] = arguments.contacts == ContactKind::bonded ? "bonded" : "air";
+    }
     const FilterOptions& filter = options.film.filter;
     settings["filter"] = to_name(filter.kind);
     settings["filter_radius"] = filter.radius.value_or(default_radius(filter.kind));

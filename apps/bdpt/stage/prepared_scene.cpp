@@ -296,6 +296,7 @@ PreparedScene prepare_scene(const RenderArguments& asked)
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
 
     loaded.scene.texture_filter = arguments.texture_filter;
+    loaded.scene.contacts = arguments.contacts;
     loaded.scene.fog = arguments.fog;
     if (volume) {
         volume->volume.world_from_grid[3] =
@@ -316,9 +317,15 @@ PreparedScene prepare_scene(const RenderArguments& asked)
     }
     warnings.insert(warnings.end(), lit.warnings.begin(), lit.warnings.end());
     if (const std::size_t pairs = scene.counts().contacts) {
+        const std::size_t bonds = scene.counts().bonds;
         lit.notes.push_back(
-            {"contacts", fmt::format("{}: {} of bodies touch: a thin film of air is between them",
-                                     file, counted(pairs, "pair"))});
+            {"contacts",
+             fmt::format("{}: {} of bodies touch: {}", file, counted(pairs, "pair"),
+                         bonds == 0       ? "a thin film of air is between them"
+                         : bonds == pairs ? "they are bonded"
+                                          : fmt::format("{} bonded, a thin film of air is between "
+                                                        "the others",
+                                                        bonds))});
     }
     if (!from_file && !arguments.camera && !arguments.view.from && !arguments.view.frames()) {
         lit.notes.push_back(

@@ -43,6 +43,7 @@ struct SceneCounts {
     std::size_t emissive_triangles = 0;
     std::size_t lights = 0;    ///< emissive triangles and all other lights
     std::size_t contacts = 0;  ///< pairs of instances that touch; one of each refracts or emits
+    std::size_t bonds = 0;     ///< those of them that share a boundary (`ContactKind::bonded`)
 };
 
 /// A scene that is ready to trace: validated, with its Embree BVH built, immutable and safe to

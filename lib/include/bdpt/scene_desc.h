@@ -76,6 +76,17 @@ enum class TextureFilter : std::uint8_t {
     mip_mapped,
 };
 
+/// What is between the faces of two bodies that refract, where these touch.
+enum class ContactKind : std::uint8_t {
+    /// `bonded` where their indices of refraction differ (a liquid in its glass, cemented lenses),
+    /// else `air` (panes, bricks).
+    automatic,
+    air,  ///< a thin film of air: two boundaries
+    /// Nothing: one boundary, with the surface of the body that comes first. Where faces touch in
+    /// part, move, shine or have alpha, there is air.
+    bonded,
+};
+
 /// The whole scene as plain data: the output of loaders and the input of `Scene`. Emissive
 /// triangles are lights by their material.
 struct SceneDesc {
@@ -86,6 +97,7 @@ struct SceneDesc {
     std::vector<LightProfile> profiles;
     std::vector<LightDesc> lights;  ///< at most one environment
     TextureFilter texture_filter = TextureFilter::bilinear;
+    ContactKind contacts = ContactKind::automatic;
     /// Medium outside of all bodies; it fills the bounding sphere of the scene.
     std::optional<MediumDesc> fog{};
     std::vector<VolumeDesc> volumes{};
@@ -141,7 +153,8 @@ inline constexpr auto fields<SceneDesc> =
     all_fields(Field{"images", &SceneDesc::images}, Field{"materials", &SceneDesc::materials},
                Field{"meshes", &SceneDesc::meshes}, Field{"instances", &SceneDesc::instances},
                Field{"profiles", &SceneDesc::profiles}, Field{"lights", &SceneDesc::lights},
-               Field{"texture filter", &SceneDesc::texture_filter}, Field{"fog", &SceneDesc::fog},
+               Field{"texture filter", &SceneDesc::texture_filter},
+               Field{"contacts", &SceneDesc::contacts}, Field{"fog", &SceneDesc::fog},
                Field{"volumes", &SceneDesc::volumes}, Field{"origin", &SceneDesc::origin});
 /// Fields of `CameraDesc`, with names and limits.
 template <>

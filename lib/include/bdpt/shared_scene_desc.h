@@ -81,8 +81,8 @@ struct BDPT_EXPORT SharedSceneDesc {
     /// Returns all members, in the order of those of `SceneDesc`.
     [[nodiscard]] auto members() const
     {
-        return std::tie(images, materials, meshes, instances, profiles, lights, texture_filter, fog,
-                        volumes, origin);
+        return std::tie(images, materials, meshes, instances, profiles, lights, texture_filter,
+                        contacts, fog, volumes, origin);
     }
 
     SharedList<TexelImage> images;
@@ -92,6 +92,7 @@ struct BDPT_EXPORT SharedSceneDesc {
     SharedList<LightProfile> profiles;
     SharedList<LightDesc> lights;
     TextureFilter texture_filter = TextureFilter::bilinear;
+    ContactKind contacts = ContactKind::automatic;
     std::optional<MediumDesc> fog{};
     SharedList<VolumeDesc> volumes;
     DVec3 origin{0.0};

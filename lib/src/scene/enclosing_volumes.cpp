@@ -110,10 +110,12 @@ std::uint32_t probed(std::size_t probe, std::uint32_t count)
 
 EnclosingVolumes::EnclosingVolumes(std::span<const PlacedMesh> placed,
                                    std::vector<std::uint32_t> instances,
-                                   std::span<const Sphere> spheres, const EmbreeScene& embree)
+                                   std::span<const Sphere> spheres, const EmbreeScene& embree,
+                                   std::span<const Bond> bonds)
     : placed_(placed),
       spheres_(spheres),
       embree_(embree, embree.filter()),
+      bonds_(bonds),
       instances_(std::move(instances)),
       volume_of_instance_(placed.size()),
       all_(instances_.size()),
@@ -148,12 +150,18 @@ EnclosingVolumes::Set EnclosingVolumes::left_by(Vec3 origin, Vec3 direction,
             continue;
         }
         const Vec3 normal = hit->at.ng;
-        if (const auto body = volume_of_instance_[hit->instance]) {
-            const auto place = std::lower_bound(bodies.begin(), bodies.end(), *body);
-            if (place != bodies.end() && *place == *body) {
-                balance[static_cast<std::size_t>(place - bodies.begin())] +=
-                    dot(normal, direction) > 0.0f ? 1 : -1;
+        const auto leave = [&](std::uint32_t instance, int times) {
+            if (const auto body = volume_of_instance_[instance]) {
+                const auto place = std::lower_bound(bodies.begin(), bodies.end(), *body);
+                if (place != bodies.end() && *place == *body) {
+                    balance[static_cast<std::size_t>(place - bodies.begin())] += times;
+                }
             }
+        };
+        const int times = dot(normal, direction) > 0.0f ? 1 : -1;
+        leave(hit->instance, times);
+        if (const Bond* bond = find_bond(bonds_, hit->instance, hit->triangle)) {
+            leave(bond->partner, -times);
         }
         ray.origin = offset_origin(hit->at.point.p, hit->at.point.error, normal, direction);
     }
@@ -197,8 +205,7 @@ EnclosingVolumes::Set EnclosingVolumes::containing(Vec3 p, Set bodies) const
     Set result = voted(p, bodies);
     if (result.size() > max_depth) {
         throw Error(ErrorCode::invalid_input,
-                    std::to_string(result.size()) +
-                        " transmissive bodies are nested at (" +
+                    std::to_string(result.size()) + " transmissive bodies are nested at (" +
                         std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
                         std::to_string(p.z) + "), but the limit is " + std::to_string(max_depth));
     }

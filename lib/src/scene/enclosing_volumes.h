@@ -3,6 +3,7 @@
 #include "geometry/embree_scene.h"
 #include "geometry/placed_mesh.h"
 #include "geometry/sphere.h"
+#include "scene/contacts/bonds.h"
 
 #include <bdpt/scene.h>
 
@@ -26,10 +27,11 @@ public:
     static constexpr std::size_t max_depth = 64;
 
     /// `instances` are those whose meshes bound bodies, `most` at most. All other arguments must
-    /// outlive this, except `embree`, whose filter must only if it concerns any mesh. Throws
-    /// `Error` (invalid_input) if more than `max_depth` bodies are nested.
+    /// outlive this, except `embree`, whose filter must only if it concerns any mesh. `bonds` are
+    /// sorted. Throws `Error` (invalid_input) if more than `max_depth` bodies are nested.
     EnclosingVolumes(std::span<const PlacedMesh> placed, std::vector<std::uint32_t> instances,
-                     std::span<const Sphere> spheres, const EmbreeScene& embree);
+                     std::span<const Sphere> spheres, const EmbreeScene& embree,
+                     std::span<const Bond> bonds = {});
 
     /// Returns for each instance the innermost other body that contains all of it, determined by
     /// points on its front all over the mesh.
@@ -50,6 +52,7 @@ private:
     std::span<const PlacedMesh> placed_;
     std::span<const Sphere> spheres_;
     EmbreeScene embree_;
+    std::span<const Bond> bonds_;
     std::vector<std::uint32_t> instances_;
     std::vector<std::optional<std::size_t>> volume_of_instance_;
     Set all_;

@@ -96,10 +96,11 @@ bool same_sphere(const Sphere& a, const Sphere& b)
 SceneGeometry::SceneGeometry(const SharedSceneDesc& desc, const SceneGeometry* like)
     : meshes(desc.meshes),
       instances(desc.instances),
+      traced(desc.instances),
       lights(desc.lights),
       volumes(desc.volumes),
-      roles(contact_roles(desc)),
-      shells(find_shells(desc, roles,
+      parts(contact_parts(desc)),
+      shells(find_shells(desc, parts,
                          like != nullptr && like->meshes.is_shared_with(desc.meshes)
                              ? like->shells
                              : ShellTable())),
@@ -110,13 +111,23 @@ SceneGeometry::SceneGeometry(const SharedSceneDesc& desc, const SceneGeometry* l
     for (const InstanceDesc& instance : instances) {
         placed.emplace_back(meshes[static_cast<std::size_t>(instance.mesh)], instance);
     }
-    contacts = separate_contacts(desc, placed, roles, shells);
+    contacts = separate_contacts(desc, placed, parts, shells);
     counts.contacts = contacts.pairs;
+    counts.bonds = contacts.bonded_pairs;
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const auto mesh = contacts.meshes.find(static_cast<std::size_t>(instances[i].mesh));
         if (mesh != contacts.meshes.end()) {
             placed[i] = PlacedMesh(mesh->second, instances[i]);
         }
+    }
+    if (!contacts.open.empty()) {
+        std::vector<InstanceDesc> own = instances;
+        std::size_t mesh = meshes.size();
+        for (const auto& [i, open] : contacts.open) {
+            own[i].mesh = static_cast<MeshId>(mesh++);
+            placed[i] = PlacedMesh(open, instances[i]);
+        }
+        traced = own;
     }
     boxes.reserve(meshes.size());
     for (const MeshDesc& mesh : meshes) {
@@ -128,13 +139,14 @@ SceneGeometry::SceneGeometry(const SharedSceneDesc& desc, const SceneGeometry* l
 
 bool SceneGeometry::same_contacts(const SharedSceneDesc& desc) const
 {
-    const std::vector<ContactRole> others = contact_roles(desc);
-    if (roles == others) {
+    const std::vector<ContactPart> others = contact_parts(desc);
+    if (parts == others) {
         return true;
     }
     const Contacts found =
         separate_contacts(desc, placed, others, find_shells(desc, others, shells));
-    return contacts.meshes.empty() && found.meshes.empty() && contacts.thin == found.thin;
+    const auto moves_any = [](const Contacts& c) { return !c.meshes.empty() || !c.bonds.empty(); };
+    return !moves_any(contacts) && !moves_any(found) && contacts.thin == found.thin;
 }
 
 bool SceneGeometry::fits(const SharedSceneDesc& desc) const
@@ -150,8 +162,9 @@ bool SceneGeometry::fits(const SharedSceneDesc& desc) const
 void SceneGeometry::build(const AnyHitFilter& filter, Isa isa, const SceneGeometry* like)
 {
     const bool same_meshes = like != nullptr && meshes.is_shared_with(like->meshes) &&
-                             contacts.meshes.empty() && like->contacts.meshes.empty();
-    trees.emplace(instances, placed, meshes.size(), spheres, filter, isa,
+                             contacts.meshes.empty() && like->contacts.meshes.empty() &&
+                             contacts.open.empty() && like->contacts.open.empty();
+    trees.emplace(traced, placed, traced_meshes(), spheres, filter, isa,
                   same_meshes ? &*like->trees : nullptr);
 }
 

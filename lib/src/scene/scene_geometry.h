@@ -33,15 +33,19 @@ struct SceneGeometry {
     [[nodiscard]] bool fits(const SharedSceneDesc& desc) const;
     /// Tests whether the materials of `desc` move the same faces where things touch.
     [[nodiscard]] bool same_contacts(const SharedSceneDesc& desc) const;
+    /// Returns the number of meshes that instances in `traced` refer to.
+    [[nodiscard]] std::size_t traced_meshes() const { return meshes.size() + contacts.open.size(); }
     /// Builds the BVHs, and reuses those of unchanged meshes from `like`.
     void build(const AnyHitFilter& filter, Isa isa, const SceneGeometry* like);
 
     // Data that the other members refer to.
     SharedList<MeshDesc> meshes;
     SharedList<InstanceDesc> instances;
+    /// The instances as BVHs have them: those with an open mesh have one beyond all others.
+    SharedList<InstanceDesc> traced;
     SharedList<LightDesc> lights;
     SharedList<VolumeDesc> volumes;
-    std::vector<ContactRole> roles;  // one per instance
+    std::vector<ContactPart> parts;  // one per instance
     ShellTable shells;               // of meshes that bound bodies, or shine
     Contacts contacts;
 

@@ -13,6 +13,7 @@ SharedSceneDesc::SharedSceneDesc(SceneDesc desc)
       profiles(std::move(desc.profiles)),
       lights(std::move(desc.lights)),
       texture_filter(desc.texture_filter),
+      contacts(desc.contacts),
       fog(desc.fog),
       volumes(std::move(desc.volumes)),
       origin(desc.origin)
@@ -27,6 +28,7 @@ SceneDesc SharedSceneDesc::copy() const
             .profiles = profiles,
             .lights = lights,
             .texture_filter = texture_filter,
+            .contacts = contacts,
             .fog = fog,
             .volumes = volumes,
             .origin = origin};

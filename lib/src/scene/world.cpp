@@ -84,6 +84,18 @@ const Material& World::find_material(std::uint32_t instance) const noexcept
     return materials_[static_cast<std::size_t>(material_ids_[instance])];
 }
 
+const Material& World::find_material(const RayHit& hit) const noexcept
+{
+    if (!bond_materials_.empty()) [[unlikely]] {
+        const std::span<const Bond> bonds = geometry_->contacts.bonds;
+        if (const Bond* bond = find_bond(bonds, hit.instance, hit.triangle)) {
+            return materials_[static_cast<std::size_t>(
+                bond_materials_[static_cast<std::size_t>(bond - bonds.data())])];
+        }
+    }
+    return find_material(hit.instance);
+}
+
 bool World::may_be_passed(std::uint32_t instance) const noexcept
 {
     const Material& material = find_material(instance);
@@ -208,7 +220,7 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) 
 Bsdf World::varying_bsdf(const RayHit& hit, const ShadingNormals& normals, Vec3 wo,
                          SegmentKey segment, const PixelCone& pixel) const noexcept
 {
-    const Material& material = find_material(hit.instance);
+    const Material& material = find_material(hit);
     if (const ClearSheet* sheet = material.clear_sheet()) {
         return {normals.ng, Frame::from_normal(normals.ns), wo, *sheet};
     }
@@ -247,7 +259,7 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
                                const PixelCone& pixel) const noexcept
 {
     const PlacedMesh& mesh = placed_[hit.instance];
-    const Material& material = find_material(hit.instance);
+    const Material& material = find_material(hit);
 
     const Vec3 wo = -direction;
     // By components, to keep them in registers.
@@ -293,7 +305,7 @@ SegmentEnd World::end_at(const RayHit& hit, Vec3 direction, float time) const no
     return {.p = hit.at.point.p,
             .error = hit.at.point.error,
             .ng = hit.at.ng != Vec3(0.0f) ? hit.at.ng : -direction,
-            .media = find_material(hit.instance).media()};
+            .media = find_material(hit).media()};
 }
 
 SurfacePoint World::medium_point(const SegmentEnd& from, Vec3 direction,

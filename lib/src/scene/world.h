@@ -150,6 +150,7 @@ private:
     friend class WorldBuilder;
 
     [[nodiscard]] const Material& find_material(std::uint32_t instance) const noexcept;
+    [[nodiscard]] const Material& find_material(const RayHit& hit) const noexcept;
     /// Returns the unit normal for shading, on the side of `ng`; arguments as in `PlacedMesh`.
     [[nodiscard]] Vec3 shading_normal(const PlacedMesh& mesh, std::uint32_t triangle,
                                       Vec2 barycentrics, Vec3 ng, float time) const noexcept;
@@ -205,7 +206,8 @@ private:
     std::shared_ptr<std::vector<Material>> all_materials_;
     std::span<const Material> materials_;  // view of `all_materials_`
     std::vector<MaterialSource> material_sources_;
-    std::vector<MaterialId> material_ids_;  // one per instance: surroundings matter, too
+    std::vector<MaterialId> material_ids_;    // one per instance: surroundings matter, too
+    std::vector<MaterialId> bond_materials_;  // one per bond of the geometry
     bool disperses_ = false;
     bool moves_ = false;
     bool has_passable_surfaces_ = false;

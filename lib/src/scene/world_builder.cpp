@@ -62,6 +62,7 @@ void WorldBuilder::build(Isa isa)
     }
     w.warnings_ = precision_warnings(w.desc_, *w.geometry_);
     find_enclosing_volumes();
+    give_bonds();
     measure_bodies();
     add_lights();
 }
@@ -73,7 +74,7 @@ void WorldBuilder::build_trees(Isa isa)
     const AnyHitFilter filter = w.any_hit_filter();
     if (!own_geometry_ &&
         w.geometry_->trees->filtered() !=
-            filtered_meshes(w.desc_.instances.values(), w.desc_.meshes.size(), filter)) {
+            filtered_meshes(w.geometry_->traced.values(), w.geometry_->traced_meshes(), filter)) {
         own_geometry_ = std::make_shared<SceneGeometry>(
             w.desc_, like_ != nullptr ? like_->geometry_.get() : nullptr);
         w.set_geometry(own_geometry_);

@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace bdpt {
@@ -49,11 +51,16 @@ private:
     /// Adds materials by their surroundings. `around` holds for each instance the one that contains
     /// it, if any.
     void give_surroundings(const std::vector<std::optional<std::uint32_t>>& around);
+    /// Adds materials for triangles whose outside is a body that is bonded to theirs.
+    void give_bonds();
+    /// Returns the material `own` with the inside of `outer` around it; adds it if it is new.
+    [[nodiscard]] MaterialId material_within(MaterialId own, MaterialId outer);
     /// Tells the media how large the bodies are that they fill; after materials know their
     /// surroundings.
     void measure_bodies();
 
     World& world_;
+    std::map<std::pair<MaterialId, MaterialId>, MaterialId> within_;  // by `own` and `outer`
     const World* like_;
     std::shared_ptr<SceneGeometry> own_geometry_;  // null if the geometry is that of `like_`
     std::vector<bool> is_known_desc_;              // by material description: unchanged since

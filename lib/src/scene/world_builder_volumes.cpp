@@ -54,7 +54,8 @@ std::shared_ptr<const World::Bodies> WorldBuilder::find_bodies(
     }
     const auto bodies = std::make_shared<World::Bodies>();
     bodies->instances = instances;
-    bodies->volumes.emplace(w.placed_, std::move(instances), w.geometry_->spheres, *w.embree_);
+    bodies->volumes.emplace(w.placed_, std::move(instances), w.geometry_->spheres, *w.embree_,
+                            w.geometry_->contacts.bonds);
     bodies->around = bodies->volumes->around_all();
     return bodies;
 }
@@ -63,27 +64,38 @@ std::shared_ptr<const World::Bodies> WorldBuilder::find_bodies(
 /// needs to keep track of enclosing bodies.
 void WorldBuilder::give_surroundings(const std::vector<std::optional<std::uint32_t>>& around)
 {
-    const SharedSceneDesc& scene = world_.desc_;
-    std::map<std::pair<MaterialId, MaterialId>, MaterialId> nested;
+    const SharedList<InstanceDesc>& instances = world_.desc_.instances;
     for (std::size_t i = 0; i < around.size(); ++i) {
-        if (!around[i]) {
-            continue;
+        if (around[i]) {
+            world_.material_ids_[i] =
+                material_within(instances[i].material, instances[*around[i]].material);
         }
-        const MaterialId own = scene.instances[i].material;
-        const MaterialId outer = scene.instances[*around[i]].material;
-        const auto number = static_cast<std::size_t>(outer);
-        const Exterior exterior =
-            exterior_within(scene.materials[number], world_.material_sources_[number].within);
-        if (exterior == Exterior{.medium = world_.fog_}) {
-            continue;
-        }
-        const auto [known, is_new] =
-            nested.try_emplace({own, outer}, static_cast<MaterialId>(world_.materials_.size()));
-        if (is_new) {
-            add_material(static_cast<std::size_t>(own), exterior);
-        }
-        world_.material_ids_[i] = known->second;
     }
+}
+
+void WorldBuilder::give_bonds()
+{
+    const SharedList<InstanceDesc>& instances = world_.desc_.instances;
+    for (const Bond& bond : world_.geometry_->contacts.bonds) {
+        world_.bond_materials_.push_back(
+            material_within(instances[bond.instance].material, instances[bond.partner].material));
+    }
+}
+
+MaterialId WorldBuilder::material_within(MaterialId own, MaterialId outer)
+{
+    const auto number = static_cast<std::size_t>(outer);
+    const Exterior exterior =
+        exterior_within(world_.desc_.materials[number], world_.material_sources_[number].within);
+    if (exterior == Exterior{.medium = world_.fog_}) {
+        return own;
+    }
+    const auto [known, is_new] =
+        within_.try_emplace({own, outer}, static_cast<MaterialId>(world_.materials_.size()));
+    if (is_new) {
+        add_material(static_cast<std::size_t>(own), exterior);
+    }
+    return known->second;
 }
 
 void WorldBuilder::measure_bodies()

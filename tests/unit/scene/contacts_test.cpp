@@ -62,6 +62,43 @@ TEST_CASE("faces of bodies move where they touch, and nowhere else", "[contacts]
     }
 }
 
+TEST_CASE("bonded bodies keep one of two faces that coincide", "[contacts]")
+{
+    SceneDesc desc = pile(3, 0.0f).desc;
+    desc.contacts = ContactKind::bonded;
+    const SceneGeometry geometry(desc);
+    const Contacts& contacts = geometry.contacts;
+    CHECK(contacts.pairs == 2);
+    CHECK(contacts.bonded_pairs == 2);
+    CHECK(contacts.meshes.empty());
+    REQUIRE(contacts.bonds.size() == 4);
+    for (const Bond& bond : contacts.bonds) {
+        CHECK(bond.partner == bond.instance + 1);
+    }
+    CHECK_FALSE(contacts.open.contains(0));
+    CHECK(contacts.open.contains(1));
+    CHECK(contacts.open.contains(2));
+
+    // Bodies that move, shine, or have alpha, are not bonded.
+    const auto air = [&desc](const auto& change) {
+        SceneDesc other = desc;
+        change(other);
+        const SceneGeometry found(other);
+        return found.contacts.bonded_pairs == 0 && found.contacts.pairs == 2;
+    };
+    CHECK_FALSE(air([](SceneDesc&) {}));
+    CHECK(air([](SceneDesc& d) { d.contacts = ContactKind::air; }));
+    // By default, bodies are if their indices differ.
+    CHECK(air([](SceneDesc& d) { d.contacts = ContactKind::automatic; }));
+    CHECK_FALSE(air([](SceneDesc& d) {
+        d.contacts = ContactKind::automatic;
+        d.materials[1].ior = 1.33f;
+    }));
+    CHECK(air([](SceneDesc& d) { d.instances[1].motion = {Mat4(2.0f)}; }));
+    CHECK(air([](SceneDesc& d) { d.materials[1].emission = Rgb(1.0f); }));
+    CHECK(air([](SceneDesc& d) { d.materials[1].alpha_mode = AlphaMode::mask; }));
+}
+
 TEST_CASE("opaque things stay where they touch", "[contacts]")
 {
     SceneBuilder builder;

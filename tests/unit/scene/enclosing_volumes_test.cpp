@@ -288,4 +288,30 @@ TEST_CASE("bodies that lie one in the other are found, up to a limit of their nu
     }
 }
 
+TEST_CASE("bonded bodies enclose what they enclosed", "[enclosing]")
+{
+    // Three cubes in a row, with one boundary for each two, and a ball in the middle one.
+    SceneBuilder builder;
+    builder.cube({-2.0f, 0.0f, 0.0f}, 1.0f, medium(of_outer, 1.5f));
+    builder.cube({0.0f, 0.0f, 0.0f}, 1.0f, medium(of_inner, 1.3f));
+    builder.cube({2.0f, 0.0f, 0.0f}, 1.0f, medium(of_outer, 1.5f));
+    builder.cube({0.0f, 0.1f, 0.0f}, 0.3f, medium(Rgb(0.7f), 2.0f));
+    const World world(builder.desc);
+    REQUIRE(world.geometry().contacts.bonded_pairs == 2);
+    check_absorption(world, {-2.0f, 0.3f, 0.2f}, of_outer);
+    check_absorption(world, {0.7f, 0.3f, 0.2f}, of_inner);
+    check_absorption(world, {2.0f, 0.3f, 0.2f}, of_outer);
+    check_absorption(world, {0.1f, 0.2f, 0.1f}, Rgb(0.7f));
+    check_absorption(world, {0.0f, 1.2f, 0.0f}, Rgb(0.0f));
+    check_absorption(world, {3.2f, 0.0f, 0.0f}, Rgb(0.0f));
+    // The ball has the middle cube around it, and so has the boundary of the first.
+    const Media& media = world.media();
+    CHECK(media[met(world, {0.05f, 0.12f, 0.9f}).end.media.ahead].extinction.r ==
+          Approx(of_inner.r));
+    const auto boundary = world.intersect({.p = {-0.5f, 0.7f, 0.3f}}, {-1.0f, 0.0f, 0.0f}, {});
+    REQUIRE(boundary.has_value());
+    CHECK(media[boundary->end.media.ahead].extinction.g == Approx(of_inner.g));
+    CHECK(media[boundary->end.media.behind].extinction.g == Approx(of_outer.g));
+}
+
 }  // namespace bdpt::test::enclosing_volumes_test

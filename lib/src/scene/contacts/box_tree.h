@@ -31,6 +31,7 @@ namespace bdpt {
 /// whose order it takes].
 class BoxTree {
 public:
+    BoxTree() = default;
     explicit BoxTree(std::vector<Bounds> boxes) : boxes_(std::move(boxes))
     {
         if (boxes_.empty()) {

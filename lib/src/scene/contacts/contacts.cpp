@@ -3,12 +3,12 @@
 #include "material/medium.h"
 #include "math/rgb.h"
 #include "scene/contacts/box_tree.h"
+#include "scene/contacts/contact_face.h"
 #include "scene/contacts/mesh_topology.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -19,120 +19,16 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace bdpt {
 namespace {
 
-/// Faces closer than this times the sum of their errors touch.
-constexpr float reach = 1.0f;
-
-/// A triangle in world space.
-struct Face {
-    std::array<Vec3, 3> corners;  ///< counter-clockwise from the front
-    Vec3 normal;                  ///< unit, on the front
-    float error;
-    std::uint32_t instance;
-    std::uint32_t triangle;
-
-    /// Returns its bounds with `errors` times its error around.
-    [[nodiscard]] Bounds box(float errors) const
-    {
-        const float margin = errors * error;
-        return {.min = min(corners[0], min(corners[1], corners[2])) - margin,
-                .max = max(corners[0], max(corners[1], corners[2])) + margin};
-    }
-};
-
-/// Returns the triangle, unless it is so narrow that its normal is noise.
-std::optional<Face> make_face(const PlacedMesh& placed, std::uint32_t instance,
-                              std::uint32_t triangle)
+/// Returns the error of points in a box [m].
+float position_error(const Bounds& box)
 {
-    constexpr float min_height = 16.0f;  // times the error
-    auto corners = placed.corners(triangle, 0.0f);
-    if (placed.front_sign() < 0.0f) {
-        std::swap(corners[1], corners[2]);
-    }
-    const Vec3 normal = placed.area_normal(triangle, 0.0f);
-    const float area = length(normal);
-    const float longest =
-        std::max({distance(corners[0], corners[1]), distance(corners[1], corners[2]),
-                  distance(corners[2], corners[0])});
-    const float error = placed.point(triangle, Vec2(1.0f / 3.0f), 0.0f).error;
-    if (!(area > min_height * error * longest)) {
-        return std::nullopt;
-    }
-    return Face{corners, normal / area, error, instance, triangle};
-}
-
-/// The part of a plane where two triangles overlap: a convex polygon.
-struct Overlap {
-    std::array<Vec3, 9> corners;
-    std::size_t count = 0;
-};
-
-/// Cuts off what lies beyond the edge from `a` to `b` of a triangle with that normal.
-Overlap clipped(const Overlap& shape, Vec3 a, Vec3 b, Vec3 normal)
-{
-    const Vec3 inwards = cross(normal, b - a);
-    Overlap result;
-    for (std::size_t i = 0; i < shape.count; ++i) {
-        const Vec3 p = shape.corners[i];
-        const Vec3 q = shape.corners[(i + 1) % shape.count];
-        const float of_p = dot(p - a, inwards);
-        const float of_q = dot(q - a, inwards);
-        if (of_p >= 0.0f) {
-            result.corners[result.count++] = p;
-        }
-        if ((of_p >= 0.0f) != (of_q >= 0.0f)) {
-            result.corners[result.count++] = p + of_p / (of_p - of_q) * (q - p);
-        }
-    }
-    return result;
-}
-
-/// Returns the part of `b` that lies along the normal of `a` before or behind `a`.
-Overlap overlap_of(const Face& a, const Face& b)
-{
-    Overlap shape;
-    for (const Vec3& corner : b.corners) {
-        shape.corners[shape.count++] = corner;
-    }
-    for (std::size_t i = 0; i < 3 && shape.count > 0; ++i) {
-        shape = clipped(shape, a.corners[i], a.corners[(i + 1) % 3], a.normal);
-    }
-    return shape;
-}
-
-/// Tests whether the faces are parallel and nowhere farther apart than rays can tell, where they
-/// overlap by more than that.
-bool touch(const Face& a, const Face& b)
-{
-    constexpr float max_sine = 0.1f;
-    const Vec3 sine = cross(a.normal, b.normal);
-    if (dot(sine, sine) > max_sine * max_sine) {
-        return false;
-    }
-    const float tolerance = reach * (a.error + b.error);
-    if (std::abs(dot(b.corners[0] - a.corners[0], a.normal)) > tolerance &&
-        std::abs(dot(b.corners[1] - a.corners[0], a.normal)) > tolerance &&
-        std::abs(dot(b.corners[2] - a.corners[0], a.normal)) > tolerance) {
-        return false;
-    }
-    const Overlap shape = overlap_of(a, b);
-    Vec3 twice_area(0.0f);
-    float around = 0.0f;
-    for (std::size_t i = 0; i < shape.count; ++i) {
-        const Vec3 p = shape.corners[i] - shape.corners[0];
-        const Vec3 q = shape.corners[(i + 1) % shape.count] - shape.corners[0];
-        if (std::abs(dot(shape.corners[i] - a.corners[0], a.normal)) > tolerance) {
-            return false;
-        }
-        twice_area += cross(p, q);
-        around += distance(p, q);
-    }
-    return length(twice_area) > 2.0f * tolerance * around;
+    const Vec3 farthest = max(abs(box.min), abs(box.max));
+    return bdpt::position_error(std::max({farthest.x, farthest.y, farthest.z}));
 }
 
 /// A displacement of a face.
@@ -141,18 +37,12 @@ struct Shift {
     float length;    ///< [m]
 };
 
-/// Two faces that touch, by their index in the list of faces.
-struct Touch {
-    std::uint32_t face;
-    std::uint32_t other;
-};
-
 /// The search for contacts in a scene, and what they do.
 class ContactSearch {
 public:
     ContactSearch(const SharedSceneDesc& desc, std::span<const PlacedMesh> placed,
-                  std::span<const ContactRole> roles, const ShellTable& shells)
-        : desc_(desc), placed_(placed), roles_(roles), shells_(shells)
+                  std::span<const ContactPart> parts, const ShellTable& shells)
+        : desc_(desc), placed_(placed), parts_(parts), shells_(shells)
     {}
 
     [[nodiscard]] Contacts run();
@@ -160,45 +50,55 @@ public:
 private:
     [[nodiscard]] std::vector<Bounds> instance_boxes() const;
     /// Appends the faces of an instance that are near another movable shell.
-    [[nodiscard]] std::vector<Face> near_faces(std::uint32_t instance, const BoxTree& boxes) const;
+    [[nodiscard]] std::vector<ContactFace> near_faces(std::uint32_t instance) const;
     /// Finds the faces that move where they touch, and then those which they may touch.
     void find_faces();
-    [[nodiscard]] std::vector<Touch> find_touches(const BoxTree& tree);
+    [[nodiscard]] std::vector<Touch> find_touches();
     /// Returns the distance to the nearest face of the same shell that looks the other way, up to
     /// `farthest`.
-    [[nodiscard]] float thickness(const Face& face, float farthest, const BoxTree& tree) const;
-    [[nodiscard]] const Shells& shells_of(const Face& face) const
+    [[nodiscard]] float thickness(const ContactFace& face, float farthest) const;
+    /// Tests whether faces of the instance may touch each other, or be too near to be told apart.
+    [[nodiscard]] bool may_touch_itself(std::uint32_t instance, const Bounds& box) const;
+    [[nodiscard]] const Shells& shells_of(const ContactFace& face) const
     {
         return *shells_.at(static_cast<std::size_t>(desc_.instances[face.instance].mesh));
     }
-    [[nodiscard]] std::uint32_t shell_of(const Face& face) const
+    [[nodiscard]] bool is_body(const ContactFace& face) const
     {
-        return shells_of(face).of_triangles[face.triangle];
+        return parts_[face.instance].role == ContactRole::body;
     }
-    [[nodiscard]] bool is_one_shell(const Face& a, const Face& b) const
+    [[nodiscard]] bool is_closed(const ContactFace& face) const
     {
-        return a.instance == b.instance && shell_of(a) == shell_of(b);
-    }
-    [[nodiscard]] bool is_closed(const Face& face) const
-    {
-        return shells_of(face).are_closed[shell_of(face)];
+        return shells_of(face).are_closed[face.shell];
     }
     /// Returns how far `face` moves because it touches `other` [m].
-    [[nodiscard]] float shift(const Face& face, const Face& other) const;
-    [[nodiscard]] Vec3 direction(const Face& face) const
+    [[nodiscard]] float shift(const ContactFace& face, const ContactFace& other) const;
+    [[nodiscard]] Vec3 direction(const ContactFace& face) const
     {
-        return roles_[face.instance] == ContactRole::body || is_closed(face) ? -face.normal
-                                                                             : face.normal;
+        return is_body(face) || is_closed(face) ? -face.normal : face.normal;
     }
+    /// Returns which faces are bonded.
+    [[nodiscard]] std::vector<bool> find_bonded_faces(std::span<const Touch> touches) const;
+    /// Keeps the bonded faces of the first of two shells as their boundary, and drops the others.
+    void bond(std::span<const Touch> touches, const std::vector<bool>& bonded,
+              Contacts& result) const;
     [[nodiscard]] MeshDesc moved(std::size_t mesh,
                                  const std::map<std::uint32_t, Shift>& shifts) const;
 
     const SharedSceneDesc& desc_;
     std::span<const PlacedMesh> placed_;
-    std::span<const ContactRole> roles_;
+    std::span<const ContactPart> parts_;
     const ShellTable& shells_;
-    std::vector<Face> faces_;
-    std::size_t movable_ = 0;                 // number of faces that may move, the first of all
+    std::vector<ContactFace> faces_;
+    std::size_t movable_ = 0;  // number of faces that may move, the first of all
+    /// The faces of an instance.
+    struct Group {
+        std::uint32_t begin = 0;  // index of the first
+        bool touches_itself = false;
+        BoxTree tree;
+    };
+    std::vector<Group> groups_;               // by instance
+    BoxTree boxes_;                           // of the instances
     std::vector<std::atomic<bool>> is_thin_;  // by instance
 };
 
@@ -217,43 +117,96 @@ std::vector<Bounds> ContactSearch::instance_boxes() const
     return boxes;
 }
 
-std::vector<Face> ContactSearch::near_faces(std::uint32_t instance, const BoxTree& boxes) const
+std::vector<ContactFace> ContactSearch::near_faces(std::uint32_t instance) const
 {
-    constexpr float margin = 32.0f;     // errors: opposite faces of a thin body belong to it
-    constexpr float max_exact = 1e-5f;  // error in sizes of a body whose thickness is asked for
-    const bool is_movable = roles_[instance] != ContactRole::sheet;
-    const auto mesh = static_cast<std::size_t>(desc_.instances[instance].mesh);
-    const Bounds& own = boxes.boxes()[instance];
-    const Vec3 reach_of_own = max(abs(own.min), abs(own.max));
-    const float error = position_error(std::max({reach_of_own.x, reach_of_own.y, reach_of_own.z}));
-    const bool all = is_movable && (shells_.at(mesh)->are_closed.size() > 1 ||
-                                    error > max_exact * distance(own.min, own.max));
-    std::vector<Face> faces;
-    for (std::uint32_t t = 0; t < placed_[instance].triangle_count(); ++t) {
-        const auto face = make_face(placed_[instance], instance, t);
-        bool is_near = all;
-        if (face && !all) {
-            boxes.find(face->box(margin), [&](std::uint32_t other) {
-                is_near = other != instance && (is_movable || roles_[other] != ContactRole::sheet);
-                return !is_near;
-            });
+    constexpr float margin = 32.0f;  // errors: opposite faces of a thin body belong to it
+    constexpr std::uint32_t block_size = 65536;
+    const PlacedMesh& placed = placed_[instance];
+    const bool is_movable = parts_[instance].role != ContactRole::sheet;
+    const bool all = groups_[instance].touches_itself;
+    const Bounds& own = boxes_.boxes()[instance];
+    const float far = margin * position_error(own);
+    std::optional<Bounds> region;  // around all that the instance may touch
+    boxes_.find({.min = own.min - far, .max = own.max + far}, [&](std::uint32_t other) {
+        if (other != instance && (is_movable || parts_[other].role != ContactRole::sheet)) {
+            const Bounds& box = boxes_.boxes()[other];
+            region = region ? joined(*region, box) : box;
         }
-        if (face && is_near) {
-            faces.push_back(*face);
+        return true;
+    });
+    if (!region && !all) {
+        return {};
+    }
+    const auto find_in = [&](std::uint32_t begin, std::uint32_t end) {
+        std::vector<ContactFace> faces;
+        for (std::uint32_t t = begin; t < end; ++t) {
+            const auto corners = placed.corners(t, 0.0f);
+            if (!all && !overlap(box_around(corners, far), *region)) {
+                continue;
+            }
+            auto face = make_face(placed, instance, t);
+            if (!face) {
+                continue;
+            }
+            bool is_near = all;
+            if (!all) {
+                boxes_.find(face->box(margin), [&](std::uint32_t other) {
+                    is_near = other != instance &&
+                              (is_movable || parts_[other].role != ContactRole::sheet);
+                    return !is_near;
+                });
+            }
+            if (is_near) {
+                face->shell = is_movable ? shells_of(*face).of_triangles[t] : 0;
+                faces.push_back(*face);
+            }
         }
+        return faces;
+    };
+    const std::uint32_t count = placed.triangle_count();
+    std::vector<std::vector<ContactFace>> blocks(count / block_size + 1);
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+        const auto begin = static_cast<std::uint32_t>(block) * block_size;
+        blocks[block] = find_in(begin, begin + std::min(block_size, count - begin));
+    });
+    std::vector<ContactFace> faces = std::move(blocks.front());
+    for (std::size_t block = 1; block < blocks.size(); ++block) {
+        faces.insert(faces.end(), blocks[block].begin(), blocks[block].end());
     }
     return faces;
 }
 
+bool ContactSearch::may_touch_itself(std::uint32_t instance, const Bounds& box) const
+{
+    constexpr float max_exact = 1e-5f;  // error in sizes of a body whose thickness is asked for
+    if (parts_[instance].role == ContactRole::sheet) {
+        return false;
+    }
+    const auto mesh = static_cast<std::size_t>(desc_.instances[instance].mesh);
+    return shells_.at(mesh)->are_closed.size() > 1 ||
+           position_error(box) > max_exact * distance(box.min, box.max);
+}
+
 void ContactSearch::find_faces()
 {
-    const BoxTree boxes(instance_boxes());
-    std::vector<std::vector<Face>> near(placed_.size());
-    tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(placed_.size()),
-                      [&](std::uint32_t i) { near[i] = near_faces(i, boxes); });
+    boxes_ = BoxTree(instance_boxes());
+    const auto count = static_cast<std::uint32_t>(placed_.size());
+    groups_.resize(count);
+    std::vector<std::vector<ContactFace>> near(count);
+    tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t i) {
+        groups_[i].touches_itself = may_touch_itself(i, boxes_.boxes()[i]);
+        near[i] = near_faces(i);
+        std::vector<Bounds> boxes;
+        boxes.reserve(near[i].size());
+        for (const ContactFace& face : near[i]) {
+            boxes.push_back(face.box(2.0f));
+        }
+        groups_[i].tree = BoxTree(std::move(boxes));
+    });
     const auto append = [&](bool movable) {
-        for (std::size_t i = 0; i < placed_.size(); ++i) {
-            if ((roles_[i] != ContactRole::sheet) == movable) {
+        for (std::size_t i = 0; i < count; ++i) {
+            if ((parts_[i].role != ContactRole::sheet) == movable) {
+                groups_[i].begin = static_cast<std::uint32_t>(faces_.size());
                 faces_.insert(faces_.end(), near[i].begin(), near[i].end());
             }
         }
@@ -263,24 +216,40 @@ void ContactSearch::find_faces()
     append(false);
 }
 
-std::vector<Touch> ContactSearch::find_touches(const BoxTree& tree)
+std::vector<Touch> ContactSearch::find_touches()
 {
-    // More faces at one place are z-fighting; the order of the tree decides which are compared.
+    // More faces at one place are z-fighting; the order of the trees decides which are compared.
     constexpr int max_comparisons = 1024;
     constexpr std::size_t max_touches = 64;
     std::vector<std::vector<Touch>> of_faces(movable_);
     tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(movable_), [&](std::uint32_t i) {
-        const Face& face = faces_[i];
+        const ContactFace& face = faces_[i];
         int comparisons = 0;
-        tree.find(face.box(2.0f * reach), [&](std::uint32_t k) {
-            if (k != i && touch(face, faces_[k])) {
-                if (!is_one_shell(face, faces_[k])) {
-                    of_faces[i].push_back({i, k});
-                } else if (dot(face.normal, faces_[k].normal) < 0.0f) {
+        const auto compare = [&](std::uint32_t k) {
+            const ContactFace& other = faces_[k];
+            const bool is_own = face.is_of_shell(other);
+            if (is_own && dot(face.normal, other.normal) >= 0.0f) {
+                return true;  // a neighbour, or the face itself
+            }
+            if (const float area = touching_area(face, other); area > 0.0f) {
+                if (is_own) {
                     is_thin_[face.instance] = true;
+                } else {
+                    of_faces[i].push_back({i, k, area});
                 }
             }
             return ++comparisons < max_comparisons && of_faces[i].size() < max_touches;
+        };
+        boxes_.find(face.box(2.0f), [&](std::uint32_t instance) {
+            const Group& group = groups_[instance];
+            bool goes_on = true;
+            if (instance != face.instance || group.touches_itself) {
+                group.tree.find(face.box(2.0f), [&](std::uint32_t k) {
+                    goes_on = compare(group.begin + k);
+                    return goes_on;
+                });
+            }
+            return goes_on;
         });
     });
     std::vector<Touch> all;
@@ -290,19 +259,20 @@ std::vector<Touch> ContactSearch::find_touches(const BoxTree& tree)
     return all;
 }
 
-float ContactSearch::thickness(const Face& face, float farthest, const BoxTree& tree) const
+float ContactSearch::thickness(const ContactFace& face, float farthest) const
 {
     constexpr int max_comparisons = 1024;
-    Face end = face;
+    ContactFace end = face;
     for (Vec3& corner : end.corners) {
         corner += farthest * direction(face);
     }
     float nearest = farthest;
     int comparisons = 0;
-    tree.find(joined(face.box(0.0f), end.box(0.0f)), [&](std::uint32_t k) {
-        const Face& other = faces_[k];
-        if (is_one_shell(face, other) && dot(face.normal, other.normal) < -0.9f) {
-            const Overlap shape = overlap_of(face, other);
+    const Group& group = groups_[face.instance];
+    group.tree.find(joined(face.box(0.0f), end.box(0.0f)), [&](std::uint32_t k) {
+        const ContactFace& other = faces_[group.begin + k];
+        if (face.is_of_shell(other) && dot(face.normal, other.normal) < -0.9f) {
+            const FaceOverlap shape = overlap_of(face, other);
             for (std::size_t c = 0; c < shape.count; ++c) {
                 const float depth = dot(shape.corners[c] - face.corners[0], direction(face));
                 nearest = depth > 0.0f ? std::min(nearest, depth) : nearest;
@@ -313,29 +283,18 @@ float ContactSearch::thickness(const Face& face, float farthest, const BoxTree& 
     return nearest;
 }
 
-std::vector<Bounds> boxes_of(std::span<const Face> faces)
-{
-    std::vector<Bounds> boxes;
-    boxes.reserve(faces.size());
-    for (const Face& face : faces) {
-        boxes.push_back(face.box(2.0f * reach));
-    }
-    return boxes;
-}
-
-float ContactSearch::shift(const Face& face, const Face& other) const
+float ContactSearch::shift(const ContactFace& face, const ContactFace& other) const
 {
     const bool same_front = dot(face.normal, other.normal) > 0.0f;
-    const auto key = [](const Face& f) { return std::pair(f.instance, f.triangle); };
-    const ContactRole role = roles_[face.instance];
+    const auto key = [](const ContactFace& f) { return std::pair(f.instance, f.triangle); };
     // A lamp that moves into the body would catch up with its face; faces of two bodies or lamps
     // with a common side move one behind the other.
-    const bool is_behind = role == roles_[other.instance]
-                               ? same_front && key(face) > key(other)
-                               : role == ContactRole::body &&
-                                     roles_[other.instance] == ContactRole::lamp &&
-                                     dot(direction(face), direction(other)) > 0.0f;
-    return (is_behind ? 4.0f : 2.0f) * reach * (face.error + other.error);
+    const bool other_shines = parts_[other.instance].role == ContactRole::lamp;
+    const bool are_alike = is_body(face) ? is_body(other) : other_shines;
+    const bool is_behind =
+        are_alike ? same_front && key(face) > key(other)
+                  : is_body(face) && other_shines && dot(direction(face), direction(other)) > 0.0f;
+    return (is_behind ? 4.0f : 2.0f) * (face.error + other.error);
 }
 
 /// Returns a displacement of a vertex by which each of its faces is displaced enough.
@@ -419,28 +378,71 @@ MeshDesc ContactSearch::moved(std::size_t mesh, const std::map<std::uint32_t, Sh
     return result;
 }
 
+std::vector<bool> ContactSearch::find_bonded_faces(std::span<const Touch> touches) const
+{
+    return find_bonded(faces_, touches, [this](std::uint32_t i, std::uint32_t k) {
+        const std::optional<float>& a = parts_[faces_[i].instance].bonding_ior;
+        const std::optional<float>& b = parts_[faces_[k].instance].bonding_ior;
+        return a && b && (desc_.contacts == ContactKind::bonded || *a != *b);
+    });
+}
+
+void ContactSearch::bond(std::span<const Touch> touches, const std::vector<bool>& bonded,
+                         Contacts& result) const
+{
+    std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (const auto& [i, k, area] : touches) {
+        const ContactFace& face = faces_[i];
+        const ContactFace& other = faces_[k];
+        if (!bonded[i]) {
+            continue;
+        }
+        if (std::pair(face.instance, face.shell) < std::pair(other.instance, other.shell)) {
+            result.bonds.push_back({face.instance, face.triangle, other.instance});
+            pairs.emplace(face.instance, other.instance);
+            continue;
+        }
+        const auto mesh = static_cast<std::size_t>(desc_.instances[face.instance].mesh);
+        const auto moved = result.meshes.find(mesh);
+        MeshDesc& open =
+            result.open
+                .try_emplace(face.instance,
+                             moved != result.meshes.end() ? moved->second : desc_.meshes[mesh])
+                .first->second;
+        UVec3& corners = open.triangles[face.triangle];
+        corners = UVec3(corners.x);  // not hit by rays, and the others keep their indices
+    }
+    std::sort(result.bonds.begin(), result.bonds.end());
+    result.bonds.erase(std::unique(result.bonds.begin(), result.bonds.end()), result.bonds.end());
+    result.bonded_pairs = pairs.size();
+}
+
 Contacts ContactSearch::run()
 {
     find_faces();
-    const BoxTree tree(boxes_of(faces_));
     is_thin_ = std::vector<std::atomic<bool>>(placed_.size());
     std::vector<float> lengths(movable_);
+    const std::vector<Touch> touches = find_touches();
+    const std::vector<bool> bonded = find_bonded_faces(touches);
     std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    for (const auto& [i, k] : find_touches(tree)) {
+    for (const auto& [i, k, area] : touches) {
+        pairs.insert(std::minmax(faces_[i].instance, faces_[k].instance));
+        if (bonded[i]) {
+            continue;
+        }
         lengths[i] = std::max(lengths[i], shift(faces_[i], faces_[k]));
         if (k < movable_) {  // a face may be one of too many that `k` touches
             lengths[k] = std::max(lengths[k], shift(faces_[k], faces_[i]));
         }
-        pairs.insert(std::minmax(faces_[i].instance, faces_[k].instance));
     }
     std::map<std::size_t, std::map<std::uint32_t, Shift>> shifts;  // by mesh and triangle
     for (std::size_t i = 0; i < movable_; ++i) {
-        const Face& face = faces_[i];
+        const ContactFace& face = faces_[i];
         if (!(lengths[i] > 0.0f)) {
             continue;
         }
         constexpr float share = 0.25f;  // of the thickness, as both sides may move
-        const float least = share * thickness(face, lengths[i] / share, tree);
+        const float least = share * thickness(face, lengths[i] / share);
         if (least < lengths[i]) {
             is_thin_[face.instance] = true;
         }
@@ -461,6 +463,7 @@ Contacts ContactSearch::run()
     for (const auto& [mesh, of_triangles] : shifts) {
         result.meshes.emplace(mesh, moved(mesh, of_triangles));
     }
+    bond(touches, bonded, result);
     for (std::size_t i = 0; i < is_thin_.size(); ++i) {
         if (is_thin_[i]) {
             result.thin.push_back(i);
@@ -471,26 +474,34 @@ Contacts ContactSearch::run()
 
 }  // namespace
 
-std::vector<ContactRole> contact_roles(const SharedSceneDesc& desc)
+std::vector<ContactPart> contact_parts(const SharedSceneDesc& desc)
 {
-    std::vector<ContactRole> roles;
-    roles.reserve(desc.instances.size());
+    std::vector<ContactPart> parts;
+    parts.reserve(desc.instances.size());
     for (const InstanceDesc& instance : desc.instances) {
         const MaterialDesc& material = desc.materials[static_cast<std::size_t>(instance.material)];
-        roles.push_back(has_inside(material)          ? ContactRole::body
-                        : is_black(material.emission) ? ContactRole::sheet
-                                                      : ContactRole::lamp);
+        const bool shines = !is_black(material.emission);
+        if (!has_inside(material)) {
+            parts.push_back({.role = shines ? ContactRole::lamp : ContactRole::sheet});
+            continue;
+        }
+        const bool moves = !instance.motion.empty() ||
+                           !desc.meshes[static_cast<std::size_t>(instance.mesh)].motion.empty();
+        const bool can_bond = desc.contacts != ContactKind::air && !moves && !shines &&
+                              material.alpha_mode == AlphaMode::opaque;
+        parts.push_back({.role = ContactRole::body,
+                         .bonding_ior = can_bond ? std::optional(material.ior) : std::nullopt});
     }
-    return roles;
+    return parts;
 }
 
-ShellTable find_shells(const SharedSceneDesc& desc, std::span<const ContactRole> roles,
+ShellTable find_shells(const SharedSceneDesc& desc, std::span<const ContactPart> parts,
                        const ShellTable& known)
 {
     ShellTable result;
-    for (std::size_t i = 0; i < roles.size(); ++i) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
         const auto mesh = static_cast<std::size_t>(desc.instances[i].mesh);
-        if (roles[i] != ContactRole::sheet && !result.contains(mesh)) {
+        if (parts[i].role != ContactRole::sheet && !result.contains(mesh)) {
             const auto found = known.find(mesh);
             result.emplace(mesh, found != known.end() ? found->second
                                                       : std::make_shared<const Shells>(
@@ -501,9 +512,9 @@ ShellTable find_shells(const SharedSceneDesc& desc, std::span<const ContactRole>
 }
 
 Contacts separate_contacts(const SharedSceneDesc& desc, std::span<const PlacedMesh> placed,
-                           std::span<const ContactRole> roles, const ShellTable& shells)
+                           std::span<const ContactPart> parts, const ShellTable& shells)
 {
-    return shells.empty() ? Contacts{} : ContactSearch(desc, placed, roles, shells).run();
+    return shells.empty() ? Contacts{} : ContactSearch(desc, placed, parts, shells).run();
 }
 
 }  // namespace bdpt

@@ -15,7 +15,6 @@ class Cell:
     reference: tuple = None  # options of the reference by bdpt, which has the same light; None: no reference
     rival: tuple = None  # options of a second estimate: the image is the mean of maxima of the two (biased!)
     rounds: int = 1  # number of maxima in the mean, each of images of spp / rounds samples
-    profiled: bool = False  # prints the shares of phases; the image has a layer time.Y
     layer: str = None  # layer that the cell shows in false colours, with one scale for the sheet
     layer_scale: float = 1.5  # end of the colour scale, over the layer's mean
     metric: str = "relmse"  # error metric of `bdpt compare`
@@ -204,17 +203,6 @@ def media():
     return tuple(cells)
 
 
-def profile():
-    """Shows images with the time shares of phases, and below them the time of a sample in each pixel."""
-    scene = "fourteen-specular.gltf"
-    names = ("pt", "nee", "mis", "lt", "bdpt")
-    images = [Cell(name, scene, by(name) + depth(5), 64, reference=None if name == "lt" else depth(5),
-                     profiled=True) for name in names]
-    times = [Cell(f"{name}: time of a sample", scene, by(name) + depth(5), 64, profiled=True,
-                  layer="time.Y") for name in names]
-    return tuple(images + times)
-
-
 def sweep(scene, integrators, counts, edges):
     """Makes a row for each integrator and a column for each number of samples."""
     return tuple(Cell(f"{name}, {count} spp", scene, by(name) + depth(edges), count, reference=depth(edges))
@@ -263,7 +251,6 @@ FIGURES = {
         Cell(f"{name}, {spp} spp", "cornell-box-hidden.gltf", by(name) + depth(11), spp, reference=depth(11))
         for name in ("mis", "bdpt", "auto") for spp in (4, 16, 64, 256))),
     "adaptive": Figure("Uniform and adaptive at equal samples, and how many each pixel took", 3, adaptive()),
-    "profile": Figure("Where the time of a sample goes, by phase and by pixel", 5, profile()),
     "rays": Figure("What each integrator spends its rays on", 5, tuple(
         Cell(name, "fourteen-specular.gltf", by(name) + depth(5), 16, reference=None if name == "lt" else depth(5))
         for name in ("pt", "nee", "mis", "lt", "bdpt"))),

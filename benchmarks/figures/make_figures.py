@@ -83,9 +83,6 @@ class Renderer:
         stats.unlink()
         row = {"samples": done["samples"], "seconds": done["seconds"], "exposure": done["exposure"],
                "rays": told["rays"], "command": shlex.join(["bdpt", *command[1:]])}
-        if told.get("profile"):
-            row["time_shares"] = told["profile"]["shares"]
-            row["sample_nanoseconds"] = 1e9 * told["profile"]["seconds"] / told["profile"]["samples"]
         return row
 
     def reference(self, cell, spp, folder):
@@ -105,7 +102,7 @@ class Renderer:
         """Renders a cell; returns its measurements."""
         if cell.rival is None:
             limits = ("--spp", str(cell.spp)) if cell.spp else ("--time", f"{cell.seconds}s")
-            return self.render(cell.scene, cell.options, limits, output, ("--profile",) if cell.profiled else ())
+            return self.render(cell.scene, cell.options, limits, output)
         rounds = min(cell.rounds, cell.spp)
         pairs, reports = [], []
         for seed in range(rounds):
@@ -136,24 +133,18 @@ def write_numbers(name, figure, scale_name, rows, folder):
     (folder / f"{name}.json").write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
     keys = ["label", "scene", "samples", "seconds", "mean", "relmse", "bias", "bias_standard_error", "camera_rays",
             "light_rays", "shadow_rays"]
-    keys += [key for key in ("flip", "sample_nanoseconds") if any(key in row for row in rows)]
-    keys += [f"{phase}_share" for phase in rows[0].get("time_shares", ())]
+    keys += ["flip"] if any("flip" in row for row in rows) else []
     with open(folder / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(keys)
         for row in rows:
             flat = dict(row, mean=sum(row["mean"]) / 3, **{f"{kind}_rays": row["rays"][kind]
-                                                            for kind in ("camera", "light", "shadow")},
-                        **{f"{phase}_share": share for phase, share in row.get("time_shares", {}).items()})
+                                                            for kind in ("camera", "light", "shadow")})
             writer.writerow([flat.get(key, "") for key in keys])
 
 
 def captions(row):
     """Returns the lines of text below the label."""
-    if "time_shares" in row:
-        percent = {phase: f"{phase} {100 * share:.0f}" for phase, share in row["time_shares"].items()}
-        return [f"{row['sample_nanoseconds']:.0f} ns; " + ", ".join(percent[p] for p in ("walk", "shade")),
-                ", ".join(percent[phase] for phase in ("connect", "weigh", "splat")) + " %"]
     error = f"FLIP {row['flip']:.3g}, " if "flip" in row else f"relMSE {row['relmse']:.3g}, " if "relmse" in row else ""
     return [f"{error}{row['samples']} spp, {row['seconds']:.2g} s"]
 
@@ -187,8 +178,7 @@ def make(name, renderer, scale_name, folder):
         shown.append(images / f"{number:02}.png")
         if cell.layer:
             look = sheet.false_colours(cell.layer, brightest)
-            most = f"{1000 * brightest:.0f} ns" if cell.layer == "time.Y" else f"{brightest:.0f}"
-            lines = [cell.label, f"black to yellow: 0 to {most}"]
+            lines = [cell.label, f"black to yellow: 0 to {brightest:.0f}"]
         else:
             look = sheet.developed(exposures[cell.scene] if figure.exposure is None else figure.exposure)
             lines = [cell.label, *captions(row)]

@@ -93,7 +93,6 @@ OPTIONS = (
     # Textures, clocks
     Options("mip", ("--texture-filter", "mip"), "textured-emitter|alpha|shading-normals|material|glass-rough|room",
             integrators=("bdpt", "mis")),
-    Options("profile", ("--profile",), VARIED, integrators=("bdpt", "mis")),
 )
 
 

@@ -147,40 +147,6 @@ TEST_CASE("option --clamp limits contributions and says what it took")
     CHECK_FALSE(settings_of(cube.rendered({})).contains("clamp"));
 }
 
-TEST_CASE("option --profile tells where the time of samples goes, of the same image")
-{
-    const FilmFolder cube;
-    const std::string stats = (cube.folder() / "stats.json").string();
-    const ExrFile plain = cube.rendered({});
-    const Outcome outcome = cube.render({"--profile", "--stats", stats});
-    CAPTURE(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    CHECK(outcome.err.find("time of a sample: ") != std::string::npos);
-    CHECK(outcome.err.find(" us; walk ") != std::string::npos);
-    CHECK(read_exr(cube.folder() / "out.exr").image.pixels == plain.image.pixels);
-    const std::vector<float> times = cube.channel("time.Y");
-    REQUIRE(times.size() == 32 * 16);
-    for (const float time : times) {
-        CHECK(time > 0.001f);
-        CHECK(time < 1e6f);
-    }
-    const auto profile = nlohmann::json::parse(read_text(stats))["profile"];
-    CHECK(profile["samples"] == 32 * 16 * 4);
-    CHECK(profile["clocked_samples"].get<int>() > 32);
-    CHECK(profile["seconds"].get<double>() > 0.0);
-    CHECK(profile["clock_seconds"].get<double>() > 0.0);
-    double sum = 0.0;
-    for (const char* phase : {"walk", "shade", "connect", "weigh", "splat"}) {
-        sum += profile["shares"][phase].get<double>();
-    }
-    CHECK(sum == Approx(1.0));
-
-    const Outcome json = cube.render({"--profile", "--json"});
-    CHECK(json.out.find("\"event\":\"profile\"") != std::string::npos);
-    cube.rendered({"--profile", "--crop", "3,4,4,5", "--integrator", "mis"});
-    CHECK(cube.channel("time.Y").size() == 1);
-}
-
 TEST_CASE("option --stats writes the numbers of the render")
 {
     const FilmFolder cube;
@@ -214,7 +180,6 @@ TEST_CASE("option --stats writes the numbers of the render")
     CHECK(json["stopped_by"].is_null());
     cube.rendered({"--stats", stats});
     CHECK(nlohmann::json::parse(read_text(stats))["clamp"].is_null());
-    CHECK_FALSE(nlohmann::json::parse(read_text(stats)).contains("profile"));
     CHECK(cube.folder().names() ==
           std::set<std::string>{"cube.bin", "cube.gltf", "out.exr", "stats.json"});
 }

@@ -110,13 +110,9 @@ class Table(unittest.TestCase):
 
 
     def test_captions(self):
-        """Tests the measurements below the label: phases, or else the error."""
+        """Tests the measurements below the label."""
         row = {"samples": 16, "seconds": 2.0, "relmse": 0.125}
         self.assertEqual(make_figures.captions(row), ["relMSE 0.125, 16 spp, 2 s"])
-        shares = {"walk": 0.5, "shade": 0.1, "connect": 0.3, "weigh": 0.06, "splat": 0.04}
-        phases = {**row, "time_shares": shares, "sample_nanoseconds": 1234.5}
-        self.assertEqual(make_figures.captions(phases),
-                         ["1234 ns; walk 50, shade 10", "connect 30, weigh 6, splat 4 %"])
 
 
 @unittest.skipUnless(shutil.which("oiiotool"), "oiiotool is not there")
@@ -152,10 +148,10 @@ class Images(unittest.TestCase):
             folder = pathlib.Path(name)
             sums = []
             for value in (0, 2, 4, 9):
-                sheet.oiiotool("--pattern", f"constant:color=1,1,1,{value}", "4x4", 4, "--chnames", "R,G,B,time.Y", "-d",
+                sheet.oiiotool("--pattern", f"constant:color=1,1,1,{value}", "4x4", 4, "--chnames", "R,G,B,sampleCount.Y", "-d",
                                "float", "-o", folder / "a.exr")
-                self.assertEqual(sheet.mean(folder / "a.exr", "time.Y"), [value])
-                sheet.shown(folder / "a.exr", (4, 4), sheet.false_colours("time.Y", 4.0), (), folder / "a.png")
+                self.assertEqual(sheet.mean(folder / "a.exr", "sampleCount.Y"), [value])
+                sheet.shown(folder / "a.exr", (4, 4), sheet.false_colours("sampleCount.Y", 4.0), (), folder / "a.png")
                 sheet.oiiotool(folder / "a.png", "--cut", "208x208", "-d", "float", "-o", folder / "cut.exr")
                 sums.append(sum(sheet.mean(folder / "cut.exr")))
             self.assertLess(sums[0], 0.1)

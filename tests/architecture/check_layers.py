@@ -11,7 +11,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = {"math": 1, "memory": 1, "threads": 1, "film": 2, "identity": 2, "profile": 2, "rates": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
+LAYERS = {"math": 1, "memory": 1, "threads": 1, "film": 2, "identity": 2, "rates": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
           "scene": 5, "path": 6, "integrator": 7, "pilot": 8, "render": 9, "inspect": 10}
 COMMAND_LAYERS = {"terminal": 1, "options": 2, "plan": 3, "stage": 3, "report": 4, "view": 5, "commands": 6}
 # Layers of lib/io/src. Headers are included by their folder there too.
@@ -33,7 +33,6 @@ ALLOWED = {
     "lib/src/geometry": [r"glm/", r"embree[34]/", INTRINSICS],
     "lib/src/scene": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/threads": [r"(oneapi/)?tbb/"],
-    "lib/src/profile": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/integrator": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/pilot": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/render": [r"glm/", r"(oneapi/)?tbb/"],

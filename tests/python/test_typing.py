@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKAGE = pathlib.Path(bdpt.__file__).parent
 FUNCTIONS = {"load": bdpt.load, "render": bdpt.render, "save": bdpt.Render.save, "run": bdpt.run}
 # Options of `bdpt render` that only run() has: others express them differently, or they concern the files.
-OF_JOBS = {"output", "float", "stats", "profile", "save_rates", "strategies", "strategy_depth", "part",
+OF_JOBS = {"output", "float", "stats", "save_rates", "strategies", "strategy_depth", "part",
                   "fps", "cameras", "full_paths"}
 NOT_IN_JOBS = {"allow_folder", "denoiser_library", "ktx_library", "restart"}  # no file may state them
 

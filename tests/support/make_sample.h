@@ -13,8 +13,7 @@ namespace bdpt::test {
             .sampler = sampler,
             .time = 0.0f,
             .wavelength = Wavelength::green,
-            .rays = rays,
-            .clock = nullptr};
+            .rays = rays};
 }
 
 }  // namespace bdpt::test

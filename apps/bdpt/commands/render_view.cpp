@@ -116,7 +116,6 @@ RenderResult render_stage(const RenderArguments& arguments, const PreparedScene&
     if (goal.seconds == 0.0) {
         session.console.note("loading took longer than --time: one pass is rendered");
     }
-    control.profiling = arguments.profiling;
     control.noise_goal = arguments.goal.noise.value_or(0.0);
     if (keeper) {
         part = keeper->start(identity(stage.scene, stage.camera, options), notes);
@@ -172,9 +171,6 @@ ImageFileOptions image_file_options(const RenderArguments& arguments, const Prep
                                      .full_width = stage.size.width,
                                      .full_height = stage.size.height};
     std::vector<Layer> layers = develop_layers(result.film, result.aovs, result.ids);
-    if (result.profile) {
-        layers.push_back(time_layer(*result.profile));
-    }
     return {.exr = {.type = arguments.exr.channel_type,
                     .metadata = std::move(metadata),
                     .storage = arguments.exr.storage,
@@ -376,10 +372,6 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
         attempts.run([&] { keeper->finish(result); });
     }
     warn_of_defects(console, result.film.defects());
-    if (result.profile) {
-        console.event("profile", profile_json(*result.profile));
-        console.note(profile_text(*result.profile));
-    }
 
     const auto writing_start = std::chrono::steady_clock::now();
     const Image image = result.image();

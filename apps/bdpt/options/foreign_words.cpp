@@ -22,7 +22,7 @@ struct Foreign {
     std::string_view advice;  ///< what to type
 };
 
-constexpr std::array<Foreign, 42> foreign_options{{
+constexpr std::array<Foreign, 43> foreign_options{{
     {" --width --height --resolution --res --dimensions --image-size --resize --geometry -s -w -W "
      "-H ",
      "--size", "use --size WIDTHxHEIGHT"},
@@ -73,6 +73,7 @@ constexpr std::array<Foreign, 42> foreign_options{{
     {" --focus --focal-distance --focus-dist ", "--focus-distance", "use --focus-distance METRES"},
     {" --checkpoint --resume --continue ", "--part", "use --part FILE"},
     {" --loglevel --log-level --silent --no-progress ", "--quiet", "use --quiet, or --verbose"},
+    {" --profile --profiling ", "--stats", "use --stats FILE, or a profiler such as perf"},
     {" --debug --info --progress ", "--verbose", "use --verbose"},
     {" --var --define -D ", "", "options have names of their own, as in --spp 64"},
     {" --interactive --preview --gui --window ", "--integrator",

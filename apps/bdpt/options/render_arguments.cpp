@@ -129,11 +129,6 @@ void add_process_options(OptionList& options, RenderRequest& request)
         .add("--stats", "FILE", "Write ray and path counts and timings to this .json file",
              arguments.stats, file_path({"-"}))
         .uses.stated_in = StatedIn::own_folder;
-    const Choices<Profiling> profiling{{{"true", Profiling::on}, {"false", Profiling::off}}};
-    options.add_flag("--profile",
-                     "Profile the render by phase and pixel: printed, in --stats, and as .exr "
-                     "layer time.Y (microseconds per sample). Does not change the image",
-                     arguments.profiling, profiling.type());
     options
         .add("--save-rates", "FILE",
              "Write the samples of each pixel as multiples of --spp: .exr for --rates, or .png "

@@ -85,13 +85,12 @@ struct RenderArguments {
     std::vector<Aov> guides{};
     ExrFormat exr{};
     std::optional<std::filesystem::path> stats{};  ///< file for statistics of the render
-    Profiling profiling = Profiling::off;
-    std::optional<StrategyFiles> strategies{};  ///< files of strategy images
-    std::optional<PartChoice> part{};           ///< part that the render continues
-    SampleRange samples{};                      ///< per pixel
-    std::optional<RatesChoice> rates{};         ///< set if pixels take different numbers of samples
-    bool may_adapt = false;                     ///< the pilot of the integrator may choose rates
-    std::optional<Sequence> sequence{};         ///< set if there are several images
+    std::optional<StrategyFiles> strategies{};     ///< files of strategy images
+    std::optional<PartChoice> part{};              ///< part that the render continues
+    SampleRange samples{};                         ///< per pixel
+    std::optional<RatesChoice> rates{};  ///< set if pixels take different numbers of samples
+    bool may_adapt = false;              ///< the pilot of the integrator may choose rates
+    std::optional<Sequence> sequence{};  ///< set if there are several images
     std::optional<SequenceView> sequence_view{};  ///< the image of the sequence that this is
     std::optional<DisplayAddress> viewer{};       ///< viewer that shows the render
     Printed printed{};

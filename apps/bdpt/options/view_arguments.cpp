@@ -14,12 +14,12 @@ namespace bdpt::app {
 namespace {
 
 /// Options of `bdpt render` about its files, its processes and its sequences.
-constexpr std::array<std::string_view, 27> not_for_view{
-    "others",       "--output",     "--samples",        "--time",   "--stats",   "--profile",
-    "--save-rates", "--strategies", "--strategy-depth", "--part",   "--restart", "--plan",
-    "--task",       "--display",    "--save-job",       "--frames", "--fps",     "--orbit",
-    "--turn",       "--cameras",    "--same-noise",     "--json",   "--aov",     "--half",
-    "--float",      "--tiled",      "--full-paths"};
+constexpr std::array<std::string_view, 26> not_for_view{
+    "others",       "--output",         "--samples", "--time",    "--stats", "--save-rates",
+    "--strategies", "--strategy-depth", "--part",    "--restart", "--plan",  "--task",
+    "--display",    "--save-job",       "--frames",  "--fps",     "--orbit", "--turn",
+    "--cameras",    "--same-noise",     "--json",    "--aov",     "--half",  "--float",
+    "--tiled",      "--full-paths"};
 
 bool is_for_view(const Option& option)
 {

@@ -56,17 +56,4 @@ void report_clamp(Console& console, const Film& film, const Image& image)
                      film.layout().clamp, 100.0 * taken / (left + taken), loss.contributions)});
 }
 
-Layer time_layer(const TimeProfile& profile)
-{
-    Layer layer{.name = "time",
-                .channels = "Y",
-                .width = profile.region.width(),
-                .height = profile.region.height(),
-                .values = profile.pixel_seconds};
-    for (float& value : layer.values) {
-        value *= 1e6f;
-    }
-    return layer;
-}
-
 }  // namespace bdpt::app

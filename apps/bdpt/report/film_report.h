@@ -2,7 +2,6 @@
 
 #include <bdpt/film/film.h>
 #include <bdpt/image.h>
-#include <bdpt/time_profile.h>
 
 #include <string>
 #include <vector>
@@ -22,8 +21,5 @@ void warn_of_defects(Console& console, const FilmDefects& defects);
 
 /// Reports the light that clamping removed from `image`, which is the developed `film`.
 void report_clamp(Console& console, const Film& film, const Image& image);
-
-/// Returns a layer of time per sample [µs]: seconds would be too small for files of 16 bits.
-[[nodiscard]] Layer time_layer(const TimeProfile& profile);
 
 }  // namespace bdpt::app

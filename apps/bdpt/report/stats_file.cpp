@@ -57,36 +57,6 @@ ordered_json noise_json(double noise)
     return std::isfinite(noise) ? ordered_json(noise) : ordered_json();
 }
 
-ordered_json profile_json(const TimeProfile& profile)
-{
-    ordered_json shares = ordered_json::object();
-    for (const Phase phase : all_phases) {
-        shares[to_string(phase)] = profile.share(phase);
-    }
-    return {{"seconds", profile.total()},
-            {"shares", std::move(shares)},
-            {"samples", profile.samples},
-            {"clocked_samples", profile.clocked_samples},
-            {"clock_seconds", profile.clock_seconds},
-            {"distortion", profile.distortion}};
-}
-
-std::string profile_text(const TimeProfile& profile)
-{
-    if (profile.clocked_samples == 0) {
-        return "time of samples: too few for a breakdown";
-    }
-    std::string text = fmt::format("time of a sample: {:.3g} us;",
-                                   1e6 * profile.total() / static_cast<double>(profile.samples));
-    const char* separator = " ";
-    for (const Phase phase : all_phases) {
-        text +=
-            fmt::format("{}{} {:.1f} %", separator, to_string(phase), 100.0 * profile.share(phase));
-        separator = ", ";
-    }
-    return text;
-}
-
 ordered_json stats_json(const RenderResult& result, const TimeSplit& time)
 {
     const RenderStats& stats = result.stats;
@@ -102,9 +72,6 @@ ordered_json stats_json(const RenderResult& result, const TimeSplit& time)
                       {"defects", defects_json(result.film.defects())},
                       {"clamp", clamp_json(result.film)}};
     json["noise"] = noise_json(estimate_noise(result.film));
-    if (result.profile) {
-        json["profile"] = profile_json(*result.profile);
-    }
     return json;
 }
 

@@ -17,11 +17,6 @@ struct TimeSplit {
     double write = 0.0;  ///< writing images
 };
 
-/// Returns the time of samples by phase: `seconds` of threads, and the fraction of each phase.
-[[nodiscard]] nlohmann::ordered_json profile_json(const TimeProfile& profile);
-/// Returns the time by phase in a line for people.
-[[nodiscard]] std::string profile_text(const TimeProfile& profile);
-
 /// Returns estimate_noise() of a film; null if it is unknown.
 [[nodiscard]] nlohmann::ordered_json noise_json(double noise);
 

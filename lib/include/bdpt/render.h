@@ -39,14 +39,6 @@ struct Progress {
     std::int64_t noise_samples = 0;
 };
 
-/// Time measurement of samples by phase.
-enum class Profiling : std::uint8_t {
-    off,
-    /// Fills `RenderResult::profile`; image and counts stay bit-identical. Slows a render down by a
-    /// few per cent.
-    on,
-};
-
 /// Observation and control of a render. Everything is optional.
 struct RenderControl {
     /// A request ends the render after the current pass.
@@ -63,7 +55,6 @@ struct RenderControl {
     /// Called for each path that contributes light to the film's region, on many threads at once;
     /// slows the render down.
     std::function<void(const PathContribution&)> on_path;
-    Profiling profiling = Profiling::off;
     /// No pass starts that would probably end after this time [s].
     double time_limit = std::numeric_limits<double>::infinity();
     /// The render ends once estimate_noise() of its film is at most this; 0: no goal. The noise is

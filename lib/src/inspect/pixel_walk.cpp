@@ -54,9 +54,8 @@ RenderOptions inspected_options(const Scene& scene, const CameraDesc& camera, Re
     options.system.threads = 1;
     options = chosen_options(scene, camera, options);
     if (options.integrator == IntegratorKind::vcm) {
-        throw Error(
-            ErrorCode::usage,
-            "vcm cannot be inspected: its merged paths belong to no strategy (s, t)");
+        throw Error(ErrorCode::usage,
+                    "vcm cannot be inspected: its merged paths belong to no strategy (s, t)");
     }
     return options;
 }
@@ -73,8 +72,7 @@ PixelWalk::PixelWalk(const Scene& scene, const CameraDesc& camera, const RenderO
               .sampler = start_.sampler,
               .time = start_.moment.time,
               .wavelength = start_.moment.wavelength,
-              .rays = rays_,
-              .clock = nullptr},
+              .rays = rays_},
       learned_(learned_light(scene.world(), camera, options)),
       next_event_sampling_(find_sampling(options, learned_.get())),
       camera_path_(options.transport.max_depth + 1)

@@ -40,7 +40,6 @@ void ContributionSink::add(const SampleContext& sample, Strategy strategy,
     const Rgb weighted = found.weight / count * unweighted;
     radiance_ += weighted;
     if (!films_.strategies.empty() || films_.on_path) [[unlikely]] {
-        sample.enter(Phase::splat);
         report(strategy, center_, scale_.camera * weighted, scale_.camera / count * unweighted,
                found);
     }
@@ -49,7 +48,6 @@ void ContributionSink::add(const SampleContext& sample, Strategy strategy,
 void ContributionSink::splat(SampleContext& sample, Strategy strategy, const Contribution& found,
                              float count, std::uint32_t dimension)
 {
-    sample.enter(Phase::splat);
     SplatTarget target{.raster = found.raster};
     if (!filter_.is_pixel()) {
         sample.sampler.start(SampleUse::film, dimension);

@@ -32,8 +32,6 @@ struct Films {
     StrategyFilm& strategies;  ///< empty unless strategy images are requested
     /// Called for each path that contributes light, if set.
     const std::function<void(const PathContribution&)>& on_path;
-    /// Records the time of samples, if set.
-    TimeSheet* times = nullptr;
 };
 
 /// A light transport algorithm working on one render. Const while tiles are rendered: all threads

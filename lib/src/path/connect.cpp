@@ -80,7 +80,6 @@ std::optional<Contribution> join_if_open(const SampleContext& sample,
     if (is_black(value)) {
         return std::nullopt;
     }
-    sample.enter(Phase::weigh);
     const PathVertex& y = light.back();
     const PathVertex& z = camera.back();
     JoinDensities join = densities();
@@ -145,7 +144,6 @@ std::optional<Contribution> hit_light(const SampleContext& sample,
     if (!x0.light || is_black(value)) {
         return std::nullopt;
     }
-    sample.enter(Phase::weigh);
     if (camera.size() == 2 && weigher.is_seen_by_walks_alone(*x0.light)) {
         return Contribution{.unweighted = value, .weight = 1.0f, .dispersed = x0.dispersed};
     }

@@ -9,8 +9,7 @@
 
 namespace bdpt {
 
-// Five techniques that complete a path; lens_crossing.h and merge.h have two more. They begin in
-// Phase::connect; those that find a contribution end in Phase::weigh.
+// Five techniques that complete a path; lens_crossing.h and merge.h have two more.
 
 /// The contribution of one strategy to one path.
 struct Contribution {

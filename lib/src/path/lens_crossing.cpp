@@ -56,7 +56,6 @@ std::optional<Contribution> hit_lens(const SampleContext& sample, const Subpath&
     if (is_black(value)) {
         return std::nullopt;
     }
-    sample.enter(Phase::weigh);
     const auto light = light_path.first(crossing.light_vertices);
     const AreaPdf next_event =
         light.size() > 1

@@ -8,7 +8,7 @@
 
 namespace bdpt {
 
-std::optional<Contribution> merge(const SampleContext& sample, std::span<const PathVertex> light,
+std::optional<Contribution> merge(std::span<const PathVertex> light,
                                   std::span<const PathVertex> camera, const Merging& merging,
                                   PathWeigher& weigher)
 {
@@ -30,7 +30,6 @@ std::optional<Contribution> merge(const SampleContext& sample, std::span<const P
     if (is_black(value)) {
         return std::nullopt;
     }
-    sample.enter(Phase::weigh);
     return Contribution{
         .unweighted = value,
         .weight = weigher.weight_of_merge(

@@ -7,10 +7,8 @@ namespace bdpt {
 
 /// Completes a path by merging: the last of at least two light vertices is identified with the last
 /// of at least two camera vertices, at most `merging.radius` away. Takes `merging.light_paths`
-/// samples per camera path. Begins in Phase::connect and ends in Phase::weigh if it finds a
-/// contribution.
-[[nodiscard]] std::optional<Contribution> merge(const SampleContext& sample,
-                                                std::span<const PathVertex> light,
+/// samples per camera path.
+[[nodiscard]] std::optional<Contribution> merge(std::span<const PathVertex> light,
                                                 std::span<const PathVertex> camera,
                                                 const Merging& merging, PathWeigher& weigher);
 

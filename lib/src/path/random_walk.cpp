@@ -93,7 +93,6 @@ const SurfacePoint* shade(const SampleContext& sample, const WalkStep& step,
     if (event.is_nothing()) {
         return nullptr;
     }
-    const PhaseScope scope(sample.clock, Phase::shade);
     return &path.emplace_surface([&] {
         SurfacePoint point = make_interaction(sample, event, *step.origin, step.direction, segment);
         if (by_lens) {

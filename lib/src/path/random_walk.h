@@ -15,8 +15,6 @@ struct WalkLimits {
     float rr_survival = 0.0f;
 };
 
-// Walks begin and end in Phase::walk.
-
 /// Traces a camera subpath from the lens through `raster` into `path`; the first vertex is on the
 /// lens, and the last may be on the environment at infinity.
 void trace_camera_subpath(SampleContext& sample, Vec2 raster, const WalkLimits& limits,

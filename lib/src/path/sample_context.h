@@ -4,7 +4,6 @@
 #include "math/sampler.h"
 #include "math/segment_key.h"
 #include "math/wavelength.h"
-#include "profile/phase_clock.h"
 #include "scene/world.h"
 
 #include <bdpt/render_stats.h>
@@ -18,8 +17,7 @@ struct SampleContext {
     Sampler sampler;
     float time;  ///< time within the shutter interval, in [0, 1]
     Wavelength wavelength;
-    RayCounts& rays;    ///< counts the rays that are traced
-    PhaseClock* clock;  ///< null if this sample is not timed
+    RayCounts& rays;  ///< counts the rays that are traced
 
     /// Returns the key of the segment with `s` vertices on the light's side and `t` on the
     /// camera's; see `Sampler::segment_key`.
@@ -29,13 +27,6 @@ struct SampleContext {
         key.wavelength = wavelength;
         key.time = time;
         return key;
-    }
-    /// Attributes time to `phase` from now on.
-    void enter(Phase phase) const noexcept
-    {
-        if (clock != nullptr) [[unlikely]] {
-            clock->enter(phase);
-        }
     }
 };
 

@@ -218,8 +218,7 @@ public:
                                  .sampler = sampler,
                                  .time = moment.time,
                                  .wavelength = moment.wavelength,
-                                 .rays = rays_,
-                                 .clock = nullptr};
+                                 .rays = rays_};
             trace_camera_subpath(sample, raster,
                                  {.max_vertices = path_.capacity(),
                                   .rr_start = options_.transport.rr_start,

@@ -87,8 +87,7 @@ private:
                              .sampler = start.sampler,
                              .time = start.moment.time,
                              .wavelength = start.moment.wavelength,
-                             .rays = rays,
-                             .clock = nullptr};
+                             .rays = rays};
         sample.sampler.start(SampleUse::lens);
         const Vec2 u_lens = sample.camera.has_finite_lens() ? sample.sampler.next_2d() : Vec2(0.0f);
         const CameraRay ray = sample.camera.generate_ray(start.raster, u_lens);

@@ -101,11 +101,8 @@ void render_at_once(const Work& work, const RenderOptions& options, SampleRange 
                 return;
             }
             const FlushDenormals flush;
-            auto times = work.times != nullptr ? std::optional(work.times->sheet()) : std::nullopt;
-            const Films films{.film = &result.film,
-                              .strategies = result.strategies,
-                              .on_path = work.on_path,
-                              .times = times ? &*times : nullptr};
+            const Films films{
+                .film = &result.film, .strategies = result.strategies, .on_path = work.on_path};
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 stats_of_threads.local() +=
                     render_tile(work, options, tiles[i], samples, films, result);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "integrator/integrator.h"
-#include "profile/time_recorder.h"
 #include "render/aov_pass.h"
 
 #include <bdpt/part/render_result.h>
@@ -18,7 +17,6 @@ struct Work {
     Integrator& integrator;
     const AovPass& aov_pass;
     const std::function<void(const PathContribution&)>& on_path;
-    TimeRecorder* times = nullptr;  ///< set if times are recorded
     /// Receives the amount of work for the samples of each tile, on many threads at once, if set.
     std::function<void(const Tile&, const RenderStats&)> on_tile{};
     std::stop_token abandon{};  ///< ends a pass in its middle

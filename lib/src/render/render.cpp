@@ -7,7 +7,6 @@
 
 #include "camera/moving_camera.h"
 #include "integrator/integrator.h"
-#include "profile/time_recorder.h"
 #include "render/aov_pass.h"
 #include "render/check_options.h"
 #include "render/learned_light.h"
@@ -199,11 +198,6 @@ void Renderer::Impl::run(SampleRange wanted_range, const RenderControl& control,
         begin();  // now, as a caller that abandons a render may not continue it
     }
     Threads threads(options_.system.threads);
-    result_.profile.reset();
-    std::optional<TimeRecorder> times;
-    if (control.profiling == Profiling::on) {
-        times.emplace(options_.film.crop.value_or(whole_image(options_)));
-    }
     const SampleSet wanted(wanted_range);
     const std::int64_t total = result_.samples.missing(wanted).count();
     const double cpu_before = result_.cpu_seconds;
@@ -219,7 +213,6 @@ void Renderer::Impl::run(SampleRange wanted_range, const RenderControl& control,
             render_pass({.integrator = *integrator_,
                          .aov_pass = *aov_pass_,
                          .on_path = control.on_path,
-                         .times = times ? &*times : nullptr,
                          .abandon = control.abandon},
                         options_, pass, result_);
             if (!control.abandon.stop_requested()) {
@@ -251,9 +244,6 @@ void Renderer::Impl::run(SampleRange wanted_range, const RenderControl& control,
             seconds_since(start) + pass_size_->seconds() > control.time_limit) {
             break;
         }
-    }
-    if (times) {
-        result_.profile = times->profile(done);
     }
 }
 

@@ -22,7 +22,6 @@ void merge(RenderResult& result, const RenderResult& other)
     result.stats += other.stats;
     result.seconds += other.seconds;
     result.cpu_seconds += other.cpu_seconds;
-    result.profile.reset();
 }
 
 }  // namespace bdpt

@@ -191,7 +191,7 @@ TEST_CASE("with --json, --quiet leaves the result and nothing else")
                        .out,
                    "EXT_not_known"));
     const Outcome outcome = run({"render", scene, "-o", (folder / "a.exr").string(), "--time", "1s",
-                                 "--size", "8x4", "--profile", "--json", "--quiet"});
+                                 "--size", "8x4", "--json", "--quiet"});
     CAPTURE(outcome.out, outcome.err);
     CHECK(outcome.exit_code == 0);
     CHECK(outcome.err.empty());

@@ -96,11 +96,11 @@ def check_flipping(browser):
 
 def check_display(browser):
     seen = {"picture": image(browser, STAGE)}
-    for key, mode in (("e", "error"), ("v", "variance"), ("t", "time")):
+    for key, mode in (("e", "error"), ("v", "variance")):
         browser.press(key)
         seen[mode] = image(browser, STAGE)
         expect(browser.run("return document.querySelectorAll('.viewer .colorbar').length") >= 1, f"{mode} has a colour bar")
-    expect(len(set(seen.values())) == 4, "image, error, variance and time differ")
+    expect(len(set(seen.values())) == 3, "image, error and variance differ")
     browser.press("p")
     for name, change in (("exposure", "slider.value = 2"), ("gamma", "slider.value = 1.5")):
         browser.run(f"const slider = document.getElementById('{name}'); {change};"
@@ -173,42 +173,6 @@ def check_figures(browser, data):
            "the overview has all scenes")
 
 
-def check_times(browser, data):
-    """Tests that the bars have the widths of the shares, and the map the colours of the times."""
-    for index, scene in enumerate(data["scenes"]):
-        bars = browser.run("""
-            return [...document.querySelectorAll('.scene')[arguments[0]].querySelectorAll('.phase-bars svg g')].map((bar) => ({
-              name: bar.querySelector('.label').textContent,
-              widths: [...bar.querySelectorAll('rect')].map((part) => Number(part.getAttribute('width'))) }));""", index)
-        expect([bar["name"] for bar in bars] == INTEGRATORS, f"{scene['name']}: a bar of times for each integrator")
-        totals = [sum(bar["widths"]) for bar in bars]
-        longest = max(one["time_split"]["sample_seconds"] for one in scene["integrators"])
-        for bar, total, one in zip(bars, totals, scene["integrators"]):
-            shares = one["time_split"]["shares"]
-            expect(abs(sum(shares.values()) - 1) < 1e-6, f"the shares of {bar['name']} add up to one")
-            expect(all(abs(width - total * shares[phase]) < 0.01 * total for width, phase in
-                       zip(bar["widths"], ("walk", "shade", "connect", "weigh", "splat"))), "its parts are the shares")
-            expect(abs(total / max(totals) - one["time_split"]["sample_seconds"] / longest) < 0.01, "its length is the time")
-    scene = data["scenes"][0]
-    maps = {name: zlib.decompress(base64.b64decode(text)) for name, text in scene["pictures"]["time"].items()}
-    expect(all(len(maps[name]) == SIZE * SIZE and min(maps[name]) > 0 for name in INTEGRATORS), "each pixel has its time")
-    browser.press("5")
-    browser.press("t")
-    shown = browser.run("return document.querySelector('.shown-name').textContent")
-    expect(shown == "5 bdpt", "the map is that of bdpt")
-    x, y = 7, 15
-    every = sorted(byte for one in maps.values() for byte in one)
-    least = every[int(0.01 * len(every))]
-    most = max(every[int(0.99 * len(every))], least + 12)
-    place = min(max((maps["bdpt"][y * SIZE + x] - least) / (most - least), 0), 1)
-    index = 6 * int(255 * place + 0.5)
-    wanted = [int(data["heat"][index + k:index + k + 2], 16) for k in (0, 2, 4)]
-    image(browser, STAGE)
-    swatch = browser.run("return document.querySelectorAll('.readout tbody tr')[4].querySelector('.pixel').style.background")
-    expect([int(part) for part in re.findall(r"\d+", swatch)][:3] == wanted, f"a pixel has the colour of its time {swatch} {wanted}")
-    browser.press("p")
-
-
 def check_access(browser):
     unnamed = browser.run("""
         const named = (one) => one.getAttribute('aria-label') || one.textContent.trim() || one.labels?.length;
@@ -238,7 +202,6 @@ def check(page):
         check_zoom(browser)
         check_values(browser, data)
         check_figures(browser, data)
-        check_times(browser, data)
         check_access(browser)
         check_narrow(browser)
         messages = browser.messages()

@@ -3,7 +3,6 @@
 #include "catch.hpp"
 #include "integrator/integrator.h"
 #include "moving_scenes.h"
-#include "profile/sample_timer.h"
 #include "render/aov_pass.h"
 #include "scene/world.h"
 #include "scene_builder.h"
@@ -271,30 +270,6 @@ TEST_CASE("hot path: nor do AOVs", "[hot_path]")
             static_cast<void>(pass.render_tile(whole, {.begin = 0, .end = samples}, film, ids));
         });
         CHECK(ids.ranks()[0] > 2);
-    }
-}
-
-TEST_CASE("hot path: nor does a profile", "[hot_path]")
-{
-    const World world(everything());
-    const MovingCamera camera(Camera(cameras()[0], size, size));
-    for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::mis}) {
-        CAPTURE(static_cast<int>(kind));
-        const auto integrator = make_integrator(world, camera, options_of(kind));
-        Film film(FilmLayout{
-            .width = size, .height = size, .region = region, .splats = SplatImage::present});
-        StrategyFilm strategies;
-        const std::function<void(const PathContribution&)> nobody;
-        PixelTicks pixels(region);
-        SampleTicks ticks;
-        TimeSheet sheet{
-            .pixels = pixels, .samples = ticks, .clock_ticks = 0.0, .suspicious_ticks = 0.0};
-        const Films films{
-            .film = &film, .strategies = strategies, .on_path = nobody, .times = &sheet};
-        check_costs_nothing_a_sample([&](std::int64_t samples) {
-            static_cast<void>(integrator->render_tile(whole, {.begin = 0, .end = samples}, films));
-        });
-        CHECK(ticks.clocked.pieces + ticks.interrupted > 0);
     }
 }
 

@@ -40,7 +40,7 @@ std::vector<float> merged_values(const World& world)
         trace_camera_subpath(sample, Vec2(0.5f), {.max_vertices = 2}, seen);
         trace_light_subpath(sample, {.max_vertices = 2}, strategies.next_event_sampling(), light);
         if (seen.size() == 2 && light.size() == 2) {
-            if (const auto found = merge(sample, light.all(), seen.all(), merging, weigher)) {
+            if (const auto found = merge(light.all(), seen.all(), merging, weigher)) {
                 values.push_back(found->unweighted.g);
             }
         }

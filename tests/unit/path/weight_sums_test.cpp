@@ -71,7 +71,7 @@ std::vector<float> weights_of(SampleContext sample, const Subpath& light_path,
         // However far apart: the weight does not depend on it.
         for (int s = 2; s <= light_path.size() && can_merge(camera_path.first(t).back()); ++s) {
             if (strategies.merges(s, t) && can_merge(light_path.first(s).back())) {
-                add(merge(sample, light_path.first(s), camera_path.first(t), merging, weigher));
+                add(merge(light_path.first(s), camera_path.first(t), merging, weigher));
             }
         }
     }

@@ -16,8 +16,8 @@ constexpr std::array<std::string_view, 17> with_value{
     "-o",      "--output",  "--spp",        "--samples",        "--time",       "--part",
     "--plan",  "--task",    "--stats",      "--threads",        "--max-memory", "--cameras",
     "--noise", "--display", "--strategies", "--strategy-depth", "--save-rates"};
-constexpr std::array<std::string_view, 7> flags{"--restart", "-q",     "--quiet",  "-v",
-                                                "--verbose", "--json", "--profile"};
+constexpr std::array<std::string_view, 6> flags{"--restart", "-q",        "--quiet",
+                                                "-v",        "--verbose", "--json"};
 
 template <typename Names>
 bool has(const Names& names, std::string_view word)

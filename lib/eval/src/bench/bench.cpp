@@ -17,7 +17,6 @@
 #include "bench/progress_meter.h"
 #include "bench/reference_cache.h"
 #include "bench/strategy_shares.h"
-#include "bench/time_splits.h"
 #include "bench/trial.h"
 
 namespace bdpt::eval {
@@ -129,7 +128,7 @@ double planned_seconds(const BenchOptions& options)
 {
     const auto integrators = static_cast<double>(options.integrators.size());
     return 2.0 * options.reference_seconds +
-           integrators * options.seconds * (options.seeds + calibration_share + split_share) +
+           integrators * options.seconds * (options.seeds + calibration_share) +
            (options.strategy_depth > 0 ? options.seconds : 0.0);
 }
 
@@ -150,7 +149,6 @@ std::vector<fs::path> scene_files(const fs::path& folder, const std::string& sce
             result.push_back(files.run(kind, number));
             result.push_back(files.image(kind, number));
         }
-        result.push_back(files.time_split(kind));
     }
     return result;
 }
@@ -199,9 +197,6 @@ std::optional<SceneResult> run_scene(const BenchScene& scene, const BenchOptions
     }
     result.complete = run_all(scene, options, files, reference, meter, control, result);
     result.floors = find_floors(result, files, reference);
-    if (result.complete) {
-        result.splits = measure_time_splits(scene, options, files, result.goals, meter, control);
-    }
     if (result.complete && options.strategy_depth > 0) {
         measure_strategies(scene, options, files, reference, meter, control);
     }

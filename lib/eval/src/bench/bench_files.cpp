@@ -56,11 +56,6 @@ fs::path BenchFiles::strategies() const
     return folder_ / "scenes" / scene_ / "strategies.json";
 }
 
-fs::path BenchFiles::time_split(IntegratorKind integrator) const
-{
-    return folder_ / "scenes" / scene_ / (std::string(to_name(integrator)) + "-time.json");
-}
-
 fs::path BenchFiles::reference_image(const std::string& key) const
 {
     return folder_ / "references" / (scene_ + "-" + key + ".exr");

@@ -22,7 +22,6 @@ public:
     [[nodiscard]] std::filesystem::path run(IntegratorKind integrator, std::uint64_t seed) const;
     [[nodiscard]] std::filesystem::path image(IntegratorKind integrator, std::uint64_t seed) const;
     [[nodiscard]] std::filesystem::path strategies() const;
-    [[nodiscard]] std::filesystem::path time_split(IntegratorKind integrator) const;
     /// `key` distinguishes the references of a scene.
     [[nodiscard]] std::filesystem::path reference_image(const std::string& key) const;
     [[nodiscard]] std::filesystem::path reference_facts(const std::string& key) const;

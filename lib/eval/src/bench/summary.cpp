@@ -177,11 +177,6 @@ std::vector<IntegratorSummary> summarize(const SceneResult& result, double secon
                 summary.floor = floor.relmse;
             }
         }
-        for (const TimeSplit& split : result.splits) {
-            if (split.integrator == goals.integrator) {
-                summary.time = split;
-            }
-        }
         summaries.push_back(std::move(summary));
     }
     add_speed_ups(summaries);

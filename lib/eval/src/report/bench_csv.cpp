@@ -10,9 +10,8 @@ namespace {
 
 constexpr const char* columns =
     "scene,file,content,width,height,max_depth,sampler,integrator,seed,samples,equal_time,"
-    "equal_samples,cpu_seconds,wall_seconds,relmse,reference_noise,relmse_scales,mape,walk_share,"
-    "shade_share,"
-    "connect_share,weigh_share,splat_share,threads,cpu,libraries,version\n";
+    "equal_samples,cpu_seconds,wall_seconds,relmse,reference_noise,relmse_scales,mape,threads,cpu,"
+    "libraries,version\n";
 
 /// Formats a field of a CSV file [RFC 4180].
 std::string field(const std::string& text)
@@ -29,21 +28,6 @@ std::string number(double value)
     char text[32];
     std::snprintf(text, sizeof text, "%.9g", value);
     return text;
-}
-
-/// Returns the time split of an integrator, one field per phase: empty if it is not known.
-std::string share_fields(const SceneResult& scene, IntegratorKind integrator)
-{
-    const auto split =
-        std::find_if(scene.splits.begin(), scene.splits.end(),
-                     [&](const TimeSplit& one) { return one.integrator == integrator; });
-    std::string result;
-    for (const Phase phase : all_phases) {
-        result += "," + (split == scene.splits.end()
-                             ? std::string()
-                             : number(split->shares[static_cast<std::size_t>(phase)]));
-    }
-    return result;
 }
 
 }  // namespace
@@ -65,7 +49,6 @@ std::string bench_csv(const BenchRecord& record)
             const auto goals = std::find_if(
                 scene.goals.begin(), scene.goals.end(),
                 [&](const BenchGoals& one) { return one.integrator == run.integrator; });
-            const std::string shares = share_fields(scene, run.integrator);
             for (const Checkpoint& point : run.checkpoints) {
                 result += head + std::string(to_name(run.integrator)) + "," +
                           std::to_string(run.seed) + "," + std::to_string(point.samples) + "," +
@@ -73,7 +56,7 @@ std::string bench_csv(const BenchRecord& record)
                           (point.samples == goals->equal_samples ? "1," : "0,") +
                           number(point.cpu_seconds) + "," + number(point.wall_seconds) + "," +
                           number(point.relmse) + "," + number(scene.reference_noise) + "," +
-                          number(point.relmse_scales) + "," + number(point.mape) + shares + tail;
+                          number(point.relmse_scales) + "," + number(point.mape) + tail;
             }
         }
     }

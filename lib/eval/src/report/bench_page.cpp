@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "bench/bench_files.h"
-#include "bench/time_splits.h"
 #include "report/page_source.h"
 #include "report/record_json.h"
 
@@ -97,18 +96,6 @@ ordered_json image_list_json(const SceneResult& scene, const fs::path& folder,
             {"variance", std::move(variances)}};
 }
 
-/// Returns the maps of time per pixel.
-ordered_json times_json(const SceneResult& scene, const BenchFiles& files)
-{
-    ordered_json maps = ordered_json::object();
-    for (const TimeSplit& split : scene.splits) {
-        if (std::optional<std::string> map = packed_time_map(files, split.integrator)) {
-            maps[std::string(to_name(split.integrator))] = std::move(*map);
-        }
-    }
-    return maps;
-}
-
 }  // namespace
 
 std::string bench_page(const BenchRecord& record, const fs::path& folder)
@@ -122,7 +109,6 @@ std::string bench_page(const BenchRecord& record, const fs::path& folder)
         json["pictures"] = image_list_json(scene, folder, reference, page_scale(scene.light_scale));
         std::optional<ordered_json> strategies =
             read_json(BenchFiles(folder, scene.name).strategies());
-        json["pictures"]["time"] = times_json(scene, BenchFiles(folder, scene.name));
         json["strategies"] = strategies ? std::move(*strategies) : ordered_json();
         data["scenes"].push_back(std::move(json));
     }

@@ -50,17 +50,6 @@ ordered_json goal_json(const GoalSummary& goal)
             {"near_reference_noise", goal.near_noise}};
 }
 
-ordered_json time_json(const TimeSplit& split)
-{
-    ordered_json result{{"sample_seconds", split.sample_seconds},
-                        {"samples", split.samples},
-                        {"distortion", split.distortion}};
-    for (const Phase phase : all_phases) {
-        result["shares"][to_string(phase)] = split.shares[static_cast<std::size_t>(phase)];
-    }
-    return result;
-}
-
 ordered_json summary_json(const IntegratorSummary& summary)
 {
     ordered_json curve = ordered_json::array();
@@ -84,7 +73,6 @@ ordered_json summary_json(const IntegratorSummary& summary)
     result["rays_per_second"] = {{"camera", summary.camera_rays_per_second},
                                  {"light", summary.light_rays_per_second},
                                  {"shadow", summary.shadow_rays_per_second}};
-    result["time_split"] = summary.time ? time_json(*summary.time) : ordered_json();
     result["peak_memory_bytes"] =
         summary.peak_memory ? ordered_json(*summary.peak_memory) : ordered_json();
     result["invalid_samples"] = summary.invalid;

@@ -24,7 +24,6 @@
 #include <bdpt/part/identity.h>
 #include <bdpt/part/sample_set.h>
 #include <bdpt/render_stats.h>
-#include <bdpt/time_profile.h>
 
 #include <optional>
 
@@ -43,16 +42,13 @@ struct RenderResult {
     RenderStats stats;
     double seconds = 0.0;      ///< time of the calls that rendered these samples [s]; not in files
     double cpu_seconds = 0.0;  ///< CPU time of the process while it rendered these samples [s]
-    /// Profile of the samples of the last call, with Profiling::on; not in files.
-    std::optional<TimeProfile> profile{};
 
     /// Returns the linear radiance [nit] of the film's region.
     [[nodiscard]] Image image() const { return film.develop(); }
 };
 
-/// Adds the samples of `other` to `result`, without profiles. Throws `Error` (invalid_input) if
-/// they belong to another render (the message names the difference), or if `result` already has
-/// some of them.
+/// Adds the samples of `other` to `result`. Throws `Error` (invalid_input) if they belong to
+/// another render (the message names the difference), or if `result` already has some of them.
 BDPT_EXPORT void merge(RenderResult& result, const RenderResult& other);
 
 }  // namespace bdpt

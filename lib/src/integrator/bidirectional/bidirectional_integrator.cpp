@@ -3,7 +3,6 @@
 #include "camera/moving_camera.h"
 #include "integrator/sample_start.h"
 #include "path/merge.h"
-#include "profile/sample_timer.h"
 
 #include <algorithm>
 
@@ -97,8 +96,7 @@ RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange s
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             schedule_.for_each(x, y, samples, [&](const ScheduledSample& scheduled) {
-                SampleTimer timer(films.times, x, y, scheduled.index);
-                add_sample(x, y, scheduled, timer.clock(), scratch);
+                add_sample(x, y, scheduled, scratch);
             });
         }
     }
@@ -106,7 +104,7 @@ RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange s
 }
 
 void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& scheduled,
-                                         PhaseClock* clock, Scratch& scratch) const
+                                         Scratch& scratch) const
 {
     ContributionSink& sink = scratch.sink;
     const std::int64_t index = scheduled.index;
@@ -123,8 +121,7 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
                          .sampler = start.sampler,
                          .time = start.moment.time,
                          .wavelength = start.moment.wavelength,
-                         .rays = scratch.stats.rays,
-                         .clock = clock};
+                         .rays = scratch.stats.rays};
     sink.begin_sample(x, y, scheduled);
 
     // Own light paths of pixels outside of a crop can splat into it.
@@ -155,7 +152,6 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
         trace_light_path(sample, scratch);
         scratch.joiner.join_paths(sample, scratch.light_path.all(), scratch.camera_path);
     }
-    sample.enter(Phase::splat);
     scratch.stats.paths.camera += wanted ? 1U : 0U;
     sink.end_sample();
 }
@@ -188,8 +184,7 @@ RenderStats BidirectionalIntegrator::render_chunk(std::int64_t part, SampleRange
                                  .sampler = cache_.sampler(index, bundle, i),
                                  .time = moment.time,
                                  .wavelength = moment.wavelength,
-                                 .rays = scratch.stats.rays,
-                                 .clock = nullptr};
+                                 .rays = scratch.stats.rays};
             scratch.sink.begin_light_path(index);
             trace_light_path(sample, scratch);
             scratch.sink.end_sample();
@@ -206,7 +201,6 @@ RenderStats BidirectionalIntegrator::render_chunk(std::int64_t part, SampleRange
 
 void BidirectionalIntegrator::trace_light_path(SampleContext& sample, Scratch& scratch) const
 {
-    sample.enter(Phase::walk);
     trace_light_subpath(sample,
                         {.max_vertices = strategies_.light_vertices(),
                          .rr_start = options_.transport.rr_start,
@@ -250,11 +244,10 @@ void BidirectionalIntegrator::merge_paths(const SampleContext& sample, Scratch& 
             if (!strategies_.merges(s, t)) {
                 return;
             }
-            if (auto found = merge(sample, light, camera, merging_, scratch.weigher)) {
+            if (auto found = merge(light, camera, merging_, scratch.weigher)) {
                 found->chance = static_cast<float>(chance);
                 found->unweighted *= 1.0f / found->chance;
                 scratch.sink.add(sample, {.s = s, .t = t}, *found, merging_.light_paths);
-                sample.enter(Phase::connect);
             }
         });
     }

@@ -10,8 +10,6 @@
 
 namespace bdpt {
 
-class SampleTimer;
-
 /// Bidirectional path tracing [Veach 1997, ch. 10]: traces for each sample its camera path and the
 /// light paths that `PathJoiner` connects it to. Light tracing uses the strategies t <= 1 alone.
 /// Light paths belong to one camera path, or to all of a sample index: then each camera path is
@@ -37,8 +35,7 @@ private:
     /// Returns the number of light paths of each camera path that has its own.
     [[nodiscard]] int own_light_paths() const;
     void trace_light_path(SampleContext& sample, Scratch& scratch) const;
-    void add_sample(int x, int y, const ScheduledSample& scheduled, PhaseClock* clock,
-                    Scratch& scratch) const;
+    void add_sample(int x, int y, const ScheduledSample& scheduled, Scratch& scratch) const;
     /// Returns the chance by which each light vertex near `p` is chosen to merge there.
     [[nodiscard]] double chance_of_merges(Vec3 p) const;
     void merge_paths(const SampleContext& sample, Scratch& scratch) const;

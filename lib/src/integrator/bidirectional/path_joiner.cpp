@@ -15,15 +15,12 @@ bool PathJoiner::is_background(const SampleContext& sample, const PathVertex& x0
 
 void PathJoiner::join_camera_path(SampleContext& sample, Subpath& path)
 {
-    sample.enter(Phase::weigh);
     weigher_.begin_camera_path(path.all());
-    sample.enter(Phase::connect);
     for (int t = 2; t <= path.size(); ++t) {
         const auto camera = path.first(t);
         if (strategies_.uses(0, t) && !(t == 2 && is_background(sample, camera.back()))) {
             if (const auto found = hit_light(sample, camera, weigher_)) {
                 sink_.add(sample, {.s = 0, .t = t}, *found, strategies_.count(0, t));
-                sample.enter(Phase::connect);
             }
         }
         if (t <= options_.transport.max_depth && strategies_.uses(1, t)) {
@@ -33,7 +30,6 @@ void PathJoiner::join_camera_path(SampleContext& sample, Subpath& path)
     if (sample.camera.is_perspective() && connects_light_to_lens(sample)) {
         if (const auto found = connect_light_to_lens(sample, weigher_)) {
             sink_.splat(sample, {.s = 1, .t = 1}, *found, strategies_.count(1, 1), 1);
-            sample.enter(Phase::connect);
         }
     }
 }
@@ -58,21 +54,17 @@ void PathJoiner::join_to_lights(SampleContext& sample, std::span<const PathVerte
         const Vec2 u = i == 0 ? first : shifted_point(first, i, count);
         if (const auto found = connect_to_light(sample, camera, u, weigher_)) {
             sink_.add(sample, {.s = 1, .t = t}, *found, strategies_.count(1, t));
-            sample.enter(Phase::connect);
         }
     }
 }
 
 void PathJoiner::join_light_path(SampleContext& sample, Subpath& path)
 {
-    sample.enter(Phase::weigh);
     weigher_.begin_light_path(path.all());
-    sample.enter(Phase::connect);
     const auto deliver = [&](const std::optional<Contribution>& found, Strategy strategy) {
         if (found) {
             sink_.splat(sample, strategy, *found, strategies_.count(strategy.s, strategy.t),
                         static_cast<std::uint32_t>(2 * strategy.s + (strategy.t == 0 ? 1 : 0)));
-            sample.enter(Phase::connect);
         }
     };
     const int max_s = std::min(path.size(), options_.transport.max_depth);
@@ -103,7 +95,6 @@ void PathJoiner::join_paths(const SampleContext& sample, std::span<const PathVer
             if (const auto found = connect_interior(
                     sample, light.first(static_cast<std::size_t>(s)), camera.first(t), weigher_)) {
                 sink_.add(sample, {.s = s, .t = t}, *found, strategies_.count(s, t));
-                sample.enter(Phase::connect);
             }
         }
     }
@@ -132,7 +123,6 @@ void PathJoiner::join_chosen(const SampleContext& sample, const LightPathCache& 
             sink_.begin_joins(static_cast<int>(each.path));
             sink_.add(sample, {.s = each.s, .t = each.t}, *found,
                       strategies_.count(each.s, each.t));
-            sample.enter(Phase::connect);
         }
     }
 }

@@ -5,7 +5,6 @@
 #include "math/rgb.h"
 #include "math/shifted_points.h"
 #include "path/segment_sample.h"
-#include "profile/sample_timer.h"
 
 #include <glm/geometric.hpp>
 
@@ -90,17 +89,16 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             schedule_.for_each(x, y, samples, [&](const ScheduledSample& scheduled) {
-                add_sample(x, y, scheduled, films, sink, stats);
+                add_sample(x, y, scheduled, sink, stats);
             });
         }
     }
     return stats;
 }
 
-void PathIntegrator::add_sample(int x, int y, const ScheduledSample& scheduled, const Films& films,
+void PathIntegrator::add_sample(int x, int y, const ScheduledSample& scheduled,
                                 ContributionSink& sink, RenderStats& stats) const
 {
-    SampleTimer timer(films.times, x, y, scheduled.index);
     const SampleStart start(options_, filter_, world_, camera_, x, y, scheduled.index);
     const TimedCamera camera(camera_, start.moment.time);
     SampleContext sample{.world = world_,
@@ -108,11 +106,9 @@ void PathIntegrator::add_sample(int x, int y, const ScheduledSample& scheduled, 
                          .sampler = start.sampler,
                          .time = start.moment.time,
                          .wavelength = start.moment.wavelength,
-                         .rays = stats.rays,
-                         .clock = timer.clock()};
+                         .rays = stats.rays};
     sink.begin_sample(x, y, scheduled);
     trace_path(sample, start.raster, sink);
-    sample.enter(Phase::splat);
     sink.end_sample();
     ++stats.paths.camera;
 }
@@ -143,7 +139,6 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         if (event.fog && fog_sampling_) {
             const FogSegment fog{ray.origin.p, ray.direction, *event.fog};
             if (depth < options_.transport.max_depth && depth + 1 >= options_.transport.min_depth) {
-                const PhaseScope scope(sample.clock, Phase::connect);
                 add({.s = 1, .t = depth + 1}, beta * sample_fog(sample, ray, fog, depth));
             }
             if (event.in_medium) {
@@ -155,7 +150,6 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
             const bool visible =
                 depth > 1 || options_.transport.background == Background::environment;
             if (id && visible) {
-                const PhaseScope scope(sample.clock, Phase::weigh);
                 const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
                 add({.s = 0, .t = depth + 1},
                     beta * event.weight() *
@@ -164,12 +158,10 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
             }
             break;
         }
-        sample.enter(Phase::shade);
         SurfacePoint point = make_interaction(sample, event, ray.origin, ray.direction, segment);
         if (depth == 1) {
             point.bsdf.see_from_lens();
         }
-        sample.enter(Phase::walk);
         const Vec3 along = point.end.p - ray.origin.p;
         const float distance_squared = dot(along, along);
         if (distance_squared < coincident) {
@@ -177,7 +169,6 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         }
         beta *= event.weight();
         if (point.light) {
-            const PhaseScope scope(sample.clock, Phase::weigh);
             const LightPoint on_light{.p = point.end.p,
                                       .ng = point.end.ng,
                                       .barycentrics = point.barycentrics,
@@ -192,7 +183,6 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
         if (samples_lights_ && point.bsdf.connectible() &&
             depth + 1 >= options_.transport.min_depth) {
-            const PhaseScope scope(sample.clock, Phase::connect);
             add({.s = 1, .t = depth + 1}, beta * sample_lights(sample, point, arrival, depth));
         }
         sampler.start(SampleUse::camera_walk, vertex);

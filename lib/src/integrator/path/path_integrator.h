@@ -26,8 +26,8 @@ private:
     struct Ray;
     struct FogArrival;
     struct LightConnection;
-    void add_sample(int x, int y, const ScheduledSample& scheduled, const Films& films,
-                    ContributionSink& sink, RenderStats& stats) const;
+    void add_sample(int x, int y, const ScheduledSample& scheduled, ContributionSink& sink,
+                    RenderStats& stats) const;
     void trace_path(SampleContext& sample, Vec2 raster, ContributionSink& sink) const;
     /// Returns the radiance of a light that the ray hit, with its MIS weight against light
     /// sampling; `probability_of_flight` is the probability that no medium scatters the ray before.

@@ -31,7 +31,7 @@ function speedUpBars(scene) {
 }
 
 /**
- * Draws a stacked bar for each row of { name, parts, title(k), inside(k) }. `parts` follow the order of `kinds`, which
+ * Draws a stacked bar for each row of { name, parts, title(k) }. `parts` follow the order of `kinds`, which
  * are pairs of a class and its description. Returns null if there is nothing to show.
  */
 function stackedBars(scene, rows, { caption, series, kinds, format }) {
@@ -49,13 +49,11 @@ function stackedBars(scene, rows, { caption, series, kinds, format }) {
       const size = value * unit;
       const part = svg("rect", { x, y, width: size, height: 20, class: `part ${series}-${kinds[k][0]}` },
         svg("title", null, row.title(k)));
-      const text = row.inside && size > 34
-        ? svg("text", { x: x + size / 2, y: y + 14, class: "inside", "text-anchor": "middle" }, row.inside(k)) : null;
       x += size;
-      return [part, text];
+      return part;
     });
     return svg("g", null, svg("text", { x: left - 8, y: y + 15, class: `label series-${row.name}`, "text-anchor": "end" }, row.name),
-      parts.flat(), svg("text", { x: x + 7, y: y + 15, class: "value" }, format(totals[i])));
+      parts, svg("text", { x: x + 7, y: y + 15, class: "value" }, format(totals[i])));
   });
   const spoken = rows.map((row) => row.parts.map((_, k) => row.title(k)).join(", ")).join("; ");
   return html("figure", { class: `plot-box ${series}-bars` }, html("figcaption", null, caption),

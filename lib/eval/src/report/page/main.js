@@ -64,7 +64,7 @@ function bindToolbar() {
     viewers.forEach((viewer) => viewer.view.reset());
     setMode("picture");
   });
-  const keys = { p: () => setMode("picture"), e: () => setMode("error"), v: () => setMode("variance"), t: () => setMode("time"),
+  const keys = { p: () => setMode("picture"), e: () => setMode("error"), v: () => setMode("variance"),
     ",": () => setExposure(display.exposure - 0.5), ".": () => setExposure(display.exposure + 0.5) };
   document.addEventListener("keydown", (event) => {
     const typing = event.target instanceof Element && event.target.closest("select, input[type=text]");
@@ -112,7 +112,7 @@ async function sceneSection(scene) {
     html("p", { class: "note" }, "Median of the seeds; the band reaches from the least to the greatest. Dashed: error falls with the inverse."),
     scene.integrators.length ? curveTable(scene) : null,
     sceneTable(scene), await strategySection(scene, heat),
-    html("div", { class: "figures" }, await lengthMap(scene, heat), html("div", { class: "bar-stack" }, splitBars(scene), rayBars(scene))));
+    html("div", { class: "figures" }, await lengthMap(scene, heat), html("div", { class: "bar-stack" }, rayBars(scene))));
   byId("scenes").append(section);
 }
 

@@ -1,7 +1,7 @@
 // Shows the images of a scene: one large, all as thumbnails, and their values under the pointer.
 
 const REFERENCE = "reference";
-const MODES = { picture: "Image", error: "Error", variance: "Variance", time: "Time" };
+const MODES = { picture: "Image", error: "Error", variance: "Variance" };
 
 /** Display settings of all images on the page. */
 const display = { mode: "picture", exposure: 0, gamma: 1, curve: "filmic", metric: "relative", shown: 0 };
@@ -24,11 +24,9 @@ class Viewer {
   }
 
   async load() {
-    const { images, variance, time, scale } = this.scene.pictures;
+    const { images, variance, scale } = this.scene.pictures;
     this.rgb = await Promise.all(this.names.map((name) => unpackImage(images[name], scale)));
     this.variances = await Promise.all(this.names.map((name) => (variance[name] ? unpackBytes(variance[name]) : null)));
-    this.times = await Promise.all(this.names.map((name) => (time[name] ? unpackBytes(time[name]) : null)));
-    this.timeRange = timeRange(this.times.filter((map) => map));
   }
 
   get reference() {
@@ -166,8 +164,6 @@ class Viewer {
       errorMap(this.rgb[i], this.reference, image.data, display.metric, epsilon, this.heat);
     } else if (display.mode === "variance" && this.variances[i]) {
       varianceMap(this.variances[i], image.data, this.heat);
-    } else if (display.mode === "time" && this.times[i]) {
-      timeMap(this.times[i], image.data, this.heat, this.timeRange);
     } else {
       toneMap(this.rgb[i], image.data,
         { gain: 2 ** (exposure + display.exposure), curve: display.curve, gamma: display.gamma });
@@ -179,10 +175,9 @@ class Viewer {
     const metric = METRICS[display.metric];
     const content = {
       picture: () => html("p", { class: "note" },
-        `Shown at ${digits(this.scene.pictures.exposure + display.exposure)} EV. Drag to pan, double-click or Ctrl + wheel to zoom; keys 1 to ${this.names.length} flip, P, E, V, T choose what is shown, comma and full stop the exposure.`),
+        `Shown at ${digits(this.scene.pictures.exposure + display.exposure)} EV. Drag to pan, double-click or Ctrl + wheel to zoom; keys 1 to ${this.names.length} flip, P, E, V choose what is shown, comma and full stop the exposure.`),
       error: () => colorBar(this.heat, `Error of this image, ${metric.label}`, metric.ticks),
       variance: () => colorBar(this.heat, "Variance between seeds, relative", METRICS.relative.ticks),
-      time: () => colorBar(this.heat, "Time of a sample", timeTicks(this.timeRange)),
     };
     this.legend.replaceChildren(content[display.mode]());
   }

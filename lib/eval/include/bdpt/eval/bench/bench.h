@@ -17,7 +17,6 @@
 #include <bdpt/eval/bench/bench_run.h>
 #include <bdpt/eval/bench/bench_scene.h>
 #include <bdpt/eval/bench/reference.h>
-#include <bdpt/eval/bench/time_split.h>
 #include <bdpt/export.h>
 
 #include <filesystem>
@@ -65,7 +64,6 @@ struct SceneResult {
     std::vector<BenchGoals> goals;
     std::vector<BenchRun> runs;        ///< by seed, then in the order of the integrators
     std::vector<ErrorFloor> floors{};  ///< floors of the integrators that cannot find all light
-    std::vector<TimeSplit> splits{};   ///< splits of the integrators whose time was measured
     bool complete = false;             ///< true if all runs were made
 };
 

@@ -65,7 +65,6 @@ struct IntegratorSummary {
     std::optional<SpeedUp> speed_up{};  ///< none without runs of pt
     /// Error floor; none: the integrator finds all light.
     std::optional<double> floor{};
-    std::optional<TimeSplit> time{};  ///< time by phase; none if it was not measured
     double samples_per_second = 0.0;  ///< samples of all pixels per second of wall-clock time
     double camera_rays_per_second = 0.0;
     double light_rays_per_second = 0.0;

@@ -15,8 +15,7 @@
 #include "options/option_list.h"
 #include "plan/planned_words.h"
 #include "terminal/console.h"
-#include "terminal/processor_quota.h"
-#include "terminal/standard_streams.h"
+#include "terminal/machine_limits.h"
 
 namespace bdpt::app {
 namespace {

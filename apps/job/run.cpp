@@ -10,7 +10,7 @@
 #include "job_options.h"
 #include "options/job_file.h"
 #include "options/values/pipes.h"
-#include "terminal/processor_quota.h"
+#include "terminal/machine_limits.h"
 
 namespace bdpt {
 namespace {

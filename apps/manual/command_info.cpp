@@ -1,4 +1,4 @@
-#include "command_info.h"
+#include "manual.h"
 
 #include <algorithm>
 #include <sstream>

@@ -7,10 +7,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "command_info.h"
 #include "commands/command_line.h"
-#include "completions.h"
-#include "man_page.h"
+#include "manual.h"
 #include "options/job_file.h"
 
 namespace bdpt::manual {

@@ -1,4 +1,4 @@
-#include "man_page.h"
+#include "manual.h"
 
 #include <bdpt/version.h>
 #include <fmt/core.h>

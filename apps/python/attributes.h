@@ -1,13 +1,19 @@
 #pragma once
 
+#include <bdpt/light_desc.h>
+#include <bdpt/scene_desc.h>
 #include <bdpt/types.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/array.h>
 
 #include <array>
 #include <cstddef>
+#include <map>
+#include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 namespace bdpt::python {
 
@@ -53,5 +59,27 @@ void def_vec(Class& type, const char* name, T member, const char* text)
         },
         [member](Owner& owner, const Array& values) { owner.*member = to_vec(values); }, text);
 }
+
+using ArrayLight =
+    std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc, EnvironmentLightDesc>;
+
+/// Converts lights to those of scenes, which also have lights of files.
+[[nodiscard]] inline std::vector<LightDesc> to_lights(const std::vector<ArrayLight>& lights)
+{
+    std::vector<LightDesc> result;
+    for (const ArrayLight& light : lights) {
+        std::visit([&result](const auto& desc) { result.emplace_back(desc); }, light);
+    }
+    return result;
+}
+
+/// A material with its textures by slot.
+struct ArrayMaterial {
+    MaterialDesc desc;
+    std::map<std::string, TexelImage> textures;
+};
+
+/// Returns the material for `scene`, to whose images its textures are added.
+[[nodiscard]] MaterialDesc with_textures(const ArrayMaterial& material, SceneDesc& scene);
 
 }  // namespace bdpt::python

@@ -14,8 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "array_light.h"
-#include "array_material.h"
+#include "attributes.h"
 #include "interpreter_lock.h"
 #include "python_scene.h"
 

@@ -1,4 +1,4 @@
-#include "array_material.h"
+#include "attributes.h"
 
 #include <bdpt/error.h>
 #include <fmt/core.h>
@@ -16,7 +16,6 @@
 #include <utility>
 
 #include "arrays.h"
-#include "attributes.h"
 #include "python_scene.h"
 
 namespace bdpt::python {

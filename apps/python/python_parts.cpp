@@ -1,6 +1,7 @@
 #include <bdpt/default_lights.h>
 #include <bdpt/error.h>
 #include <bdpt/framing.h>
+#include <bdpt/light_desc.h>
 #include <bdpt/scene_desc.h>
 #include <fmt/core.h>
 #include <nanobind/stl/optional.h>
@@ -16,13 +17,11 @@
 #include <optional>
 #include <utility>
 
-#include "array_light.h"
-#include "array_material.h"
 #include "arrays.h"
 #include "attributes.h"
 #include "options/values/view.h"
 #include "python_scene.h"
-#include "terminal/memory_limit.h"
+#include "terminal/machine_limits.h"
 
 namespace bdpt::python {
 namespace {
@@ -196,14 +195,13 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
 void bind_mesh_and_camera(nb::module_& module)
 {
     nb::class_<ArrayMesh>(module, "Mesh", "Triangles with one material [m].")
-        .def(
-            nb::new_(&make_mesh), nb::arg("positions"), nb::arg("triangles"),
-            nb::arg("normals") = nb::none(), nb::arg("uvs") = nb::none(),
-            nb::arg("material").none() = nb::none(), nb::arg("transforms") = nb::none(),
-            nb::arg("name") = "",
-            "positions, normals: float32 (n, 3); triangles: integers (m, 3), counter-clockwise "
-            "from the front; uvs: float32 (n, 2), v points down; transforms: float32 (k, 4, 4), "
-            "one per instance.");
+        .def(nb::new_(&make_mesh), nb::arg("positions"), nb::arg("triangles"),
+             nb::arg("normals") = nb::none(), nb::arg("uvs") = nb::none(),
+             nb::arg("material").none() = nb::none(), nb::arg("transforms") = nb::none(),
+             nb::arg("name") = "",
+             "positions, normals: float32 (n, 3); triangles: integers (m, 3), counter-clockwise "
+             "from the front; uvs: float32 (n, 2), v points down; transforms: float32 (k, 4, 4), "
+             "one per instance.");
     nb::class_<CameraDesc>(module, "Camera", "A camera; +y is up.")
         .def(
             nb::new_(&make_camera), nb::arg("from_"), nb::arg("look_at"), nb::arg("fov") = 45.0f,
@@ -225,6 +223,41 @@ void bind_parts_of_scenes(nb::module_& module)
         nb::arg("camera") = nb::none(), nb::arg("size") = std::pair(1280, 720),
         "Scene of meshes, lights and a camera; without a camera, the whole scene is framed, and "
         "without light it gets a soft sky (and a lamp in a closed room). Arrays are copied.");
+}
+
+void bind_lights(nb::module_& module)
+{
+    nb::class_<PointLightDesc> point(module, "PointLight", "A point light: isotropic.");
+    point.def("__init__", &construct<PointLightDesc>, nb::arg("attributes"));
+    point.def_rw("name", &PointLightDesc::name, "Name in id layers.");
+    def_vec(point, "position", &PointLightDesc::position, "[m]");
+    def_vec(point, "intensity", &PointLightDesc::intensity, "[cd]");
+    point.def_rw("radius", &PointLightDesc::radius, "[m] 0: a point; else a sphere that is seen.");
+    nb::class_<SpotLightDesc> spot(module, "SpotLight", "A point light in a cone.");
+    spot.def("__init__", &construct<SpotLightDesc>, nb::arg("attributes"));
+    spot.def_rw("name", &SpotLightDesc::name, "Name in id layers.");
+    def_vec(spot, "position", &SpotLightDesc::position, "[m]");
+    def_vec(spot, "direction", &SpotLightDesc::direction, "The axis.");
+    def_vec(spot, "intensity", &SpotLightDesc::intensity, "[cd] within the inner cone");
+    spot.def_rw("inner_cone_angle", &SpotLightDesc::inner_cone_angle, "[rad] from the axis");
+    spot.def_rw("outer_cone_angle", &SpotLightDesc::outer_cone_angle, "[rad] from the axis");
+    spot.def_rw("radius", &SpotLightDesc::radius, "[m] 0: a point; else a sphere that is seen.");
+    nb::class_<DirectionalLightDesc> sun(module, "DirectionalLight", "A directional light.");
+    sun.def("__init__", &construct<DirectionalLightDesc>, nb::arg("attributes"));
+    def_vec(sun, "direction", &DirectionalLightDesc::direction,
+            "Direction in which the light "
+            "travels.");
+    def_vec(sun, "illuminance", &DirectionalLightDesc::illuminance,
+            "[lx] on a surface facing the light");
+    nb::class_<EnvironmentLightDesc>(module, "EnvironmentLight", "Light from infinity.")
+        .def(
+            "__init__",
+            [](EnvironmentLightDesc* self, const ImageInput& radiance) {
+                new (self) EnvironmentLightDesc{.radiance = to_image(radiance)};
+            },
+            nb::arg("radiance"),
+            "An equirectangular array of float32 (height, width, 3) [nit]: the top row is +y, the "
+            "centre column is seen along -z. Of shape (1, 1, 3) it is constant.");
 }
 
 }  // namespace bdpt::python

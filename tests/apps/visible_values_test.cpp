@@ -1,6 +1,6 @@
 // What a denoiser is given where pixels show something in part.
 
-#include "report/image/visible_values.h"
+#include "report/image/denoised.h"
 
 #include <cstddef>
 #include <utility>

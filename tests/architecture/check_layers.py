@@ -50,7 +50,7 @@ ALLOWED = {
     "apps/python": [r"glm/", r"nlohmann/", r"fmt/", r"nanobind/", r"cxxabi\.h", POSIX],
     "apps/bdpt/options/command_parser.cpp": [r"CLI/", r"fmt/"],
     "apps/bdpt/view": [r"glm/", r"nlohmann/", r"fmt/", r"boost/", POSIX],
-    "apps/bdpt/terminal/processor_quota.cpp": [r"(oneapi/)?tbb/"],
+    "apps/bdpt/terminal/machine_limits.cpp": [r"(oneapi/)?tbb/", r"fmt/", POSIX],
     "apps/job/include": [],
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, r"pthread\.h",
               INTRINSICS],

@@ -17,7 +17,7 @@ INEXACT = re.compile(r"(?:a?(?:sin|cos|tan)h?|atan2|sincos|exp(?:2|10|m1)?|log(?
                      r"|j[01n]|y[01n])(?:f|l|f32x?|f64x?|f128)?(?:_finite)?|_ZGV\w+")
 # Lists source files that need them for results outside of the film.
 ALLOWED = {
-    "direction_sheet.cpp": "a picture for people",
+    "inspect_report.cpp": "a picture for people",
     "camera_matrices.cpp": "matrices among the metadata of files",
     "display.cpp": "the image for a screen",
     "light_meter.cpp": "the exposure for a screen",

@@ -12,7 +12,7 @@ SOUND = {
     "apps/a/filled_share.cpp.o": "                 U tanf\n",
     "apps/a/layers.cpp.o": "                 U log10\n",
     "apps/a/view_camera.cpp.o": "                 U atan2f\n",
-    "apps/a/direction_sheet.cpp.o": "                 U cos\n",
+    "apps/a/inspect_report.cpp.o": "                 U cos\n",
     "lib/a/display.cpp.o": "                 U exp2\n",
     "lib/a/light_meter.cpp.o": "                 U log2\n",
     "lib/a/tone_curve.cpp.o": "                 U log2f\n",

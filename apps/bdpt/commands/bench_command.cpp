@@ -16,8 +16,7 @@
 #include <utility>
 
 #include "options/values/output_files.h"
-#include "report/bench_text.h"
-#include "stage/input_files.h"
+#include "report/eval_text.h"
 #include "stage/prepared_scene.h"
 #include "stage/render_preparation.h"
 #include "terminal/interrupt.h"

@@ -23,10 +23,9 @@
 #include "options/values/output_files.h"
 #include "options/values/value_types.h"
 #include "report/render_files.h"
-#include "stage/input_files.h"
+#include "stage/render_preparation.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
-#include "terminal/standard_streams.h"
 
 namespace bdpt::app {
 namespace {

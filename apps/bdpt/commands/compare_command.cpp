@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "options/values/output_files.h"
-#include "report/compare_text.h"
+#include "report/eval_text.h"
 
 namespace bdpt::app {
 

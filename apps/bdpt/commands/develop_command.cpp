@@ -12,11 +12,9 @@
 
 #include "options/values/default_output.h"
 #include "options/values/output_files.h"
-#include "report/image/backplate.h"
 #include "report/image/denoised.h"
+#include "report/image/display_sources.h"
 #include "report/image/image_files.h"
-#include "report/image/layered_image.h"
-#include "report/image/shown_exposure.h"
 #include "report/values.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"

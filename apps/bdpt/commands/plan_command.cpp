@@ -28,10 +28,8 @@
 #include "plan/plan_split.h"
 #include "plan/planned_identity.h"
 #include "plan/planned_words.h"
-#include "report/strategy_files.h"
-#include "stage/input_files.h"
+#include "report/render_files.h"
 #include "stage/render_preparation.h"
-#include "stage/sequence_viewpoint.h"
 #include "terminal/console.h"
 #include "terminal/text.h"
 

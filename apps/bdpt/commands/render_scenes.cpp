@@ -18,7 +18,7 @@
 #include "options/values/file_set.h"
 #include "options/values/output_files.h"
 #include "options/values/pipes.h"
-#include "stage/input_files.h"
+#include "stage/render_preparation.h"
 #include "terminal/console.h"
 #include "terminal/text.h"
 

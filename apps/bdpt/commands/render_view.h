@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "options/render_arguments.h"
+#include "report/display.h"
 #include "report/part/part_keeper.h"
-#include "report/viewer/display.h"
 #include "stage/prepared_scene.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"

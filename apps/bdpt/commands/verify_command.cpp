@@ -8,7 +8,7 @@
 #include <string>
 
 #include "options/groups/transport_arguments.h"
-#include "report/verify_text.h"
+#include "report/eval_text.h"
 #include "stage/prepared_scene.h"
 #include "stage/render_preparation.h"
 #include "terminal/interrupt.h"

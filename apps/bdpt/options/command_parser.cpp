@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "options/foreign_words.h"
-#include "terminal/standard_streams.h"
+#include "terminal/console.h"
 #include "terminal/text.h"
 
 namespace bdpt::app {

@@ -14,7 +14,7 @@
 #include "options/values/output_files.h"
 #include "options/values/pipes.h"
 #include "options/values/value_types.h"
-#include "terminal/memory_limit.h"
+#include "terminal/machine_limits.h"
 
 namespace bdpt::app {
 namespace {

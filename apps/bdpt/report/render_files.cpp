@@ -1,6 +1,11 @@
 #include "report/render_files.h"
 
 #include <bdpt/error.h>
+#include <bdpt/eval/image/contact_sheet.h>
+#include <bdpt/eval/image/false_color.h>
+#include <bdpt/io/output_file.h>
+#include <bdpt/io/png.h>
+#include <bdpt/io/rates_file.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -10,9 +15,49 @@
 #include "options/arguments.h"
 #include "options/values/output_files.h"
 #include "options/values/pipes.h"
-#include "report/strategy_files.h"
 
 namespace bdpt::app {
+
+namespace fs = std::filesystem;
+
+void check_strategy_files(const StrategyFiles& files, const FileSet& inputs, const FileSet& outputs)
+{
+    for (const fs::path& file : files.both()) {
+        if (inputs.contains(file) || outputs.contains(file)) {
+            throw Error(
+                ErrorCode::usage,
+                fmt::format(
+                    "--strategies \"{}\": {} is an input or another output", files.layers.string(),
+                    file == files.layers ? "it" : "the sheet " + file.string() + " beside it"));
+        }
+        io::check_writable(file);
+    }
+}
+
+void write_strategy_files(const StrategyFiles& files, const Image& image,
+                          const StrategyFilm& strategies, const io::ExrOptions& options,
+                          float exposure)
+{
+    io::write_exr(files.layers, image, strategies.develop(), options);
+    io::write_png(files.sheet, eval::contact_sheet(strategies, exposure),
+                  {.exposure = exposure, .metadata = options.metadata});
+}
+
+void save_rates(const std::filesystem::path& file, const SampleRates& rates,
+                const io::ImageMetadata& metadata)
+{
+    if (has_extension(file, ".exr")) {
+        io::write_rates(file, rates, metadata);
+        return;
+    }
+    eval::ErrorMap map{.width = rates.width(), .height = rates.height(), .values = {}};
+    for (const std::int8_t exponent : rates.exponents()) {
+        map.values.push_back(SampleRates::to_rate(exponent));
+    }
+    const float most = SampleRates::to_rate(SampleRates::max_exponent);
+    io::write_png(file, eval::false_color(map, {.scale = most, .title = "samples per round"}),
+                  {.metadata = metadata});
+}
 
 std::vector<std::filesystem::path> all_image_files(const RenderArguments& arguments)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/io/gltf.h>
+#include <bdpt/light_desc.h>
 #include <bdpt/scene.h>
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "options/arguments.h"
+#include "options/groups/environment_arguments.h"
 #include "options/render_arguments.h"
 #include "terminal/console.h"
 
@@ -38,6 +40,10 @@ struct PreparedScene {
 
 /// Tests whether an environment lights the scene.
 [[nodiscard]] bool has_environment(const PreparedScene& stage);
+
+/// Returns `light` rotated and scaled.
+[[nodiscard]] EnvironmentLightDesc changed(EnvironmentLightDesc light,
+                                           const EnvironmentChange& change);
 
 /// A camera and the size of its image.
 struct Viewpoint {

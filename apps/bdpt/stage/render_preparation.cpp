@@ -1,6 +1,8 @@
 #include "stage/render_preparation.h"
 
 #include <bdpt/error.h>
+#include <bdpt/framing.h>
+#include <bdpt/io/gltf.h>
 #include <bdpt/io/rates_file.h>
 #include <bdpt/light/light_meter.h>
 #include <bdpt/part/sample_rates.h>
@@ -11,19 +13,114 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
+#include <variant>
 
 #include "options/values/film_memory.h"
+#include "options/values/orbit.h"
 #include "options/values/output_files.h"
 #include "options/values/strategy_depth.h"
+#include "options/values/view.h"
 
 namespace bdpt::app {
+
+Viewpoint sequence_viewpoint(const PreparedScene& stage, const Viewpoint& first,
+                             const RenderArguments& image)
+{
+    if (!image.sequence_view) {
+        return first;
+    }
+    const SequenceView& view = *image.sequence_view;
+    Viewpoint result = view.camera ? viewpoint(stage, *view.camera, image) : first;
+    if (view.turn) {
+        const Bounds& bounds = stage.scene.bounds();
+        const Vec3 middle = 0.5f * (bounds.min + bounds.max);
+        // A framed view has room for the whole turn around the middle.
+        const bool is_framed =
+            !view.camera && !image.view.from && !image.view.look_at && first.is_framed;
+        std::optional<Vec3> target;
+        if (image.view.look_at) {
+            target = to_world(*image.view.look_at, stage.scene.description().origin);
+        }
+        const Vec3 center = is_framed ? middle : orbit_center(result.camera, target, middle);
+        result.camera = orbited(std::move(result.camera), center, static_cast<float>(*view.turn));
+    }
+    return result;
+}
+
+Scene with_turned_environment(const Scene& still, double angle)
+{
+    for (const LightDesc& light : still.description().lights) {
+        if (const auto* environment = std::get_if<EnvironmentLightDesc>(&light)) {
+            return still.with_environment(turned(*environment, static_cast<float>(angle)));
+        }
+    }
+    return still.edited(still.description());
+}
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> input_files(const RenderArguments& arguments)
+{
+    std::vector<fs::path> files{arguments.file};
+    const std::string environment = arguments.environment.value_or("none");
+    if (is_file_of_environment(environment)) {
+        files.emplace_back(environment);
+    }
+    if (arguments.volume) {
+        files.push_back(arguments.volume->file);
+    }
+    if (arguments.rates && arguments.rates->file) {
+        files.push_back(*arguments.rates->file);
+    }
+    if (arguments.part && arguments.part->plan) {
+        files.push_back(*arguments.part->plan);
+    }
+    if (arguments.denoise.library) {
+        files.push_back(*arguments.denoise.library);
+    }
+    if (arguments.scene.ktx_library) {
+        files.push_back(*arguments.scene.ktx_library);
+    }
+    if (arguments.job) {
+        files.push_back(arguments.job->file);
+    }
+    if (arguments.display.backdrop && !arguments.display.backdrop->photo.empty()) {
+        files.push_back(arguments.display.backdrop->photo);
+    }
+    std::erase(files, "-");  // the standard input, which no output overwrites
+    return files;
+}
+
+std::vector<fs::path> input_files(const RenderArguments& arguments, const PreparedScene& stage)
+{
+    std::vector<fs::path> files = input_files(arguments);
+    files.insert(files.end(), stage.files.begin(), stage.files.end());
+    return files;
+}
+
+std::vector<fs::path> named_files(const RenderArguments& arguments,
+                                  std::span<const fs::path> outputs)
+{
+    const bool replaces = std::any_of(outputs.begin(), outputs.end(), [](const fs::path& output) {
+        std::error_code ignored;
+        return fs::exists(output, ignored);
+    });
+    if (!replaces || arguments.file == "-") {
+        return {};
+    }
+    try {
+        return io::read_gltf_files(arguments.file, arguments.scene.limits,
+                                   arguments.scene.allowed_folders);
+    } catch (const Error&) {
+        return {};  // what is wrong is said when the scene is loaded
+    }
+}
+
 namespace {
 
 /// Returns `arguments` whose loading shows its progress on the console.

@@ -3,7 +3,9 @@
 #include <bdpt/render_options.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -12,6 +14,28 @@
 #include "terminal/console.h"
 
 namespace bdpt::app {
+
+/// Returns the camera of `image`, one of a sequence, which orbits on request; else `first`, the one
+/// that the scene was loaded with. Throws `Error`.
+[[nodiscard]] Viewpoint sequence_viewpoint(const PreparedScene& stage, const Viewpoint& first,
+                                           const RenderArguments& image);
+
+/// Returns `still` for a view of a turntable at `angle` [rad] around the object, with the
+/// environment turned along with the camera.
+[[nodiscard]] Scene with_turned_environment(const Scene& still, double angle);
+
+/// Returns all files that `arguments` read: no output may be one of them.
+[[nodiscard]] std::vector<std::filesystem::path> input_files(const RenderArguments& arguments);
+
+/// Returns all files that `arguments` and the scene read.
+[[nodiscard]] std::vector<std::filesystem::path> input_files(const RenderArguments& arguments,
+                                                             const PreparedScene& stage);
+
+/// Returns the files that the scene names, by its text alone: for outputs that are written before
+/// it is loaded. Empty if none of `outputs` exists, as none can then be one of them, or if the
+/// scene cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> named_files(
+    const RenderArguments& arguments, std::span<const std::filesystem::path> outputs);
 
 /// Returns the memory for decoded images kept between frames [bytes]: a quarter of the limit, but
 /// not more than 2 GiB.

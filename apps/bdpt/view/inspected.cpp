@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "options/groups/transport_arguments.h"
-#include "report/inspect_text.h"
+#include "report/inspect_report.h"
 #include "view/view_camera.h"
 
 namespace bdpt::app {
@@ -23,8 +23,7 @@ void add_places(ordered_json& vertices, const std::vector<InspectedVertex>& path
         const std::optional<Vec2> place =
             is_infinite ? project_direction(stage.camera, stage.size, path[i].position)
                         : project_point(stage.camera, stage.size, path[i].position);
-        vertices[i]["raster"] =
-            place ? ordered_json::array({place->x, place->y}) : ordered_json();
+        vertices[i]["raster"] = place ? ordered_json::array({place->x, place->y}) : ordered_json();
     }
 }
 

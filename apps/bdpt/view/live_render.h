@@ -8,7 +8,7 @@
 #include <stop_token>
 
 #include "options/render_arguments.h"
-#include "report/image/matte.h"
+#include "report/image/denoised.h"
 #include "stage/prepared_scene.h"
 
 namespace bdpt::app {

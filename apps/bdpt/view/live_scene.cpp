@@ -8,8 +8,7 @@
 #include <variant>
 
 #include "options/values/view.h"
-#include "stage/environment_change.h"
-#include "stage/input_files.h"
+#include "stage/prepared_scene.h"
 #include "stage/render_preparation.h"
 
 namespace bdpt::app {

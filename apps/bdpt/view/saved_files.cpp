@@ -13,8 +13,7 @@
 
 #include "report/image/denoised.h"
 #include "report/image/image_files.h"
-#include "report/image/shown_exposure.h"
-#include "report/render_settings.h"
+#include "report/render_report.h"
 #include "terminal/temporary_folder.h"
 
 namespace bdpt::app {

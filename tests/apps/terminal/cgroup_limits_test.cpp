@@ -1,4 +1,4 @@
-#include "terminal/cgroup_limits.h"
+#include "terminal/machine_limits.h"
 
 #include <filesystem>
 #include <string>

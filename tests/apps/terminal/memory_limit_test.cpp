@@ -1,4 +1,4 @@
-#include "terminal/memory_limit.h"
+#include "terminal/machine_limits.h"
 
 #include <bdpt/error.h>
 #include <sys/resource.h>

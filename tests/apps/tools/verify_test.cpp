@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "report/verify_text.h"
+#include "report/eval_text.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"

@@ -125,16 +125,6 @@ struct Choices {
         };
         return {.parse = parse, .expected = words_text(words()), .info = {.words = words()}};
     }
-    /// Returns the first word of `value`, which is one of them.
-    [[nodiscard]] std::string find_word(Value value) const
-    {
-        for (const auto& [word, its] : entries) {
-            if (its == value) {
-                return word;
-            }
-        }
-        return {};
-    }
 };
 
 /// Returns the words of an enumeration.

@@ -1,23 +1,60 @@
 #pragma once
 
+#include <bdpt/error.h>
 #include <bdpt/film/aov_film.h>
 #include <bdpt/film/id_film.h>
 #include <bdpt/image.h>
 #include <bdpt/io/denoise.h>
 #include <bdpt/io/exr.h>
+#include <bdpt/io/image_metadata.h>
 
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "options/groups/denoise_arguments.h"
 #include "options/groups/display_arguments.h"
-#include "report/image/attempts.h"
+#include "options/values/exposure.h"
 
 namespace bdpt::app {
+
+/// Steps that are all attempted even if some of them fail, so that an image is not lost because
+/// another file cannot be written.
+class Attempts {
+public:
+    /// Calls `work()`; returns false if it threw an `Error`.
+    template <typename Work>
+    bool run(const Work& work)
+    {
+        try {
+            work();
+            return true;
+        } catch (const Error& error) {
+            errors_.push_back(error);
+            return false;
+        }
+    }
+    /// Throws one `Error` for all failures, if any, with the code of the first.
+    void finish() const;
+
+private:
+    std::vector<Error> errors_;
+};
+
+/// Returns the exposure [EV] of an image whose `metadata` tell how it was rendered; if none is
+/// requested, it is by light with a background and for frames, else automatic. Without metered
+/// light an exposure by light falls back to automatic.
+[[nodiscard]] float shown_exposure(const std::optional<Exposure>& asked,
+                                   const io::ImageMetadata& metadata, const Image& image);
+
+/// Throws `Error` (invalid_input) if the exposure is to be by light, and `what` was rendered
+/// without metering it.
+void check_metered(const std::optional<Exposure>& asked, const io::ImageMetadata& metadata,
+                   const std::string& what);
 
 struct ImageFileOptions {
     io::ExrOptions exr;

@@ -10,6 +10,7 @@
 
 #include "options/groups/display_arguments.h"
 #include "options/part_arguments.h"
+#include "plan/plan.h"
 
 namespace bdpt::app {
 
@@ -35,5 +36,9 @@ std::vector<std::filesystem::path> write_merged_files(const MergeArguments& argu
                                                       const io::Denoiser* denoiser,
                                                       const RenderResult& part,
                                                       io::PartNotes notes);
+
+/// Throws `Error` (output) if the plan makes `arguments` replace a file that is not an image
+/// written by bdpt: plans are not trusted.
+void check_planned_outputs(const MergeArguments& arguments, const Plan& plan);
 
 }  // namespace bdpt::app

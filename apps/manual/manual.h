@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,5 +41,18 @@ struct CommandInfo {
 
 /// Its commands, in the order of the help text.
 [[nodiscard]] std::vector<CommandInfo> describe_commands(const app::Program& program);
+
+// Scripts that let a shell complete commands, options, their words and files.
+
+[[nodiscard]] std::string bash_completion(std::span<const CommandInfo> commands);
+[[nodiscard]] std::string zsh_completion(std::span<const CommandInfo> commands);
+[[nodiscard]] std::string fish_completion(std::span<const CommandInfo> commands);
+
+/// bdpt(1): the program and its commands, in the macros of man(7).
+[[nodiscard]] std::string man_page(const CommandInfo& program,
+                                   std::span<const CommandInfo> commands);
+
+/// bdpt-render(1) and its like.
+[[nodiscard]] std::string man_page(const CommandInfo& command);
 
 }  // namespace bdpt::manual

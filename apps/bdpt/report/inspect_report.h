@@ -4,9 +4,21 @@
 #include <bdpt/inspect.h>
 #include <bdpt/io/tone_map.h>
 
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 namespace bdpt::app {
+
+// `origin`: that of the world, in the coordinates of the file, which positions are told in.
+
+/// Returns tables of the vertices and of the contributions of strategies, for people.
+[[nodiscard]] std::string inspect_text(const InspectedSample& sample, const PixelSample& which,
+                                       const DVec3& origin);
+
+/// Returns the complete data of the sample, for programs.
+[[nodiscard]] nlohmann::ordered_json inspect_json(const InspectedSample& sample,
+                                                  const PixelSample& which, const DVec3& origin);
 
 /// Draws six labelled spheres of directions: incident light and the BSDF, tone-mapped; the
 /// zero-variance density (the product of the two over its integral), the densities of BSDF sampling

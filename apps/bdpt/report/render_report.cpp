@@ -1,15 +1,19 @@
-#include "report/render_settings.h"
+#include "report/render_report.h"
 
+#include <bdpt/io/output_file.h>
+#include <bdpt/noise.h>
 #include <bdpt/options/option_fields.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/version.h>
+#include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <string>
+#include <utility>
 
 #include "options/groups/film_arguments.h"
 #include "options/groups/transport_arguments.h"
@@ -18,6 +22,130 @@
 #include "terminal/text.h"
 
 namespace bdpt::app {
+
+void warn_of_defects(Console& console, const FilmDefects& defects)
+{
+    if (defects.invalid > 0) {
+        const FilmDefects::Place place = defects.first_invalid.value_or(FilmDefects::Place{});
+        console.warning(
+            fmt::format("{} contributions were NaN, infinite or negative and were dropped; the "
+                        "first at pixel ({}, {}), sample {}",
+                        defects.invalid, place.x, place.y, place.sample_index));
+    }
+    if (defects.saturated > 0) {
+        console.warning(fmt::format("{} contributions were above {:.3g} nit and were clamped to it",
+                                    defects.saturated, ExactSum::max_value));
+    }
+}
+
+bool is_black(const Image& image, const std::vector<Layer>& layers)
+{
+    const auto alpha = std::find_if(layers.begin(), layers.end(),
+                                    [](const Layer& layer) { return layer.name.empty(); });
+    const bool is_empty =
+        alpha != layers.end() && std::all_of(alpha->values.begin(), alpha->values.end(),
+                                             [](float value) { return value == 0.0f; });
+    return !is_empty && std::all_of(image.pixels.begin(), image.pixels.end(),
+                                    [](const Rgb& pixel) { return pixel == Rgb(0.0f); });
+}
+
+std::string black_image_text(const std::string& scene)
+{
+    return scene + ": the image is black: none of the light reaches what the camera sees (--env " +
+           "default gives a closed room without lights a lamp)";
+}
+
+void report_clamp(Console& console, const Film& film, const Image& image)
+{
+    const ClampLoss loss = film.clamp_loss();
+    if (loss.contributions == 0) {
+        return;
+    }
+    const auto sum = [](Rgb c) { return static_cast<double>(c.r + c.g + c.b); };
+    double left = 0.0;
+    for (const Rgb& pixel : image.pixels) {
+        left += sum(pixel) / static_cast<double>(image.pixels.size());
+    }
+    const double taken = sum(loss.radiance);
+    console.note(
+        {"clamped",
+         fmt::format("clamping at {:g} nit removed {:.2f} % of the light: {} contributions",
+                     film.layout().clamp, 100.0 * taken / (left + taken), loss.contributions)});
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+ordered_json rays_json(const RayCounts& rays, double seconds)
+{
+    ordered_json result{{"camera", rays.camera},
+                        {"light", rays.light},
+                        {"shadow", rays.shadow},
+                        {"aov", rays.aov},
+                        {"total", rays.total()}};
+    result["per_second"] =
+        seconds > 0.0 ? ordered_json(static_cast<double>(rays.total()) / seconds) : ordered_json();
+    return result;
+}
+
+ordered_json defects_json(const FilmDefects& defects)
+{
+    ordered_json result{{"invalid", defects.invalid}, {"saturated", defects.saturated}};
+    result["first_invalid"] = nullptr;
+    if (const auto& place = defects.first_invalid) {
+        result["first_invalid"] = {
+            {"x", place->x}, {"y", place->y}, {"sample", place->sample_index}};
+    }
+    return result;
+}
+
+ordered_json clamp_json(const Film& film)
+{
+    if (film.layout().clamp == std::numeric_limits<float>::infinity()) {
+        return nullptr;
+    }
+    const ClampLoss loss = film.clamp_loss();
+    return {{"limit", film.layout().clamp},
+            {"contributions", loss.contributions},
+            {"radiance_taken", {loss.radiance.r, loss.radiance.g, loss.radiance.b}}};
+}
+
+}  // namespace
+
+ordered_json noise_json(double noise)
+{
+    return std::isfinite(noise) ? ordered_json(noise) : ordered_json();
+}
+
+ordered_json stats_json(const RenderResult& result, const TimeSplit& time)
+{
+    const RenderStats& stats = result.stats;
+    ordered_json json{{"samples", result.film.sample_count()},
+                      {"seconds",
+                       {{"load", time.load},
+                        {"build", time.build},
+                        {"choose", time.choose},
+                        {"render", time.render},
+                        {"write", time.write}}},
+                      {"paths", {{"camera", stats.paths.camera}, {"light", stats.paths.light}}},
+                      {"rays", rays_json(stats.rays, time.render)},
+                      {"defects", defects_json(result.film.defects())},
+                      {"clamp", clamp_json(result.film)}};
+    json["noise"] = noise_json(estimate_noise(result.film));
+    return json;
+}
+
+void write_stats_file(const fs::path& file, const ordered_json& stats)
+{
+    const std::string text =
+        stats.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    io::OutputFile output(file);
+    output.write(text);
+    output.commit();
+}
+
 namespace {
 
 using nlohmann::ordered_json;

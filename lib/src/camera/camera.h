@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/segment_end.h"
-#include "math/footprint.h"
+#include "math/frame.h"
 #include "math/pdf.h"
 
 #include <bdpt/scene_desc.h>

@@ -3,7 +3,7 @@
 #include "geometry/motion.h"
 #include "geometry/ray.h"
 #include "geometry/still_triangle.h"
-#include "math/footprint.h"
+#include "math/frame.h"
 
 #include <bdpt/scene_desc.h>
 

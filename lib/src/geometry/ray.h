@@ -1,6 +1,6 @@
 #pragma once
 
-#include "math/segment_key.h"
+#include "math/random_numbers.h"
 
 #include <bdpt/types.h>
 

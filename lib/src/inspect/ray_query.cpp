@@ -1,4 +1,4 @@
-#include "math/segment_key.h"
+#include "math/random_numbers.h"
 #include "scene/world.h"
 
 #include <bdpt/error.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "math/distribution_2d.h"
+#include "math/distributions.h"
 #include "math/pdf.h"
 
 #include <bdpt/scene_desc.h>

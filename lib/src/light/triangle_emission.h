@@ -2,7 +2,7 @@
 
 #include "geometry/placed_mesh.h"
 #include "material/material.h"
-#include "math/distribution_2d.h"
+#include "math/distributions.h"
 
 #include <memory>
 

@@ -1,9 +1,9 @@
 #include "light/triangle_light.h"
 
 #include "geometry/length.h"
-#include "math/blank.h"
 #include "math/elementary.h"
 #include "math/frame.h"
+#include "math/low_level.h"
 #include "math/rgb.h"
 #include "math/warp.h"
 

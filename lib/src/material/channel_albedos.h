@@ -1,8 +1,8 @@
 #pragma once
 
 #include "material/specular_albedo.h"
+#include "math/rgb.h"
 #include "math/side_media.h"
-#include "math/wavelength.h"
 
 #include <bdpt/scene_desc.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "material/lobes/sheen.h"
 #include "material/models/metallic_roughness.h"
-#include "material/sheen_albedo.h"
 #include "material/small_numbers.h"
 #include "material/specular_albedo.h"
 

@@ -76,7 +76,7 @@ def main():
     rows = [row(i / (ROUGHNESSES - 1)) for i in range(ROUGHNESSES)]
     averages = [average(rows, i / (AVERAGES - 1)) for i in range(AVERAGES)]
     text = f"""// Written by make_white_albedo.py.
-#include "material/white_albedo.h"
+#include "material/specular_albedo.h"
 
 namespace bdpt {{
 

@@ -4,7 +4,6 @@
 #include "material/channel_albedos.h"
 #include "material/material_layers.h"
 #include "material/normal_map.h"
-#include "material/shading_point.h"
 #include "math/side_media.h"
 #include "texture/texture.h"
 

@@ -4,7 +4,6 @@
 #include "material/channel_albedos.h"
 #include "material/layers.h"
 #include "material/normal_map.h"
-#include "material/shading_point.h"
 #include "texture/texture.h"
 
 #include <bdpt/scene_desc.h>

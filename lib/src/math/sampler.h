@@ -1,7 +1,6 @@
 #pragma once
 
-#include "math/segment_key.h"
-#include "math/split_mix.h"
+#include "math/random_numbers.h"
 
 #include <bdpt/render_options.h>
 #include <bdpt/types.h>

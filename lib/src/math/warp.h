@@ -1,9 +1,8 @@
 #pragma once
 
 #include "math/elementary.h"
-#include "math/float4.h"
+#include "math/low_level.h"
 #include "math/pdf.h"
-#include "math/select.h"
 
 #include <bdpt/types.h>
 

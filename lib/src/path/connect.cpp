@@ -1,6 +1,6 @@
 #include "path/connect.h"
 
-#include "math/blank.h"
+#include "math/low_level.h"
 #include "math/rgb.h"
 #include "path/densities.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "camera/camera.h"
+#include "math/random_numbers.h"
+#include "math/rgb.h"
 #include "math/sampler.h"
-#include "math/segment_key.h"
-#include "math/wavelength.h"
 #include "scene/world.h"
 
 #include <bdpt/render_stats.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "math/blank.h"
+#include "math/low_level.h"
 #include "path/path_vertex.h"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "pilot/kept_paths.h"
 
-#include "math/split_mix.h"
+#include "math/random_numbers.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "light/light_samples.h"
-#include "math/alias_table.h"
+#include "math/distributions.h"
 
 #include <optional>
 #include <span>

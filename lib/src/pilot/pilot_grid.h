@@ -1,7 +1,7 @@
 #pragma once
 
 #include "integrator/integrator.h"
-#include "math/split_mix.h"
+#include "math/random_numbers.h"
 
 #include <bdpt/types.h>
 

@@ -1,7 +1,6 @@
 #include "pilot/pilot_rates.h"
 
-#include "rates/fitting_exponents.h"
-#include "rates/plane.h"
+#include "rates/rate_map.h"
 
 #include <algorithm>
 #include <cmath>

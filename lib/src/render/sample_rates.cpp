@@ -1,7 +1,7 @@
 #include <bdpt/part/sample_rates.h>
 
+#include "math/random_numbers.h"
 #include "math/rgb.h"
-#include "math/split_mix.h"
 #include "rates/rate_map.h"
 #include "render/check_options.h"
 #include "render/learned_light.h"

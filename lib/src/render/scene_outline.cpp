@@ -1,6 +1,6 @@
 #include "render/scene_outline.h"
 
-#include "math/footprint.h"
+#include "math/frame.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -3,7 +3,7 @@
 #include "light/intensity_profile.h"
 #include "light/learned/learned_light.h"
 #include "light/light.h"
-#include "math/alias_table.h"
+#include "math/distributions.h"
 #include "scene/next_event_lights.h"
 
 #include <bdpt/scene_desc.h>

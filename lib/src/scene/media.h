@@ -3,7 +3,7 @@
 #include "geometry/segment_end.h"
 #include "light/bounding_sphere.h"
 #include "material/medium.h"
-#include "math/channel_choice.h"
+#include "math/rgb.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "light/learned/group_shares.h"
 #include "light/light.h"
 #include "light/tree/light_tree.h"
-#include "math/alias_table.h"
+#include "math/distributions.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "math/channel_choice.h"
-#include "math/segment_key.h"
+#include "math/random_numbers.h"
+#include "math/rgb.h"
 
 #include <bdpt/volume_desc.h>
 

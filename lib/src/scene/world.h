@@ -6,14 +6,14 @@
 #include "light/intensity_profile.h"
 #include "material/bsdf.h"
 #include "material/material.h"
-#include "math/footprint.h"
+#include "math/frame.h"
 #include "scene/enclosing_volumes.h"
 #include "scene/learned_memo.h"
 #include "scene/light_set.h"
 #include "scene/media.h"
 #include "scene/scene_geometry.h"
 #include "scene/volume.h"
-#include "texture/mip_maps.h"
+#include "texture/texture.h"
 
 #include <bdpt/scene.h>
 

@@ -3,7 +3,6 @@
 #include <bdpt/srgb.h>
 
 #include <array>
-#include <cstddef>
 #include <limits>
 #include <memory>
 

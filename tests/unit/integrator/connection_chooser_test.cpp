@@ -5,7 +5,7 @@
 #include "camera/camera.h"
 #include "catch.hpp"
 #include "make_sample.h"
-#include "material/models/lambertian.h"
+#include "material/models/simple_models.h"
 #include "math/rgb.h"
 #include "path/random_walk.h"
 #include "path/strategy_set.h"

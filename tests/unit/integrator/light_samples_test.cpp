@@ -1,4 +1,4 @@
-#include "math/shifted_points.h"
+#include "math/random_numbers.h"
 
 #include <bdpt/render.h>
 

@@ -1,7 +1,7 @@
 #include "material/lobes/ggx.h"
 #include "material/lobes/interreflection.h"
-#include "material/models/layered_bsdf.h"
-#include "material/white_albedo.h"
+#include "material/models/layered.h"
+#include "material/specular_albedo.h"
 
 #include "catch.hpp"
 #include "layered_cases.h"

@@ -1,8 +1,7 @@
 #include "bsdf_cases.h"
 #include "catch.hpp"
 #include "material/lobes/interreflection.h"
-#include "material/lobes/repeated_refraction.h"
-#include "material/white_albedo.h"
+#include "material/specular_albedo.h"
 #include "math/rgb.h"
 #include "statistics.h"
 

@@ -1,4 +1,4 @@
-#include "material/models/layered_bsdf.h"
+#include "material/models/layered.h"
 
 #include "bsdf_cases.h"
 #include "catch.hpp"

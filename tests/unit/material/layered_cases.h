@@ -1,7 +1,7 @@
 #pragma once
 
 #include "material/bsdf.h"
-#include "material/models/layered_bsdf.h"
+#include "material/models/layered.h"
 #include "material/models/models.h"
 
 #include <memory>

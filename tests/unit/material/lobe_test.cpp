@@ -2,11 +2,10 @@
 #include "catch.hpp"
 #include "chi_square.h"
 #include "direction_bins.h"
+#include "material/lobes/boundary_lobes.h"
 #include "material/lobes/coat.h"
-#include "material/lobes/diffuse_transmission.h"
-#include "material/lobes/ggx_boundary.h"
+#include "material/lobes/diffuse.h"
 #include "material/lobes/sheen.h"
-#include "material/lobes/smooth_boundary.h"
 #include "math/rgb.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "material/sheen_albedo.h"
+#include "material/lobes/sheen.h"
 
 #include "catch.hpp"
 #include "layered_cases.h"

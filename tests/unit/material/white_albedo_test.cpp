@@ -1,4 +1,4 @@
-#include "material/white_albedo.h"
+#include "material/specular_albedo.h"
 
 #include "catch.hpp"
 #include "material/lobes/ggx.h"

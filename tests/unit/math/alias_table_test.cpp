@@ -1,4 +1,4 @@
-#include "math/alias_table.h"
+#include "math/distributions.h"
 
 #include "catch.hpp"
 #include "chi_square.h"

@@ -1,4 +1,4 @@
-#include "math/channel_choice.h"
+#include "math/rgb.h"
 
 #include "catch.hpp"
 

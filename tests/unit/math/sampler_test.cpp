@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "chi_square.h"
-#include "math/alias_table.h"
+#include "math/distributions.h"
 #include "sampler_points.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "rates/fitting_exponents.h"
+#include "rates/rate_map.h"
 
 #include "catch.hpp"
 

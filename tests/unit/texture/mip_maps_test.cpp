@@ -1,8 +1,7 @@
-#include "texture/mip_maps.h"
+#include "texture/texture.h"
 
 #include "catch.hpp"
 #include "material/material.h"
-#include "texture/texture.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -1,8 +1,8 @@
 #include "integrator/bidirectional/light_path_cache.h"
 
 #include "integrator/bidirectional/light_vertex_grid.h"
+#include "math/random_numbers.h"
 #include "math/sampler.h"
-#include "math/split_mix.h"
 #include "path/strategy_set.h"
 
 #include <algorithm>

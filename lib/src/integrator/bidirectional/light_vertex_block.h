@@ -1,6 +1,6 @@
 #pragma once
 
-#include "math/float4.h"
+#include "math/low_level.h"
 #include "path/path_vertex.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "integrator/bidirectional/path_joiner.h"
 
-#include "math/shifted_points.h"
+#include "math/random_numbers.h"
 #include "path/lens_crossing.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include "camera/moving_camera.h"
 #include "integrator/sample_start.h"
+#include "math/random_numbers.h"
 #include "math/rgb.h"
-#include "math/shifted_points.h"
 #include "path/segment_sample.h"
 
 #include <glm/geometric.hpp>

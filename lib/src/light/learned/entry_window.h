@@ -1,7 +1,7 @@
 #pragma once
 
 #include "light/bounding_sphere.h"
-#include "math/distribution_2d.h"
+#include "math/distributions.h"
 #include "math/pdf.h"
 
 #include <bdpt/types.h>

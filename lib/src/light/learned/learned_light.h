@@ -5,7 +5,7 @@
 #include "light/learned/environment_entries.h"
 #include "light/learned/group_shares.h"
 #include "light/light_samples.h"
-#include "math/alias_table.h"
+#include "math/distributions.h"
 
 #include <optional>
 #include <vector>

@@ -7,9 +7,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
-#include <cmath>
-
 namespace bdpt {
 
 EvenCoat::EvenCoat(float weight, float roughness, const SpecularAlbedo* albedo)

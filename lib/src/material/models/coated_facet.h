@@ -1,7 +1,7 @@
 #pragma once
 
 #include "material/lobes/coat.h"
-#include "material/models/layered_bsdf.h"
+#include "material/models/layered.h"
 #include "material/tilted_facet.h"
 #include "math/frame.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "material/models/lambertian.h"
 #include "material/models/layered.h"
 #include "material/models/metallic_roughness.h"
+#include "material/models/simple_models.h"
 #include "material/small_numbers.h"
 
 #include <glm/geometric.hpp>

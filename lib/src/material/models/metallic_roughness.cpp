@@ -1,8 +1,7 @@
 #include "material/models/metallic_roughness.h"
 
-#include "material/lobes/ggx_boundary.h"
-#include "material/lobes/smooth_boundary.h"
-#include "material/white_albedo.h"
+#include "material/lobes/boundary_lobes.h"
+#include "material/specular_albedo.h"
 
 #include <glm/common.hpp>
 

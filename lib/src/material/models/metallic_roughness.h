@@ -1,11 +1,9 @@
 #pragma once
 
 #include "material/lobes/boundary.h"
-#include "material/lobes/coated_base.h"
-#include "material/lobes/diffuse_reflection.h"
-#include "material/lobes/diffuse_transmission.h"
+#include "material/lobes/coat.h"
+#include "material/lobes/diffuse.h"
 #include "material/lobes/interreflection.h"
-#include "material/lobes/repeated_refraction.h"
 #include "material/lobes/roughness.h"
 #include "material/lobes/thin_film.h"
 #include "material/models/scattering_model.h"

@@ -1,13 +1,11 @@
 #pragma once
 
-#include "material/models/black.h"
-#include "material/models/clear_sheet.h"
 #include "material/models/henyey_greenstein.h"
-#include "material/models/lambertian.h"
 #include "material/models/layered.h"
 #include "material/models/mapped.h"
 #include "material/models/metallic_roughness.h"
-#include "material/models/seen_from.h"
+#include "material/models/scattering_model.h"
+#include "material/models/simple_models.h"
 
 #include <variant>
 

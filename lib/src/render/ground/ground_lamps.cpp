@@ -1,7 +1,7 @@
 #include "render/ground/ground_lamps.h"
 
+#include "math/random_numbers.h"
 #include "math/rgb.h"
-#include "math/split_mix.h"
 
 #include <tbb/parallel_for.h>
 

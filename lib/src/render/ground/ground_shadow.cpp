@@ -1,8 +1,8 @@
 #include "render/ground/ground_shadow.h"
 
 #include "geometry/rounding.h"
+#include "math/random_numbers.h"
 #include "math/rgb.h"
-#include "math/shifted_points.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -224,8 +224,8 @@ float GroundShadow::blocked_light(const Point& point, const GroundSky::Effort& e
         return 0.0f;
     }
     ++point.rays.aov;
-    const Rgb opacity = 1.0f - world_.transmittance_to_infinity(point.end, sample.to_light,
-                                                                point.segment(number));
+    const Rgb opacity =
+        1.0f - world_.transmittance_to_infinity(point.end, sample.to_light, point.segment(number));
     if (is_black(opacity)) {
         return 0.0f;
     }

@@ -1,9 +1,23 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
 namespace bdpt {
+
+/// A T with default values, to be copied. Where a larger T is constructed for every vertex, g++
+/// would clear it by `rep stos`, whose start-up takes longer than such a copy.
+template <typename T>
+inline constexpr T blank{};
+
+/// Returns `condition` ? `a` : `b` without a branch.
+[[nodiscard]] inline float select(bool condition, float a, float b)
+{
+    const auto mask = static_cast<std::uint32_t>(-static_cast<std::int32_t>(condition));
+    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) |
+                                (std::bit_cast<std::uint32_t>(b) & ~mask));
+}
 
 /// Four floats with componentwise operators: the vector extension of GCC and Clang. They compile to
 /// SIMD instructions, whose results equal those of float.

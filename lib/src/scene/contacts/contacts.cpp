@@ -25,10 +25,10 @@ namespace bdpt {
 namespace {
 
 /// Returns the error of points in a box [m].
-float position_error(const Bounds& box)
+float error_in(const Bounds& box)
 {
     const Vec3 farthest = max(abs(box.min), abs(box.max));
-    return bdpt::position_error(std::max({farthest.x, farthest.y, farthest.z}));
+    return position_error(std::max({farthest.x, farthest.y, farthest.z}));
 }
 
 /// A displacement of a face.
@@ -125,7 +125,7 @@ std::vector<ContactFace> ContactSearch::near_faces(std::uint32_t instance) const
     const bool is_movable = parts_[instance].role != ContactRole::sheet;
     const bool all = groups_[instance].touches_itself;
     const Bounds& own = boxes_.boxes()[instance];
-    const float far = margin * position_error(own);
+    const float far = margin * error_in(own);
     std::optional<Bounds> region;  // around all that the instance may touch
     boxes_.find({.min = own.min - far, .max = own.max + far}, [&](std::uint32_t other) {
         if (other != instance && (is_movable || parts_[other].role != ContactRole::sheet)) {
@@ -184,7 +184,7 @@ bool ContactSearch::may_touch_itself(std::uint32_t instance, const Bounds& box) 
     }
     const auto mesh = static_cast<std::size_t>(desc_.instances[instance].mesh);
     return shells_.at(mesh)->are_closed.size() > 1 ||
-           position_error(box) > max_exact * distance(box.min, box.max);
+           error_in(box) > max_exact * distance(box.min, box.max);
 }
 
 void ContactSearch::find_faces()

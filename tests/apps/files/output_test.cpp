@@ -33,7 +33,7 @@ TEST_CASE("help and version are worth reading and no errors")
                              "--seed",           "--half",       "--float",     "--quiet",
                              "--json",           "--filter",     "--aov",       "--crop",
                              "--clamp",          "--stats",      "--tiled",     "--strategies",
-                             "--strategy-depth", "--profile",    "--variant",   "--frame-time",
+                             "--strategy-depth", "--contacts",   "--variant",   "--frame-time",
                              "--animation",      "--shutter",    "Exit codes",  "143",
                              "--part",           "--samples",    "--restart"}) {
         CAPTURE(word);

@@ -94,10 +94,13 @@ bool is_decoding(const std::string& library)
 bool await_decoding(const std::string& library, bool expected)
 {
     constexpr int patience = 2000;  // of 10 ms each
-    for (int i = 0; i < patience && is_decoding(library) != expected; ++i) {
+    for (int i = 0; i < patience; ++i) {
+        if (is_decoding(library) == expected) {
+            return true;
+        }
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    return is_decoding(library) == expected;
+    return false;
 }
 
 }  // namespace

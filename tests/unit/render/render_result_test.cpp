@@ -209,6 +209,7 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
           [](SceneDesc& s) { s.lights.emplace_back(PointLightDesc{}); });
     scene("scene: texture filter",
           [](SceneDesc& s) { s.texture_filter = TextureFilter::mip_mapped; });
+    scene("scene: contacts", [](SceneDesc& s) { s.contacts = ContactKind::air; });
     scene("scene: origin", [](SceneDesc& s) { s.origin.x = 1.0; });
 
     check(message_of([&] {

@@ -33,7 +33,7 @@ install(FILES "${package}/__init__.py" "${package}/_signatures.py" "${package}/p
 if(DEFINED SKBUILD)
   # A wheel contains bdpt_io twice, in its module and in its program; both find companions beside themselves.
   install(TARGETS bdpt_app RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
-  install(FILES apps/python/package/_command.py apps/python/package/__main__.py
+  install(FILES apps/python/package/__main__.py
           DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
   install(TARGETS bdpt_oiio LIBRARY DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python_companions)
   install(TARGETS bdpt_ktx_reader RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt"

@@ -11,9 +11,9 @@
 #include <system_error>
 #include <vector>
 
-#include "commands/command_line.h"
+#include "commands/commands.h"
 #include "options/option_list.h"
-#include "plan/planned_words.h"
+#include "plan/planned_tasks.h"
 #include "terminal/console.h"
 #include "terminal/machine_limits.h"
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "commands/command_line.h"
+#include "commands/commands.h"
 #include "manual.h"
 #include "options/job_file.h"
 

@@ -1,9 +1,18 @@
 #include <bdpt/error.h>
+#include <bdpt/eval/metrics/metric.h>
 #include <bdpt/version.h>
+#include <fmt/core.h>
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <exception>
+#include <map>
+#include <string>
+#include <vector>
 
+#include "arrays.h"
 #include "interpreter_lock.h"
 #include "python_scene.h"
 
@@ -33,6 +42,24 @@ void wait_for_renders()
     PyEval_RestoreThread(state);
 }
 
+std::map<std::string, double> compare(const bdpt::python::ImageInput& image,
+                                      const bdpt::python::ImageInput& reference,
+                                      const std::vector<std::string>& metrics)
+{
+    const bdpt::Image left = to_image(image);
+    const bdpt::Image right = to_image(reference);
+    std::map<std::string, double> errors;
+    for (const std::string& name : metrics) {
+        const auto metric = bdpt::eval::parse_metric(name);
+        if (!metric) {
+            throw bdpt::Error(bdpt::ErrorCode::usage, fmt::format("there is no metric {}", name));
+        }
+        const bdpt::python::Unlocked unlocked;
+        errors[name] = evaluate(*metric, left, right);
+    }
+    return errors;
+}
+
 }  // namespace
 
 NB_MODULE(_bdpt, module)
@@ -53,5 +80,9 @@ NB_MODULE(_bdpt, module)
     bdpt::python::bind_edits(module);
     bdpt::python::bind_render(module);
     bdpt::python::bind_job(module);
-    bdpt::python::bind_compare(module);
+    module.def("compare", &compare, nb::arg("image"), nb::arg("reference"),
+               nb::arg("metrics") = std::vector<std::string>{"relmse", "flip"},
+               "Errors of an image against a reference, by name of the metric: relmse, "
+               "relmse_scales, mse, rmse, mape, smape, psnr, flip, flip_ldr. Arrays of float32 "
+               "(height, width, 3).");
 }

@@ -15,7 +15,6 @@
 
 #include "interpreter_lock.h"
 #include "options/job_file.h"
-#include "python_files.h"
 #include "python_scene.h"
 #include "words.h"
 

@@ -19,7 +19,7 @@
 
 #include "arrays.h"
 #include "attributes.h"
-#include "options/values/view.h"
+#include "options/groups/camera_arguments.h"
 #include "python_scene.h"
 #include "terminal/machine_limits.h"
 

@@ -26,19 +26,17 @@
 #include "arrays.h"
 #include "interpreter_lock.h"
 #include "options/groups/sequence_arguments.h"
+#include "options/output_files.h"
 #include "options/part_arguments.h"
-#include "options/values/output_files.h"
-#include "python_files.h"
 #include "python_render.h"
 #include "report/image/denoised.h"
 #include "report/image/display_sources.h"
 #include "report/image/image_files.h"
-#include "report/part/merged_files.h"
+#include "report/part/part_collection.h"
 #include "report/render_report.h"
 #include "stage/render_preparation.h"
 #include "terminal/console.h"
 #include "terminal/machine_limits.h"
-#include "terminal/temporary_folder.h"
 
 namespace bdpt::python {
 namespace {

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "options/groups/denoise_arguments.h"
 #include "options/groups/display_arguments.h"
 #include "options/render_arguments.h"
 

@@ -13,7 +13,7 @@
 #include "image_files.h"
 #include "options/arguments.h"
 #include "options/groups/sequence_arguments.h"
-#include "options/values/file_pattern.h"
+#include "options/output_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"

@@ -11,7 +11,7 @@
 
 #include "catch.hpp"
 #include "image_files.h"
-#include "options/values/strategy_depth.h"
+#include "options/groups/transport_arguments.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"

@@ -1,4 +1,4 @@
-#include "options/values/view.h"
+#include "options/groups/camera_arguments.h"
 
 #include <bdpt/error.h>
 

@@ -11,7 +11,7 @@
 #include "options/part_arguments.h"
 #include "options/render_arguments.h"
 #include "plan/plan_file.h"
-#include "plan/planned_words.h"
+#include "plan/planned_tasks.h"
 #include "promises.h"
 
 using namespace bdpt;

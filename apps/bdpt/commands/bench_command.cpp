@@ -1,4 +1,4 @@
-#include "commands/bench_command.h"
+#include "commands/commands.h"
 
 #include <bdpt/error.h>
 #include <bdpt/eval/bench/bench.h>
@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "options/values/output_files.h"
+#include "options/output_files.h"
 #include "report/eval_text.h"
 #include "stage/prepared_scene.h"
 #include "stage/render_preparation.h"

@@ -1,33 +1,33 @@
-#include "commands/command_line.h"
-
 #include <bdpt/error.h>
+#include <bdpt/eval/bench/machine.h>
 #include <bdpt/io/output_file.h>
+#include <bdpt/scene.h>
+#include <bdpt/version.h>
 #include <fmt/core.h>
 
 #include <array>
 #include <optional>
 #include <utility>
 
-#include "commands/bench_command.h"
-#include "commands/compare_command.h"
-#include "commands/develop_command.h"
-#include "commands/inspect_command.h"
-#include "commands/merge_command.h"
-#include "commands/plan_command.h"
-#include "commands/render_command.h"
-#include "commands/render_scenes.h"
-#include "commands/verify_command.h"
-#include "commands/version_command.h"
-#include "commands/view_command.h"
+#include "commands/commands.h"
 #include "options/job_file.h"
-#include "options/values/output_files.h"
-#include "options/values/value_types.h"
-#include "report/render_files.h"
+#include "options/output_files.h"
+#include "options/value_types.h"
+#include "report/render_report.h"
 #include "stage/render_preparation.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
 
 namespace bdpt::app {
+
+std::string version_text()
+{
+    const eval::MachineFacts facts = eval::machine_facts();
+    const Isa isa = Scene(SceneDesc{}).isa();
+    return fmt::format("bdpt {}\nLibraries: {}\nCompiler: {}\nInstruction set of Embree here: {}",
+                       BDPT_VERSION, facts.libraries, facts.compiler, isa_name(isa));
+}
+
 namespace {
 
 namespace fs = std::filesystem;

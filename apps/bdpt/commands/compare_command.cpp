@@ -1,4 +1,4 @@
-#include "commands/compare_command.h"
+#include "commands/commands.h"
 
 #include <bdpt/eval/compare/compare_files.h>
 #include <bdpt/eval/compare/comparison_json.h>
@@ -15,7 +15,7 @@
 #include <system_error>
 #include <vector>
 
-#include "options/values/output_files.h"
+#include "options/output_files.h"
 #include "report/eval_text.h"
 
 namespace bdpt::app {

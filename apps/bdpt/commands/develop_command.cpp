@@ -1,4 +1,4 @@
-#include "commands/develop_command.h"
+#include "commands/commands.h"
 
 #include <bdpt/error.h>
 #include <fmt/core.h>
@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "options/values/default_output.h"
-#include "options/values/output_files.h"
+#include "options/output_files.h"
 #include "report/image/denoised.h"
 #include "report/image/display_sources.h"
 #include "report/image/image_files.h"

@@ -1,4 +1,4 @@
-#include "commands/info_command.h"
+#include "commands/commands.h"
 
 #include <bdpt/default_lights.h>
 #include <bdpt/error.h>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "options/groups/scene_arguments.h"
-#include "options/values/value_types.h"
+#include "options/value_types.h"
 #include "report/scene_report.h"
 #include "terminal/console.h"
 #include "terminal/machine_limits.h"

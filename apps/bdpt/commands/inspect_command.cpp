@@ -1,4 +1,4 @@
-#include "commands/inspect_command.h"
+#include "commands/commands.h"
 
 #include <bdpt/io/exr.h>
 #include <bdpt/io/png.h>
@@ -12,8 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "options/groups/transport_arguments.h"
-#include "options/values/output_files.h"
-#include "options/values/pipes.h"
+#include "options/output_files.h"
 #include "report/inspect_report.h"
 #include "stage/prepared_scene.h"
 #include "stage/render_preparation.h"

@@ -1,4 +1,4 @@
-#include "commands/merge_command.h"
+#include "commands/commands.h"
 
 #include <bdpt/error.h>
 #include <bdpt/io/part_file.h>
@@ -19,12 +19,10 @@
 #include <vector>
 
 #include "options/arguments.h"
-#include "options/values/output_files.h"
+#include "options/output_files.h"
 #include "plan/plan_file.h"
-#include "plan/planned_files.h"
 #include "report/image/denoised.h"
 #include "report/image/display_sources.h"
-#include "report/part/merged_files.h"
 #include "report/part/part_collection.h"
 #include "report/render_report.h"
 #include "report/values.h"

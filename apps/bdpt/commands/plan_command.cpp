@@ -1,4 +1,4 @@
-#include "commands/plan_command.h"
+#include "commands/commands.h"
 
 #include <bdpt/error.h>
 #include <bdpt/io/rates_file.h>
@@ -21,14 +21,11 @@
 #include <vector>
 
 #include "options/arguments.h"
-#include "options/values/output_files.h"
-#include "plan/engine_files.h"
+#include "options/output_files.h"
 #include "plan/plan.h"
 #include "plan/plan_folder.h"
-#include "plan/plan_split.h"
-#include "plan/planned_identity.h"
-#include "plan/planned_words.h"
-#include "report/render_files.h"
+#include "plan/planned_tasks.h"
+#include "report/render_report.h"
 #include "stage/render_preparation.h"
 #include "terminal/console.h"
 #include "terminal/text.h"

@@ -1,4 +1,4 @@
-#include "commands/render_view.h"
+#include "commands/commands.h"
 
 #include <bdpt/error.h>
 #include <bdpt/noise.h>
@@ -18,10 +18,9 @@
 #include <vector>
 
 #include "options/groups/transport_arguments.h"
-#include "options/values/output_files.h"
+#include "options/output_files.h"
 #include "report/image/image_files.h"
 #include "report/part/part_collection.h"
-#include "report/render_files.h"
 #include "report/render_report.h"
 #include "report/values.h"
 #include "stage/render_preparation.h"

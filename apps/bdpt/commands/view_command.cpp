@@ -1,4 +1,4 @@
-#include "commands/view_command.h"
+#include "commands/commands.h"
 
 #include <signal.h>
 #include <spawn.h>

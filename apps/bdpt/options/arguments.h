@@ -47,4 +47,15 @@ struct Size {
 /// Parses an index: digits only.
 [[nodiscard]] std::optional<std::size_t> parse_index(std::string_view text);
 
+/// Network address of an image viewer.
+struct DisplayAddress {
+    std::string host;
+    std::string port;
+    [[nodiscard]] bool operator==(const DisplayAddress&) const = default;
+};
+
+/// Parses "HOST", "HOST:PORT", ":PORT" (this machine) or "[IPV6]:PORT". The default port is 14158,
+/// that of tev.
+[[nodiscard]] std::optional<DisplayAddress> parse_address(const std::string& text);
+
 }  // namespace bdpt::app

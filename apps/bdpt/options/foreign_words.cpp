@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "options/values/output_files.h"
+#include "options/output_files.h"
 
 namespace bdpt::app {
 namespace {

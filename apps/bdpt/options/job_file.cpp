@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "options/values/output_files.h"
+#include "options/output_files.h"
 
 namespace bdpt::app {
 namespace {

@@ -11,9 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "options/groups/denoise_arguments.h"
 #include "options/groups/display_arguments.h"
-#include "options/groups/strategy_arguments.h"
+#include "options/groups/transport_arguments.h"
 #include "options/option_list.h"
 #include "terminal/console.h"
 
@@ -96,5 +95,22 @@ void add_merge_options(OptionList& options, MergeRequest& request);
 
 /// Checks and converts the options. Throws `OptionError` for incompatible ones.
 [[nodiscard]] MergeArguments checked(const MergeRequest& request, const OptionList& options);
+
+/// Arguments of `bdpt develop`.
+struct DevelopArguments {
+    std::filesystem::path file{};  ///< .exr
+    std::vector<std::filesystem::path> outputs{};
+    DisplayArguments display{};
+    DenoiseArguments denoise{};
+    Printed printed{};
+};
+
+extern const char* const develop_footer;
+
+/// Adds the options of `bdpt develop`.
+void add_develop_options(OptionList& options, DevelopArguments& arguments);
+
+/// Throws `OptionError` for incompatible options.
+void check(const DevelopArguments& arguments, const OptionList& options);
 
 }  // namespace bdpt::app

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "options/arguments.h"
-#include "options/values/pipes.h"
-#include "options/values/value_types.h"
+#include "options/output_files.h"
+#include "options/value_types.h"
 
 namespace bdpt::app {
 namespace {
@@ -15,12 +15,11 @@ constexpr double max_minutes = 1e6;          // two years
 
 Choices<Engine> engines()
 {
-    return {
-        {{"slurm", Engine::slurm}, {"kubernetes", Engine::kubernetes}, {"make", Engine::make}}};
+    return {{{"slurm", Engine::slurm}, {"kubernetes", Engine::kubernetes}, {"make", Engine::make}}};
 }
 
 /// Returns the given options that plans keep for the command of `use`, as words.
-std::vector<std::string> kept_words(const OptionList& options, bool OptionUses::* use)
+std::vector<std::string> kept_words(const OptionList& options, bool OptionUses::*use)
 {
     std::vector<std::string> words;
     for (const Option& option : options.all()) {

@@ -9,11 +9,10 @@
 
 #include "options/command_parser.h"
 #include "options/groups/camera_arguments.h"
-#include "options/groups/render_fields.h"
+#include "options/groups/film_arguments.h"
 #include "options/groups/scene_arguments.h"
-#include "options/values/output_files.h"
-#include "options/values/pipes.h"
-#include "options/values/value_types.h"
+#include "options/output_files.h"
+#include "options/value_types.h"
 #include "terminal/machine_limits.h"
 
 namespace bdpt::app {

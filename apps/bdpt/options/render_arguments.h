@@ -15,19 +15,14 @@
 #include <vector>
 
 #include "options/arguments.h"
-#include "options/groups/denoise_arguments.h"
+#include "options/groups/camera_arguments.h"
 #include "options/groups/display_arguments.h"
-#include "options/groups/environment_arguments.h"
 #include "options/groups/film_arguments.h"
-#include "options/groups/lens_arguments.h"
-#include "options/groups/medium_arguments.h"
+#include "options/groups/scene_arguments.h"
 #include "options/groups/sequence_arguments.h"
-#include "options/groups/strategy_arguments.h"
 #include "options/groups/transport_arguments.h"
 #include "options/option_list.h"
 #include "options/part_arguments.h"
-#include "options/values/view.h"
-#include "options/values/viewer_address.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {

@@ -3,13 +3,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
-#include "options/values/file_pattern.h"
+#include "options/output_files.h"
+#include "plan/plan_file.h"
 #include "terminal/text.h"
 
 namespace bdpt::app {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -141,6 +145,89 @@ std::string numbers_text(const std::vector<std::size_t>& numbers)
                                         : fmt::format("{}-{}", run.first, run.last);
     }
     return result;
+}
+
+namespace {
+
+constexpr std::int64_t best_unit = 64;  // samples
+
+std::int64_t divided_up(std::int64_t a, std::int64_t b)
+{
+    return a / b + (a % b != 0 ? 1 : 0);
+}
+
+}  // namespace
+
+std::vector<SampleRange> split_samples(SampleRange samples, std::int64_t parts, std::int64_t least)
+{
+    std::int64_t unit = best_unit;
+    const auto blocks = [&] { return divided_up(samples.end, unit) - samples.begin / unit; };
+    while (blocks() < parts && unit > least) {
+        unit /= 2;
+    }
+    const std::int64_t first = samples.begin / unit;
+    const auto boundary = [&](std::int64_t part) {
+        return std::clamp((first + part * blocks() / parts) * unit, samples.begin, samples.end);
+    };
+    std::vector<SampleRange> result;
+    for (std::int64_t part = 0; part < parts; ++part) {
+        result.push_back({.begin = boundary(part), .end = boundary(part + 1)});
+    }
+    return result;
+}
+
+std::int64_t parts_of_time(SampleRange samples, double seconds, double seconds_per_sample,
+                           double seconds_to_start, std::int64_t least)
+{
+    const std::int64_t total = samples.end - samples.begin;
+    const double fitting = std::floor((seconds - seconds_to_start) / seconds_per_sample);
+    auto count = static_cast<std::int64_t>(std::clamp(fitting, 1.0, static_cast<double>(total)));
+    count = std::clamp(count, std::min(least, total), total);
+    if (count < total) {
+        count = count >= best_unit
+                    ? count / best_unit * best_unit
+                    : static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(count)));
+    }
+    return divided_up(total, count);
+}
+
+std::vector<PlanTask> split_plan(const Plan& plan, SampleRange samples, std::int64_t count,
+                                 std::int64_t least)
+{
+    std::vector<PlanTask> tasks;
+    const auto images = static_cast<std::int64_t>(plan.images.size());
+    const auto add = [&](std::int64_t first, std::int64_t end, SampleRange range) {
+        tasks.push_back({.first_image = static_cast<std::size_t>(first),
+                         .images = static_cast<std::size_t>(end - first),
+                         .samples = range,
+                         .part = part_name(plan.images.front(), tasks.size(),
+                                           static_cast<std::size_t>(count))});
+    };
+    for (std::int64_t task = 0; task < count && count <= images; ++task) {
+        add(task * images / count, (task + 1) * images / count, samples);
+    }
+    for (std::int64_t image = 0; image < images && count > images; ++image) {
+        const std::int64_t ranges = count / images + (image < count % images ? 1 : 0);
+        for (const SampleRange& range : split_samples(samples, ranges, least)) {
+            add(image, image + 1, range);
+        }
+    }
+    return tasks;
+}
+
+std::int64_t tasks_of_time(std::size_t images, SampleRange samples, double seconds,
+                           double seconds_per_sample, double seconds_to_start, std::int64_t least)
+{
+    const auto count = static_cast<std::int64_t>(images);
+    const std::int64_t parts =
+        parts_of_time(samples, seconds, seconds_per_sample, seconds_to_start, least);
+    if (parts > 1 || count == 1) {
+        return parts * count;
+    }
+    const double one =
+        seconds_to_start + seconds_per_sample * static_cast<double>(samples.end - samples.begin);
+    const double fitting = std::clamp(std::floor(seconds / one), 1.0, static_cast<double>(count));
+    return static_cast<std::int64_t>(std::ceil(static_cast<double>(count) / fitting));
 }
 
 }  // namespace bdpt::app

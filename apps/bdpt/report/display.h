@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "options/values/viewer_address.h"
+#include "options/arguments.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {

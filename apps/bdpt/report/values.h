@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "options/values/view.h"
+#include "options/groups/camera_arguments.h"
 
 namespace bdpt::app {
 

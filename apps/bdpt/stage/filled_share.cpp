@@ -1,4 +1,4 @@
-#include "stage/filled_share.h"
+#include "stage/prepared_scene.h"
 
 #include <bdpt/tools/ray_query.h>
 

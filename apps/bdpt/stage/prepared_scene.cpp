@@ -20,8 +20,7 @@
 #include <utility>
 #include <variant>
 
-#include "options/values/view.h"
-#include "stage/filled_share.h"
+#include "options/groups/camera_arguments.h"
 #include "terminal/text.h"
 
 namespace bdpt::app {

@@ -3,6 +3,7 @@
 #include <bdpt/io/gltf.h>
 #include <bdpt/light_desc.h>
 #include <bdpt/scene.h>
+#include <bdpt/scene_desc.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -10,7 +11,7 @@
 #include <vector>
 
 #include "options/arguments.h"
-#include "options/groups/environment_arguments.h"
+#include "options/groups/scene_arguments.h"
 #include "options/render_arguments.h"
 #include "terminal/console.h"
 
@@ -66,5 +67,9 @@ struct Viewpoint {
 
 /// Returns the names of the cameras, or their indices if they have none.
 [[nodiscard]] std::vector<std::string> camera_names(const PreparedScene& stage);
+
+/// Returns the share of the image that surfaces fill, in [0, 1]. `aspect` is width over height.
+/// Throws `Error` for a camera that is too far away to render.
+[[nodiscard]] double filled_share(const Scene& scene, const CameraDesc& camera, float aspect);
 
 }  // namespace bdpt::app

@@ -20,11 +20,10 @@
 #include <utility>
 #include <variant>
 
-#include "options/values/film_memory.h"
-#include "options/values/orbit.h"
-#include "options/values/output_files.h"
-#include "options/values/strategy_depth.h"
-#include "options/values/view.h"
+#include "options/groups/camera_arguments.h"
+#include "options/groups/film_arguments.h"
+#include "options/groups/transport_arguments.h"
+#include "options/output_files.h"
 
 namespace bdpt::app {
 

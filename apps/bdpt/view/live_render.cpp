@@ -2,14 +2,77 @@
 
 #include <bdpt/noise.h>
 #include <bdpt/part/sample_rates.h>
+#include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
+#include "options/output_files.h"
+#include "report/image/denoised.h"
+#include "report/image/image_files.h"
+#include "report/render_report.h"
 #include "stage/render_preparation.h"
 
 namespace bdpt::app {
+
+namespace {
+
+double pixels(const Size& size)
+{
+    return static_cast<double>(size.width) * size.height;
+}
+
+}  // namespace
+
+Size coarse_size(const Size& size, int divisor)
+{
+    return {.width = std::max(1, (size.width + divisor - 1) / divisor),
+            .height = std::max(1, (size.height + divisor - 1) / divisor)};
+}
+
+double CoarseToFine::seconds(int divisor) const
+{
+    return seconds_a_pixel_ * pixels(coarse_size(size_, divisor));
+}
+
+void CoarseToFine::restart(const Size& size)
+{
+    constexpr int coarsest = 16;
+    size_ = size;
+    int divisor = 1;
+    while (divisor < coarsest && seconds(divisor) > first_seconds) {
+        divisor *= 2;
+    }
+    divisor_ = divisor;
+    is_first_ = true;
+}
+
+std::optional<int> CoarseToFine::divisor() const
+{
+    return divisor_;
+}
+
+void CoarseToFine::done(double seconds_taken)
+{
+    const double measured = seconds_taken / pixels(coarse_size(size_, *divisor_));
+    // Moving average with weight 1/2, as one picture may have been delayed.
+    seconds_a_pixel_ += 0.5 * (measured - seconds_a_pixel_);
+    is_first_ = false;
+    const int next = *divisor_ / 2;
+    if (next > 1 && seconds(next) <= max_seconds) {
+        divisor_ = next;
+    } else {
+        divisor_.reset();
+    }
+}
 
 LiveRender::LiveRender(RenderArguments arguments, const PreparedScene& stage)
     : arguments_(std::move(arguments)),
@@ -102,6 +165,64 @@ std::optional<CoarsePicture> coarse_picture(const RenderArguments& arguments,
         picture.matte = find_matte(result.aovs.develop(result.film));
     }
     return picture;
+}
+
+namespace {
+
+io::ImageMetadata metadata(const LiveRender& render, const PreparedScene& stage)
+{
+    nlohmann::ordered_json settings = make_settings(render.arguments(), stage);
+    io::ImageMetadata result = make_metadata(render.arguments(), stage, settings);
+    result.samples_per_pixel = render.renderer().samples();
+    result.render_seconds = render.renderer().seconds();
+    result.created = std::chrono::system_clock::now();
+    return result;
+}
+
+ImageFileOptions file_options(const LiveRender& render, const PreparedScene& stage,
+                              const std::optional<io::Denoiser>& denoiser)
+{
+    const RenderArguments& arguments = render.arguments();
+    const RenderResult& part = render.renderer().result();
+    const PixelRect& region = part.film.region();
+    return {.exr = {.type = arguments.exr.channel_type,
+                    .metadata = metadata(render, stage),
+                    .storage = arguments.exr.storage,
+                    .placement = {{.x = region.x0,
+                                   .y = region.y0,
+                                   .full_width = stage.size.width,
+                                   .full_height = stage.size.height}},
+                    .manifests = part.ids.manifests()},
+            .layers = develop_layers(part.film, part.aovs, part.ids),
+            .display = arguments.display,
+            .denoiser = denoiser ? &*denoiser : nullptr,
+            .denoising = arguments.denoise.kind};
+}
+
+}  // namespace
+
+Download saved_image(const LiveRender& render, const PreparedScene& stage,
+                     std::string_view extension)
+{
+    const TemporaryFolder folder;
+    const RenderArguments& arguments = render.arguments();
+    const std::string name = fmt::format("{}{}", arguments.file.stem().string(), extension);
+    const std::array files{folder.file(fmt::format("image{}", extension))};
+    const std::optional<io::Denoiser> denoiser =
+        open_denoiser(arguments.denoise, files, arguments.options.system.threads);
+    Attempts attempts;
+    static_cast<void>(write_image_files(files, render.renderer().image(),
+                                        file_options(render, stage, denoiser), attempts));
+    attempts.finish();
+    std::ifstream file(files.front(), std::ios::binary);
+    return {.type = extension == ".png" ? "image/png" : "image/x-exr",
+            .name = name,
+            .content = {std::istreambuf_iterator<char>(file), {}}};
+}
+
+float compute_exposure(const LiveRender& render, const PreparedScene& stage, const Image& image)
+{
+    return shown_exposure(render.arguments().display.exposure, metadata(render, stage), image);
 }
 
 }  // namespace bdpt::app

@@ -12,11 +12,11 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "options/values/view.h"
+#include "options/groups/camera_arguments.h"
 #include "report/values.h"
 #include "stage/render_preparation.h"
 #include "terminal/text.h"
-#include "view/inspected.h"
+#include "view/view_camera.h"
 
 namespace bdpt::app {
 namespace {
@@ -211,8 +211,7 @@ void Session::change_camera(const PageRequest& request)
     }
     const RenderArguments& arguments = scene_.arguments();
     if (arguments.view.projection == Projection::orthographic) {
-        throw Error(ErrorCode::usage,
-                    "--ortho frames the whole scene; its camera cannot be moved");
+        throw Error(ErrorCode::usage, "--ortho frames the whole scene; its camera cannot be moved");
     }
     const CameraDesc& camera = scene_.stage().camera;
     Pose pose = pose_ ? *pose_ : scene_.pose();
@@ -256,8 +255,7 @@ void Session::check(const ViewSettings& settings) const
         static_cast<void>(words.arguments());  // throws
     }
     if (settings.layer == ViewLayer::rates && !scene_.arguments().rates) {
-        throw Error(ErrorCode::usage,
-                    "\"layer\": rates of samples need --adaptive or --rates");
+        throw Error(ErrorCode::usage, "\"layer\": rates of samples need --adaptive or --rates");
     }
     const std::vector<Strategy> there = known_strategies();
     if (settings.strategy &&

@@ -11,15 +11,11 @@
 
 #include "options/option_list.h"
 #include "terminal/console.h"
-#include "view/coarse_to_fine.h"
 #include "view/live_render.h"
 #include "view/live_scene.h"
 #include "view/mailbox.h"
-#include "view/page_request.h"
-#include "view/saved_files.h"
-#include "view/scene_watch.h"
-#include "view/server/frame.h"
-#include "view/view_state.h"
+#include "view/page_messages.h"
+#include "view/server/page.h"
 #include "view/view_words.h"
 
 namespace bdpt::app {

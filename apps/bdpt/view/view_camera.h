@@ -1,11 +1,14 @@
 #pragma once
 
+#include <bdpt/inspect.h>
 #include <bdpt/scene_desc.h>
 #include <bdpt/types.h>
 
 #include <optional>
+#include <string>
 
 #include "options/arguments.h"
+#include "stage/prepared_scene.h"
 
 namespace bdpt::app {
 
@@ -44,5 +47,10 @@ struct Move {
 /// `direction`.
 [[nodiscard]] std::optional<Vec2> project_direction(const CameraDesc& camera, const Size& size,
                                                     Vec3 direction);
+
+/// Returns the output of `bdpt inspect --json` for the sample, as one line, with the positions of
+/// its vertices in the image: "raster", [x, y] or null. Throws as inspect_sample() does.
+[[nodiscard]] std::string inspected_text(const PreparedScene& stage, RenderOptions options,
+                                         const PixelSample& pixel);
 
 }  // namespace bdpt::app

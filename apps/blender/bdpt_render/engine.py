@@ -3,17 +3,48 @@
 import math
 import pathlib
 import tempfile
+import threading
 import time
 
 import bpy
 
-from . import export, main_thread, passes, settings
+from . import export, passes, settings
 from .command import Command, program, split_options, write_job
 from .exr import Exr
 from .live_image import LiveImage
 
 STEP = 0.1  # [s] between polls of the command
 PATIENCE = 30.0  # [s] that a cancelled command may take to finish its pass
+
+
+class Cancelled(Exception):
+    """The user ended the render."""
+
+
+def call_in_main_thread(function, cancelled):
+    """Calls function() in the main thread, the only one that may change Blender's data while its windows are drawn, and
+    returns its result. Raises Cancelled if cancelled() holds before the call begins."""
+    if threading.current_thread() is threading.main_thread():
+        return function()
+    outcome, ended, turn = [], threading.Event(), threading.Lock()  # whoever acquires `turn` decides
+
+    def run():
+        if turn.acquire(blocking=False):
+            try:
+                outcome.append((function(), None))
+            except Exception as error:  # raised again in the waiting thread
+                outcome.append((None, error))
+            ended.set()
+
+    bpy.app.timers.register(run)
+    while not ended.wait(0.05):
+        # A user who cancels may block the main thread until this thread ends.
+        if cancelled() and turn.acquire(blocking=False):
+            raise Cancelled
+    value, error = outcome[0]
+    if error:
+        raise error
+    return value
 
 
 class BDPT_RenderEngine(bpy.types.RenderEngine):
@@ -32,7 +63,7 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
         try:
             with tempfile.TemporaryDirectory(prefix="bdpt-") as folder:
                 self._render(depsgraph, pathlib.Path(folder))
-        except main_thread.Cancelled:
+        except Cancelled:
             pass
         except (RuntimeError, OSError) as error:
             self.report_to_user("ERROR", str(error))
@@ -55,7 +86,7 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
         if command.error:
             raise RuntimeError(command.error)
         if not image.exists():
-            raise main_thread.Cancelled
+            raise Cancelled
         exr = Exr(image)
         result = self._begin(depsgraph.view_layer_eval, exr.width, exr.height)
         passes.fill(result, scene, depsgraph.view_layer_eval, exr)
@@ -75,7 +106,7 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
                 if len(times) > 1:
                     self._go_to(frame + moment)
                 if exported is None:
-                    exported = main_thread.call(lambda: export.Export(depsgraph, folder), self._cancelled)
+                    exported = call_in_main_thread(lambda: export.Export(depsgraph, folder), self._cancelled)
                 else:
                     exported.place(depsgraph)
         finally:
@@ -111,7 +142,7 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
                     command.stop()
                     stopped = time.monotonic()
                 if stopped is not None and time.monotonic() - stopped > PATIENCE:
-                    raise main_thread.Cancelled
+                    raise Cancelled
             return command
         finally:
             command.kill()  # if it still runs

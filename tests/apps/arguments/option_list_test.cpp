@@ -10,7 +10,7 @@
 
 #include "catch.hpp"
 #include "options/render_arguments.h"
-#include "options/values/value_types.h"
+#include "options/value_types.h"
 
 namespace bdpt::app::option_list_test {
 namespace {

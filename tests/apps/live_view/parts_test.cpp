@@ -13,13 +13,12 @@
 #include "catch.hpp"
 #include "options/view_arguments.h"
 #include "scratch_folder.h"
-#include "view/server/access.h"
-#include "view/coarse_to_fine.h"
-#include "view/server/frame.h"
+#include "view/live_render.h"
+#include "view/live_scene.h"
 #include "view/mailbox.h"
+#include "view/page_messages.h"
+#include "view/server/access.h"
 #include "view/server/page.h"
-#include "view/page_request.h"
-#include "view/scene_watch.h"
 #include "view/view_camera.h"
 
 namespace bdpt::app::live_view_parts_test {
@@ -56,8 +55,8 @@ std::string message_of(const std::string& request)
 
 TEST_CASE("pixels go to pages as halves", "[live_view]")
 {
-    for (const float value : {0.0f, 1.0f, 0.5f, 1.0009765f, 1.5e-5f, 6e-8f, 3.14159f, 1234.5f,
-                              65503.0f}) {
+    for (const float value :
+         {0.0f, 1.0f, 0.5f, 1.0009765f, 1.5e-5f, 6e-8f, 3.14159f, 1234.5f, 65503.0f}) {
         const std::vector<std::uint8_t> bytes =
             half_pixels({.width = 1, .height = 1, .pixels = {Rgb(value, 2.0f * value, 0.0f)}});
         REQUIRE(bytes.size() == 6);
@@ -68,8 +67,8 @@ TEST_CASE("pixels go to pages as halves", "[live_view]")
         CHECK(half_at(bytes, 2) == 0.0);
     }
     const float inf = std::numeric_limits<float>::infinity();
-    const std::vector<std::uint8_t> odd = half_pixels(
-        {.width = 1, .height = 1, .pixels = {Rgb(inf, -1.0f, std::nanf(""))}});
+    const std::vector<std::uint8_t> odd =
+        half_pixels({.width = 1, .height = 1, .pixels = {Rgb(inf, -1.0f, std::nanf(""))}});
     CHECK(half_at(odd, 0) == 65504.0);
     CHECK(half_at(odd, 1) == 0.0);
     CHECK(half_at(odd, 2) == 0.0);
@@ -80,8 +79,7 @@ TEST_CASE("pixels over a background go to pages with what covers it", "[live_vie
     const Image image{.width = 2, .height = 1, .pixels = {Rgb(2.0f), Rgb(0.0f)}};
     const std::vector<float> alpha{0.75f, 1.0f};
     const std::vector<float> shadow{0.25f, 1.0f};
-    const std::vector<std::uint8_t> bytes =
-        half_pixels(image, {.alpha = alpha, .shadow = shadow});
+    const std::vector<std::uint8_t> bytes = half_pixels(image, {.alpha = alpha, .shadow = shadow});
     REQUIRE(bytes.size() == 20);
     CHECK(half_at(bytes, 3) == 0.5);   // light
     CHECK(half_at(bytes, 4) == 0.25);  // background
@@ -93,8 +91,15 @@ TEST_CASE("pixels over a background go to pages with what covers it", "[live_vie
 
 TEST_CASE("a frame tells each page which of its requests it shows", "[live_view]")
 {
-    Frame frame{.slot = 1, .generation = 7, .grid_width = 40, .grid_height = 30, .x = 3, .y = 4,
-                .width = 5, .height = 6, .samples = 258};
+    Frame frame{.slot = 1,
+                .generation = 7,
+                .grid_width = 40,
+                .grid_height = 30,
+                .x = 3,
+                .y = 4,
+                .width = 5,
+                .height = 6,
+                .samples = 258};
     frame.sequences = {{11, 99}};
     const FrameHeader header = frame_header(frame, 11);
     const std::vector<std::uint32_t> expected{2, 1, 7, 99, 40, 30, 3, 4, 5, 6, 258, 3};
@@ -237,8 +242,8 @@ TEST_CASE("vertices are drawn where the image shows them", "[live_view]")
 
 TEST_CASE("requests of pages are checked", "[live_view]")
 {
-    const PageRequest move = parse_request(
-        R"({"seq": 5, "move": {"orbit": [0.1, -0.2], "pan": [0, 1], "dolly": 2}})");
+    const PageRequest move =
+        parse_request(R"({"seq": 5, "move": {"orbit": [0.1, -0.2], "pan": [0, 1], "dolly": 2}})");
     CHECK(move.sequence == 5);
     CHECK(move.changes_picture());
     REQUIRE(move.move);
@@ -259,12 +264,11 @@ TEST_CASE("requests of pages are checked", "[live_view]")
     for (const char* wrong :
          {R"({"seq": -1})", R"({"seq": 4294967296})", R"({"move": 3})",
           R"({"move": {"orbit": [1]}})", R"({"move": {"orbit": [1, "2"]}})",
-          R"({"move": {"dolly": 0}})", R"({"move": {"dolly": 1e300}})",
-          R"({"focus": [1.5, 2]})", R"({"focus": [1, -2]})", R"({"reset": 1})",
-          R"({"set": {"layer": "depth"}})", R"({"set": {"paused": "no"}})",
-          R"({"set": {"intensity": -1}})", R"({"set": {"exposure": "bright"}})",
-          R"({"set": {"environment": 3}})", R"({"set": {"size": 3}})",
-          R"({"inspect": [1, 2], "sample": -1})"}) {
+          R"({"move": {"dolly": 0}})", R"({"move": {"dolly": 1e300}})", R"({"focus": [1.5, 2]})",
+          R"({"focus": [1, -2]})", R"({"reset": 1})", R"({"set": {"layer": "depth"}})",
+          R"({"set": {"paused": "no"}})", R"({"set": {"intensity": -1}})",
+          R"({"set": {"exposure": "bright"}})", R"({"set": {"environment": 3}})",
+          R"({"set": {"size": 3}})", R"({"inspect": [1, 2], "sample": -1})"}) {
         CAPTURE(wrong);
         CHECK_FALSE(message_of(wrong).empty());
     }

@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 #include "image_files.h"
-#include "plan/plan_split.h"
+#include "plan/plan.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"

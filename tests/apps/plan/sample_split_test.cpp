@@ -1,4 +1,4 @@
-#include "plan/sample_split.h"
+#include "plan/plan.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "commands/render_command.h"
+#include "commands/commands.h"
 #include "image_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"

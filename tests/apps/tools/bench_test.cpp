@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "options/bench_arguments.h"
+#include "options/eval_arguments.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
 
@@ -88,7 +88,8 @@ TEST_CASE("scenes of one name are kept apart")
     const json result = json::parse(read_text(folder / "out/bench.json"));
     CHECK(result["scenes"][1]["name"] == "cornell-box-2");
     CHECK(fs::exists(folder / "out/scenes/cornell-box-2/pt-0.exr"));
-    const json strategies = json::parse(read_text(folder / "out/scenes/cornell-box/strategies.json"));
+    const json strategies =
+        json::parse(read_text(folder / "out/scenes/cornell-box/strategies.json"));
     CHECK(strategies["depth"] == 2);
 }
 
@@ -96,7 +97,8 @@ TEST_CASE("words of a benchmark that make no sense")
 {
     const ScratchFolder folder;
     const auto [words, expected] = GENERATE(table<std::vector<std::string>, std::string>(
-        {{{"--integrators", "pt,path"}, "--integrators \"pt,path\": expected a comma-separated list of pt, nee, mis, lt"},
+        {{{"--integrators", "pt,path"},
+          "--integrators \"pt,path\": expected a comma-separated list of pt, nee, mis, lt"},
          {{"--integrators", "pt,"}, "--integrators \"pt,\""},
          {{"--time", "fast"}, "--time \"fast\""},
          {{"--reference-time", "-1"}, "--reference-time"},

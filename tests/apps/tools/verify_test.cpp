@@ -1,4 +1,4 @@
-#include "commands/verify_command.h"
+#include "commands/commands.h"
 
 #include <bdpt/eval/verify/verify_options.h>
 #include <bdpt/eval/verify/verify_report.h>

@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "fake_viewer.h"
 #include "image_files.h"
-#include "options/values/viewer_address.h"
+#include "options/arguments.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"

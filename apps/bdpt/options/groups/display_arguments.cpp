@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -10,10 +11,44 @@
 #include <utility>
 
 #include "options/arguments.h"
-#include "options/values/output_files.h"
-#include "options/values/value_types.h"
+#include "options/output_files.h"
+#include "options/value_types.h"
 
 namespace bdpt::app {
+
+namespace {
+
+std::optional<float> parse_stops(const std::string& text)
+{
+    constexpr double most = 100.0;  // 2^100 is far beyond any ratio of a scene to a screen
+    const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+    const std::optional<double> stops = decimal_number(has_plus ? text.substr(1) : text);
+    return stops && std::abs(*stops) <= most ? std::optional(static_cast<float>(*stops))
+                                             : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Exposure> parse_exposure(const std::string& given)
+{
+    const std::string text = lower_case(given);
+    for (const auto& [word, base] :
+         {std::pair<std::string, ExposureBase>{"auto", ExposureBase::automatic},
+          {"light", ExposureBase::light}}) {
+        if (!text.starts_with(word)) {
+            continue;
+        }
+        const std::string more = text.substr(word.size());
+        if (more.empty()) {
+            return Exposure{.base = base};
+        }
+        const std::optional<float> stops =
+            more[0] == '+' || more[0] == '-' ? parse_stops(more) : std::nullopt;
+        return stops ? std::optional(Exposure{.base = base, .value = *stops}) : std::nullopt;
+    }
+    const std::optional<float> stops = parse_stops(text);
+    return stops ? std::optional(Exposure{.value = *stops}) : std::nullopt;
+}
 
 namespace {
 
@@ -165,8 +200,53 @@ void add_display_options(OptionList& options, DisplayArguments& display)
     background.uses.plan_render = true;    // its alpha is needed for merging
     background.uses.python_render = true;  // and for save()
     const Choices<TexelType> depths{{{"8", TexelType::unorm8}, {"16", TexelType::unorm16}}};
-    options.add("--png-bits", "8|16", "Bits per channel of .png: 8 (default) or 16",
-                display.type, depths.type());
+    options.add("--png-bits", "8|16", "Bits per channel of .png: 8 (default) or 16", display.type,
+                depths.type());
+}
+
+void add_denoise_options(OptionList& options, DenoiseArguments& denoise)
+{
+    const Choices<Denoising> kinds{{{"auto", Denoising::automatic},
+                                    {"image", Denoising::image},
+                                    {"layer", Denoising::layer},
+                                    {"true", Denoising::image},  // without a value
+                                    {"false", Denoising::none}}};
+    Option& flag = options.add_flag(
+        "--denoise",
+        "Denoise the image with Open Image Denoise 2, guided by albedo and normal; .exr keeps the "
+        "noisy image as layer \"noisy\". With --denoise=layer .exr stays noisy and gets the layer "
+        "\"denoised\". Default: auto, which denoises .png, .jpg and .webp if the library is found, "
+        "and never .exr and .hdr; --denoise=false denoises nothing",
+        denoise.kind,
+        ValueType<Denoising>{.parse = kinds.type().parse,
+                             .expected = "auto, image, layer, true or false",
+                             .info = kinds.type().info});
+    flag.uses.plan_render = true;  // its layers are needed for merging
+    flag.default_is_chosen = true;
+    Option& library =
+        options.add("--denoiser-library", "FILE|DIR",
+                    "Open Image Denoise 2: the library or its folder. Default: BDPT_DENOISER in "
+                    "the environment, else the library that comes with bdpt, else the system's "
+                    "libOpenImageDenoise.so.2",
+                    denoise.library, some_text("a file or a folder"));
+    library.uses = {.python_save = true, .stated_in = StatedIn::programs};  // it is code
+}
+
+bool needs_denoiser(const DenoiseArguments& asked, std::span<const std::filesystem::path> outputs)
+{
+    return asked.kind == Denoising::automatic
+               ? std::any_of(outputs.begin(), outputs.end(), is_for_screens)
+               : asked.is_asked() && !outputs.empty();
+}
+
+std::vector<Aov> missing_guides(const AovSet& known, const std::optional<Backdrop>& backdrop)
+{
+    std::vector<Aov> guides{Aov::albedo, Aov::normal};
+    if (backdrop) {
+        guides.push_back(Aov::opacity);
+    }
+    std::erase_if(guides, [&known](Aov aov) { return known.contains(aov); });
+    return guides;
 }
 
 }  // namespace bdpt::app

@@ -2,13 +2,16 @@
 
 #include <bdpt/aov.h>
 #include <bdpt/options/filter_options.h>
+#include <bdpt/options/option_fields.h>
 #include <bdpt/pixel_rect.h>
 #include <bdpt/render_options.h>
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
+#include "options/arguments.h"
 #include "options/option_list.h"
 
 namespace bdpt::app {
@@ -36,5 +39,25 @@ void add_ground_option(OptionList& options, Ground& ground);
 /// Returns `film` with the layer of the shadow on the ground, if requested. Throws `OptionError`
 /// for options that are incompatible with it.
 [[nodiscard]] FilmOptions with_ground(Ground ground, FilmOptions film, const OptionList& options);
+
+/// Returns the memory of the film of a render of `size`, with its layers and the image that it is
+/// developed to [bytes].
+[[nodiscard]] std::uint64_t film_bytes(const RenderOptions& options, const Size& size);
+
+/// Returns the memory that Open Image Denoise takes for a render of `size` [bytes].
+[[nodiscard]] std::uint64_t denoiser_bytes(const RenderOptions& options, const Size& size);
+
+// Options of the command that are fields of `RenderOptions`, generated from the list in
+// <bdpt/options/option_fields.h>: a field with a help text there is an option here.
+
+void add_fields(OptionList& options, FilmOptions& film);
+void add_fields(OptionList& options, SamplingOptions& sampling);
+void add_fields(OptionList& options, TransportOptions& transport);
+void add_fields(OptionList& options, BidirectionalOptions& bidirectional);
+void add_fields(OptionList& options, SystemOptions& system);
+
+/// Adds the fields `names`, such as "light_samples", of all groups.
+void add_fields(OptionList& options, RenderOptions& render,
+                std::span<const std::string_view> names);
 
 }  // namespace bdpt::app

@@ -1,12 +1,14 @@
 #include "options/groups/scene_arguments.h"
 
+#include <array>
 #include <string>
 #include <string_view>
 
 #include "options/arguments.h"
-#include "options/values/value_types.h"
+#include "options/value_types.h"
 
 namespace bdpt::app {
+
 namespace {
 
 std::optional<io::Shutter> parse_shutter(std::string_view text)
@@ -69,6 +71,74 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
                 "its film and layers. Default: half of the machine's memory. Maximum: free memory, "
                 "within the limits of the container and of ulimit -v",
                 max_memory, memory_size());
+}
+
+void add_environment_options(OptionList& options, EnvironmentChange& change)
+{
+    options.add("--env-rotation", "DEG",
+                "Rotate the environment about the vertical axis, counter-clockwise seen from "
+                "above: 90 moves -z to -x [degrees]",
+                change.rotation, number(-360.0, 360.0, "degrees from -360 to 360"));
+    options.add("--env-intensity", "X", "Multiply the radiance of the environment by this",
+                change.intensity, number(0.0, 1e6, "a factor from 0 to 1000000"));
+}
+
+void add_fog_options(OptionList& options, MediumDesc& fog)
+{
+    options.add("--fog", "X|R,G,B",
+                "Fill the scene, except inside its bodies, with a homogeneous participating medium "
+                "of this extinction, 1 / mean free path [1/m]",
+                fog.extinction, extinction());
+    options.add("--fog-albedo", "X|R,G,B",
+                "Single-scattering albedo of the fog, from 0 to 1. Default: 1", fog.albedo,
+                albedo());
+    options.add("--fog-anisotropy", "G",
+                "Anisotropy of the fog's phase function, between -1 and 1: > 0 scatters forward, "
+                "like mist. Default: 0, isotropic",
+                fog.anisotropy, anisotropy());
+}
+
+void add_volume_options(OptionList& options, VolumeChoice& volume)
+{
+    options
+        .add("--volume", "FILE.vdb",
+             "Add smoke or a cloud from an OpenVDB file, whose transform is in metres", volume.file,
+             ValueType<std::string>{.parse =
+                                        [](const std::string& text) {
+                                            return text.empty() || text == "-"
+                                                       ? std::nullopt
+                                                       : std::optional(text);
+                                        },
+                                    .expected = "a file",
+                                    .info = {.is_path = true}})
+        .uses.plan_render = false;  // plans store files separately
+    options.add("--volume-grid", "NAME",
+                "Density grid of the volume. Default: density, or the only float grid",
+                volume.options.grid, some_text("the name of a grid"));
+    options.add("--volume-extinction", "X|R,G,B",
+                "Extinction of the volume where its density is 1 [1/m]. Default: 1",
+                volume.options.extinction, extinction());
+    options.add("--volume-albedo", "X|R,G,B",
+                "Single-scattering albedo of the volume, from 0 to 1. Default: 1",
+                volume.options.albedo, albedo());
+    options.add("--volume-anisotropy", "G",
+                "Anisotropy of the volume's phase function, between -1 and 1: > 0 scatters "
+                "forward, like clouds. Default: 0, isotropic",
+                volume.options.anisotropy, anisotropy());
+    const Choices<io::UpAxis> axes{{{"y", io::UpAxis::y}, {"z", io::UpAxis::z}}};
+    options.add("--volume-up", "y|z", "Up axis of the file: y (default) or z, as in Blender",
+                volume.options.up, axes.type());
+}
+
+void check_medium_options(const OptionList& options)
+{
+    static constexpr std::array needs{
+        Need{"--fog-albedo", "--fog"},       Need{"--fog-anisotropy", "--fog"},
+        Need{"--volume-grid", "--volume"},   Need{"--volume-extinction", "--volume"},
+        Need{"--volume-albedo", "--volume"}, Need{"--volume-anisotropy", "--volume"},
+        Need{"--volume-up", "--volume"},
+    };
+    check(needs, options);
 }
 
 }  // namespace bdpt::app

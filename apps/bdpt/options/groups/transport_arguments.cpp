@@ -1,9 +1,11 @@
 #include "options/groups/transport_arguments.h"
 
+#include <bdpt/error.h>
 #include <bdpt/options/integrators.h>
 #include <bdpt/options/option_fields.h>
 #include <bdpt/options/option_text.h>
-
+#include <bdpt/render.h>
+#include <fmt/core.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,10 +16,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "options/groups/render_fields.h"
-#include "options/values/value_types.h"
+#include "options/groups/film_arguments.h"
+#include "options/output_files.h"
+#include "options/value_types.h"
 
 namespace bdpt::app {
+
 namespace {
 
 std::string integrator_help()
@@ -282,6 +286,135 @@ std::string integrator_text(const RenderOptions& options, bool chosen)
     return fmt::format("{} ({}{}{})", text, paths,
                        connections == standard ? "" : ", " + number(connections, "connection"),
                        rays == 0.0 ? "" : " by " + number(rays, "ray"));
+}
+
+namespace fs = std::filesystem;
+
+void add_strategy_options(OptionList& options, StrategyFiles& strategies)
+{
+    add_strategy_file_option(
+        options, strategies,
+        "Write an image of each strategy (bdpt, lt) to this .exr: layers like s02t03 "
+        "(MIS-weighted: its part of the image) and s02t03.unweighted, and a .png contact sheet of "
+        "all");
+    constexpr int most = 100;  // larger sheets are unreadable
+    Option& depth =
+        options.add("--strategy-depth", "N",
+                    fmt::format("Maximum path length, in edges, of --strategies. Default: {}, or "
+                                "less to stay below 4 GB. With --part alone: keep these images in "
+                                "the part",
+                                default_strategy_depth),
+                    strategies.depth, whole_number(1, most));
+    depth.uses = {};
+}
+
+void add_strategy_file_option(OptionList& options, StrategyFiles& strategies, std::string help)
+{
+    const auto parse = [](const std::string& text) -> std::optional<StrategyFiles> {
+        if (!has_extension(text, ".exr")) {
+            return std::nullopt;
+        }
+        return StrategyFiles::named(text);
+    };
+    Option& option = options.add("--strategies", "FILE", std::move(help), strategies,
+                                 parsed_by(parse, "a file name that ends in .exr"));
+    option.uses = {.stated_in = StatedIn::own_folder};
+    option.info.is_path = true;
+}
+
+std::optional<StrategyFiles> checked(const StrategyFiles& strategies, const RenderOptions& render,
+                                     const OptionList& options)
+{
+    if (options.find("--strategies") == nullptr) {
+        return std::nullopt;  // bench: its --strategy-depth is a different option
+    }
+    const bool file = options.given("--strategies");
+    if (!file && !options.given("--strategy-depth")) {
+        return std::nullopt;
+    }
+    static constexpr std::array needs{Need{"--strategy-depth", "--strategies|--part"}};
+    check(needs, options);
+    if (!info(render.integrator).has_strategies) {
+        throw OptionError(fmt::format("{} needs --integrator bdpt or lt, not {}",
+                                      file ? "--strategies" : "--strategy-depth",
+                                      info(render.integrator).name));
+    }
+    return strategies;
+}
+
+StrategyFiles StrategyFiles::named(const fs::path& layers)
+{
+    return {.layers = layers, .sheet = fs::path(layers).replace_extension(".png")};
+}
+
+std::vector<fs::path> StrategyFiles::both() const
+{
+    return layers.empty() ? std::vector<fs::path>() : std::vector<fs::path>{layers, sheet};
+}
+
+namespace {
+
+/// Returns the option by which strategy images were requested.
+std::string format_option(const StrategyFiles& files)
+{
+    return files.layers.empty() ? "--strategy-depth"
+                                : fmt::format("--strategies \"{}\"", files.layers.string());
+}
+
+double gigabytes(std::uint64_t bytes)
+{
+    return static_cast<double>(bytes) * 1e-9;
+}
+
+std::uint64_t bytes_up_to(int depth, RenderOptions options, const CameraDesc& camera)
+{
+    options.bidirectional.strategy_depth = depth;
+    return strategy_image_bytes(options, camera);
+}
+
+/// Returns the greatest depth up to `wanted` whose images fit into memory; 0 if none does.
+int affordable_depth(int wanted, const RenderOptions& options, const CameraDesc& camera)
+{
+    int depth = wanted;
+    while (depth > 0 &&
+           bytes_up_to(depth, options, camera) > options.bidirectional.strategy_memory) {
+        --depth;
+    }
+    return depth;
+}
+
+}  // namespace
+
+StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
+                             const CameraDesc& camera)
+{
+    const int wanted =
+        std::min(files.depth.value_or(default_strategy_depth), options.transport.max_depth);
+    const std::uint64_t bytes = bytes_up_to(wanted, options, camera);
+    if (bytes == 0) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: no enabled strategy samples paths of up to {} edges "
+                                "(--strategy-depth)",
+                                format_option(files), wanted));
+    }
+    const int depth = affordable_depth(wanted, options, camera);
+    if (depth == wanted) {
+        return {.edges = wanted, .warning = {}};
+    }
+    const std::string figures = fmt::format(
+        "{}: images of paths of up to {} edges take {:.1f} GB, more than the limit of {:.1f} GB",
+        format_option(files), wanted, gigabytes(bytes),
+        gigabytes(options.bidirectional.strategy_memory));
+    const bool any = depth > 0 && bytes_up_to(depth, options, camera) > 0;
+    if (files.depth || !any) {
+        throw Error(ErrorCode::usage,
+                    figures + (any ? fmt::format("; --strategy-depth {} takes less", depth)
+                                   : "; a smaller --size or --crop takes less"));
+    }
+    return {.edges = depth,
+            .warning = fmt::format("{}: only those of up to {} edges are written "
+                                   "(--strategy-depth)",
+                                   figures, depth)};
 }
 
 }  // namespace bdpt::app

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <bdpt/render_options.h>
+#include <bdpt/scene_desc.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -42,5 +44,44 @@ void add_transport_options(OptionList& options, RenderOptions& render, PathsOnly
 
 /// Returns the options as members of the settings that are written into images.
 [[nodiscard]] nlohmann::ordered_json transport_json(const RenderOptions& options);
+
+/// Default maximum path length [edges] of strategy images.
+constexpr int default_strategy_depth = 5;
+
+/// Destination of strategy images: files, or only the part that is rendered.
+struct StrategyFiles {
+    std::filesystem::path layers{};  ///< .exr; empty: no files
+    std::filesystem::path sheet{};   ///< .png file with the same stem
+    std::optional<int> depth{};      ///< maximum path length [edges], if the user chose one
+
+    /// Returns the files beside the file `layers`.
+    [[nodiscard]] static StrategyFiles named(const std::filesystem::path& layers);
+    /// Returns both files; none if there are no files.
+    [[nodiscard]] std::vector<std::filesystem::path> both() const;
+};
+
+/// Adds --strategies and --strategy-depth.
+void add_strategy_options(OptionList& options, StrategyFiles& strategies);
+
+/// Adds --strategies alone.
+void add_strategy_file_option(OptionList& options, StrategyFiles& strategies, std::string help);
+
+/// Returns `strategies` if they are requested: by a file, or by a depth for those in a part. Throws
+/// `OptionError` if they have no destination, or the integrator of `render` has none.
+[[nodiscard]] std::optional<StrategyFiles> checked(const StrategyFiles& strategies,
+                                                   const RenderOptions& render,
+                                                   const OptionList& options);
+
+/// Maximum path length of strategy images.
+struct StrategyDepth {
+    int edges = 0;
+    std::optional<std::string> warning;  ///< that paths are shorter than by default
+};
+
+/// Returns the depth that the user chose, or else the default, reduced to what memory allows.
+/// Throws `Error` (usage) if the chosen one needs too much memory, or if no strategy makes such
+/// paths.
+[[nodiscard]] StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
+                                           const CameraDesc& camera);
 
 }  // namespace bdpt::app

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "options/groups/denoise_arguments.h"
+#include "options/groups/display_arguments.h"
 
 namespace bdpt::app {
 

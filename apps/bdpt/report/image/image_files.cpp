@@ -10,8 +10,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "options/values/output_files.h"
-#include "options/values/pipes.h"
+#include "options/output_files.h"
 #include "report/image/denoised.h"
 #include "report/image/display_sources.h"
 

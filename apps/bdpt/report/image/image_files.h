@@ -16,9 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "options/groups/denoise_arguments.h"
 #include "options/groups/display_arguments.h"
-#include "options/values/exposure.h"
 
 namespace bdpt::app {
 

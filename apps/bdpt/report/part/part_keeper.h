@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "options/part_arguments.h"
-#include "plan/planned_identity.h"
+#include "plan/planned_tasks.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {

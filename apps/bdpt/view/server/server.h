@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "options/values/viewer_address.h"
+#include "options/arguments.h"
 #include "view/session.h"
 
 namespace bdpt::app {

@@ -1,0 +1,222 @@
+#include <bdpt/error.h>
+#include <bdpt/io/json_value.h>
+#include <bdpt/job.h>
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands/commands.h"
+#include "options/job_file.h"
+#include "options/option_list.h"
+#include "options/output_files.h"
+#include "options/render_arguments.h"
+#include "terminal/console.h"
+#include "terminal/interrupt.h"
+#include "terminal/machine_limits.h"
+#include "terminal/text.h"
+
+namespace bdpt {
+namespace {
+
+std::string to_json(std::string_view text)
+{
+    using nlohmann::json;
+    return json(std::string(text)).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+/// Returns JSON; a text for infinity, as in job files, and for what is no number.
+std::string to_json(double value)
+{
+    const std::string text = fmt::format("{}", value);
+    return std::isfinite(value) ? text : to_json(std::string_view(text));
+}
+
+template <typename Values>
+std::string to_list(const Values& values)
+{
+    std::string list;
+    for (const JobValue& value : values) {
+        list += (list.empty() ? "" : ",") + value.json();
+    }
+    return "[" + list + "]";
+}
+
+/// The options of `bdpt render`, and the request that they store into.
+class JobOptions {
+public:
+    /// Gives the options the texts of `settings`.
+    explicit JobOptions(const std::vector<JobSetting>& settings)
+    {
+        add_render_options(list_, request_);
+        for (app::Option& option : list_.all()) {
+            for (const JobSetting& setting : settings) {
+                if (setting.name == to_key(option)) {
+                    option.texts = setting.texts;
+                    option.job = setting.job;
+                }
+            }
+        }
+    }
+    JobOptions(const JobOptions&) = delete;
+    JobOptions& operator=(const JobOptions&) = delete;
+
+    [[nodiscard]] app::OptionList& list() { return list_; }
+    [[nodiscard]] const app::RenderRequest& request() const { return request_; }
+    /// Returns the options that have a value.
+    [[nodiscard]] std::vector<JobSetting> settings() const
+    {
+        std::vector<JobSetting> settings;
+        for (const app::Option& option : list_.all()) {
+            if (option.given()) {
+                settings.push_back(
+                    {.name = to_key(option), .texts = option.texts, .job = option.job});
+            }
+        }
+        return settings;
+    }
+
+private:
+    app::RenderRequest request_;
+    app::OptionList list_;
+};
+
+/// Passes messages and progress to the callbacks of a program.
+class CallbackConsole final : public app::Console {
+public:
+    explicit CallbackConsole(const JobControl& control) : control_(control) {}
+
+private:
+    void show_event(std::string_view /*name*/, const nlohmann::ordered_json& /*fields*/) override {}
+    void show_note(const app::Note& note) override { tell(MessageKind::note, note.text); }
+    void show_warning(std::string_view message) override { tell(MessageKind::warning, message); }
+    void show_progress(const Progress& progress, const app::Goal& goal) override
+    {
+        if (control_.on_progress) {
+            control_.on_progress({.image = label().index,
+                                  .images = label().count,
+                                  .fraction = fraction_done(progress, goal),
+                                  .seconds_left = time_left(progress, goal),
+                                  .render = progress});
+        }
+    }
+    void show_task(const app::TaskProgress& /*progress*/) override {}
+    void finish_progress() override {}
+
+    void tell(MessageKind kind, std::string_view message)
+    {
+        if (control_.on_message) {
+            control_.on_message(kind, app::one_line(message));
+        }
+    }
+
+    const JobControl& control_;
+};
+
+/// Stops a render by the token of a program.
+class TokenInterrupt final : public app::Interrupt {
+public:
+    explicit TokenInterrupt(std::stop_token stop) : stop_(std::move(stop)) {}
+
+    void set_outputs(app::PendingOutputs /*outputs*/) override {}
+    void allow_stop() override {}
+    void forbid_stop() override {}
+    [[nodiscard]] std::stop_token stop_token() const override { return stop_; }
+    [[nodiscard]] std::optional<std::string> stopped_by() const override
+    {
+        return stop_.stop_requested() ? std::optional<std::string>("the program") : std::nullopt;
+    }
+    [[nodiscard]] bool take_checkpoint_request() override { return false; }
+
+private:
+    std::stop_token stop_;
+};
+
+/// Throws `Error` (usage) if one of `options` names the standard input or output.
+void refuse_streams(const app::OptionList& options)
+{
+    for (const app::Option& option : options.all()) {
+        for (const std::string& text : option.texts) {
+            if (option.info.is_path && app::is_standard_output(text)) {
+                throw Error(ErrorCode::usage,
+                            fmt::format("{} \"{}\": the standard input and output belong to the "
+                                        "program that runs the job",
+                                        to_key(option), text));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+JobValue::JobValue(std::nullptr_t /*value*/) : json_("null") {}
+
+JobValue::JobValue(bool value) : json_(value ? "true" : "false") {}
+
+JobValue::JobValue(double value) : json_(to_json(value)) {}
+
+JobValue::JobValue(Quoted value) : json_(to_json(value.text)) {}
+
+JobValue::JobValue(std::initializer_list<JobValue> values) : json_(to_list(values)) {}
+
+JobValue::JobValue(const std::vector<JobValue>& values) : json_(to_list(values)) {}
+
+RenderJob::RenderJob(const std::filesystem::path& scene)
+{
+    set("file", scene);
+}
+
+RenderJob RenderJob::from_file(const std::filesystem::path& file)
+{
+    JobOptions options({});
+    app::load_job(file, options.list());
+    RenderJob result;
+    result.settings_ = options.settings();
+    return result;
+}
+
+RenderJob RenderJob::from_json(std::string_view text, const std::filesystem::path& folder)
+{
+    JobOptions options({});
+    app::load_job(io::JsonValue::parse(text), folder / "job.json", options.list());
+    RenderJob result;
+    result.settings_ = options.settings();
+    return result;
+}
+
+RenderJob& RenderJob::set(std::string_view name, const JobValue& value)
+{
+    JobOptions options(settings_);
+    const std::string member = fmt::format("{{{}: {}}}", bdpt::to_json(name), value.json());
+    set_options(io::JsonValue::parse(member), options.list());
+    settings_ = options.settings();
+    return *this;
+}
+
+std::string RenderJob::to_json(const std::filesystem::path& folder) const
+{
+    JobOptions options(settings_);
+    return job_text(options.list(), folder / "job.json");
+}
+
+JobResult run(const RenderJob& job, const JobControl& control)
+{
+    JobOptions options(job.settings());
+    refuse_streams(options.list());
+    options.list().store_given();
+    const app::RenderArguments asked = checked(options.request(), options.list());
+    std::vector<std::string> words{"bdpt", "render"};
+    const std::vector<std::string> more = to_words(options.list());
+    words.insert(words.end(), more.begin(), more.end());
+    CallbackConsole console(control);
+    TokenInterrupt interrupt(control.stop);
+    JobResult result;
+    app::within_quota(
+        [&] { result = run_render(for_scene(asked, asked.file), words, console, interrupt); });
+    return result;
+}
+
+}  // namespace bdpt

@@ -34,7 +34,7 @@ int run(const std::vector<std::string>& given)
             put_help(*parsed.text);
             return 0;
         }
-        return line.run(parsed, words);
+        return parsed.command->run(words);
     } catch (const OptionError& error) {
         throw Error(error.code(),
                     fmt::format("{}; see \"bdpt {} --help\"", error.what(), given[1]));

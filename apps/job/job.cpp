@@ -45,14 +45,11 @@ std::string to_list(const Values& values)
     return "[" + list + "]";
 }
 
-/// The options of `bdpt render`, and the request that they store into.
-class JobOptions {
-public:
-    /// Gives the options the texts of `settings`.
-    explicit JobOptions(const std::vector<JobSetting>& settings)
+/// The options of `bdpt render` with the texts of settings.
+struct JobOptions : app::RenderOptionList {
+    explicit JobOptions(const std::vector<JobSetting>& settings = {})
     {
-        add_render_options(list_, request_);
-        for (app::Option& option : list_.all()) {
+        for (app::Option& option : list.all()) {
             for (const JobSetting& setting : settings) {
                 if (setting.name == to_key(option)) {
                     option.texts = setting.texts;
@@ -61,16 +58,12 @@ public:
             }
         }
     }
-    JobOptions(const JobOptions&) = delete;
-    JobOptions& operator=(const JobOptions&) = delete;
 
-    [[nodiscard]] app::OptionList& list() { return list_; }
-    [[nodiscard]] const app::RenderRequest& request() const { return request_; }
     /// Returns the options that have a value.
     [[nodiscard]] std::vector<JobSetting> settings() const
     {
         std::vector<JobSetting> settings;
-        for (const app::Option& option : list_.all()) {
+        for (const app::Option& option : list.all()) {
             if (option.given()) {
                 settings.push_back(
                     {.name = to_key(option), .texts = option.texts, .job = option.job});
@@ -78,10 +71,6 @@ public:
         }
         return settings;
     }
-
-private:
-    app::RenderRequest request_;
-    app::OptionList list_;
 };
 
 /// Passes messages and progress to the callbacks of a program.
@@ -171,8 +160,8 @@ RenderJob::RenderJob(const std::filesystem::path& scene)
 
 RenderJob RenderJob::from_file(const std::filesystem::path& file)
 {
-    JobOptions options({});
-    app::load_job(file, options.list());
+    JobOptions options;
+    app::load_job(file, options.list);
     RenderJob result;
     result.settings_ = options.settings();
     return result;
@@ -180,8 +169,8 @@ RenderJob RenderJob::from_file(const std::filesystem::path& file)
 
 RenderJob RenderJob::from_json(std::string_view text, const std::filesystem::path& folder)
 {
-    JobOptions options({});
-    app::load_job(io::JsonValue::parse(text), folder / "job.json", options.list());
+    JobOptions options;
+    app::load_job(io::JsonValue::parse(text), folder / "job.json", options.list);
     RenderJob result;
     result.settings_ = options.settings();
     return result;
@@ -191,7 +180,7 @@ RenderJob& RenderJob::set(std::string_view name, const JobValue& value)
 {
     JobOptions options(settings_);
     const std::string member = fmt::format("{{{}: {}}}", bdpt::to_json(name), value.json());
-    set_options(io::JsonValue::parse(member), options.list());
+    set_options(io::JsonValue::parse(member), options.list);
     settings_ = options.settings();
     return *this;
 }
@@ -199,17 +188,17 @@ RenderJob& RenderJob::set(std::string_view name, const JobValue& value)
 std::string RenderJob::to_json(const std::filesystem::path& folder) const
 {
     JobOptions options(settings_);
-    return job_text(options.list(), folder / "job.json");
+    return job_text(options.list, folder / "job.json");
 }
 
 JobResult run(const RenderJob& job, const JobControl& control)
 {
     JobOptions options(job.settings());
-    refuse_streams(options.list());
-    options.list().store_given();
-    const app::RenderArguments asked = checked(options.request(), options.list());
+    refuse_streams(options.list);
+    options.list.store_given();
+    const app::RenderArguments asked = checked(options.request, options.list);
     std::vector<std::string> words{"bdpt", "render"};
-    const std::vector<std::string> more = to_words(options.list());
+    const std::vector<std::string> more = to_words(options.list);
     words.insert(words.end(), more.begin(), more.end());
     CallbackConsole console(control);
     TokenInterrupt interrupt(control.stop);

@@ -7,7 +7,6 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -30,6 +29,7 @@ template <typename Array>
 struct ArrayLike {
     Array array;
 };
+
 template <typename... Shape>
 using FloatsLike = ArrayLike<FloatInput<Shape...>>;
 using ImageInput = FloatsLike<nb::shape<-1, -1, 3>>;

@@ -91,8 +91,8 @@ private:
     const nb::object& message_;
     std::optional<nb::python_error> interrupt_;
     std::stop_source stop_;
-    std::stop_callback<std::function<void()>> when_python_ends_{
-        Workers::all().stop(), [this] { stop_.request_stop(); }};
+    std::stop_callback<std::function<void()>> when_python_ends_{Workers::all().stop(),
+                                                                [this] { stop_.request_stop(); }};
 };
 
 std::vector<JobImage> run_job(const nb::object& file, const nb::object& progress,

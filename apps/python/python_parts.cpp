@@ -65,36 +65,25 @@ std::vector<UVec3> to_triangles(const IndexInput& array)
     return triangles;
 }
 
+/// Converts integers of the first of these types that the array has.
+template <typename Number, typename... Others>
+std::vector<UVec3> to_triangles_of(const IndexInput& array)
+{
+    if (array.dtype() == nb::dtype<Number>()) {
+        return to_triangles<Number>(array);
+    }
+    if constexpr (sizeof...(Others) > 0) {
+        return to_triangles_of<Others...>(array);
+    }
+    throw Error(ErrorCode::usage, "triangles: expected integers");
+}
+
 /// Converts integers of any size. NumPy would wrap those that are out of range, and truncate
 /// fractions.
 std::vector<UVec3> to_triangles(const IndexInput& array)
 {
-    const nb::dlpack::dtype type = array.dtype();
-    if (type == nb::dtype<std::uint32_t>()) {
-        return to_triangles<std::uint32_t>(array);
-    }
-    if (type == nb::dtype<std::int64_t>()) {
-        return to_triangles<std::int64_t>(array);
-    }
-    if (type == nb::dtype<std::uint64_t>()) {
-        return to_triangles<std::uint64_t>(array);
-    }
-    if (type == nb::dtype<std::int32_t>()) {
-        return to_triangles<std::int32_t>(array);
-    }
-    if (type == nb::dtype<std::int16_t>()) {
-        return to_triangles<std::int16_t>(array);
-    }
-    if (type == nb::dtype<std::int8_t>()) {
-        return to_triangles<std::int8_t>(array);
-    }
-    if (type == nb::dtype<std::uint16_t>()) {
-        return to_triangles<std::uint16_t>(array);
-    }
-    if (type == nb::dtype<std::uint8_t>()) {
-        return to_triangles<std::uint8_t>(array);
-    }
-    throw Error(ErrorCode::usage, "triangles: expected integers");
+    return to_triangles_of<std::uint32_t, std::int64_t, std::uint64_t, std::int32_t, std::int16_t,
+                           std::int8_t, std::uint16_t, std::uint8_t>(array);
 }
 
 ArrayMesh make_mesh(const FloatsLike<nb::shape<-1, 3>>& positions,

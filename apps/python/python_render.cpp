@@ -1,8 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/io/part_file.h>
 #include <bdpt/noise.h>
-#include <bdpt/part/render_result.h>
-#include <bdpt/render.h>
 #include <fmt/core.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/map.h>
@@ -10,18 +7,14 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <new>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "arrays.h"
 #include "interpreter_lock.h"
@@ -190,15 +183,10 @@ RenderControl make_control(const nb::object& progress)
 
 namespace {
 
-std::vector<Layer> all_layers(const RenderResult& part)
-{
-    return app::develop_layers(part.film, part.aovs, part.ids);
-}
-
 /// Warns in Python of a black image. Throws if the user has made an error of warnings.
 void warn_if_black(const Render& render, const PythonScene& scene)
 {
-    if (!app::is_black(render.part.image(), all_layers(render.part))) {
+    if (!app::is_black(render.part.image(), app::develop_layers(render.part))) {
         return;
     }
     const std::string text =
@@ -239,11 +227,16 @@ std::map<std::string, std::map<std::string, std::uint32_t>> collect_ids(const Re
 std::map<std::string, FloatArray> collect_layers(const Render& render)
 {
     std::map<std::string, FloatArray> arrays;
-    for (Layer& layer : all_layers(render.part)) {
+    for (Layer& layer : app::develop_layers(render.part)) {
         const std::string name = layer.name.empty() ? "alpha" : layer.name;
         arrays.emplace(name, to_array(std::move(layer)));
     }
     return arrays;
+}
+
+io::ImageMetadata current_metadata(const Render& render)
+{
+    return app::completed(render.notes.metadata, render.part.samples.count(), render.part.seconds);
 }
 
 /// Calls `write` with the options for writing images of `render` to `files`.
@@ -251,10 +244,6 @@ template <typename Write>
 void with_file_options(const Render& render, SaveArguments asked, std::span<const fs::path> files,
                        const Write& write)
 {
-    io::ImageMetadata metadata = render.notes.metadata;
-    metadata.samples_per_pixel = render.part.samples.count();
-    metadata.render_seconds = render.part.seconds;
-    metadata.created = std::chrono::system_clock::now();
     if (!asked.display.backdrop) {
         asked.display.backdrop = render.backdrop;
     } else if (!render.backdrop) {
@@ -262,20 +251,9 @@ void with_file_options(const Render& render, SaveArguments asked, std::span<cons
     }
     app::check_transparency(asked.display, files);
     app::check_metered(asked.display.exposure, render.notes.metadata, "the render");
-    const FilmLayout& layout = render.part.film.layout();
     const auto denoiser = app::open_denoiser(asked.denoise, files, 0);
-    write(app::ImageFileOptions{.exr = {.type = asked.exr.channel_type,
-                                        .metadata = std::move(metadata),
-                                        .storage = asked.exr.storage,
-                                        .placement = io::ExrPlacement{.x = layout.region.x0,
-                                                                      .y = layout.region.y0,
-                                                                      .full_width = layout.width,
-                                                                      .full_height = layout.height},
-                                        .manifests = render.part.ids.manifests()},
-                                .layers = all_layers(render.part),
-                                .display = asked.display,
-                                .denoiser = denoiser ? &*denoiser : nullptr,
-                                .denoising = asked.denoise.kind});
+    write(app::image_file_options(render.part, current_metadata(render), asked.exr, asked.display,
+                                  denoiser ? &*denoiser : nullptr, asked.denoise));
 }
 
 /// Returns the pixels of the PNG file of save(), as an array.
@@ -307,9 +285,7 @@ void save_file(const Render& render, const fs::path& file, const SaveArguments& 
     app::check_outputs(files, render.inputs);
     if (app::is_part_name(file)) {
         io::PartNotes notes = render.notes;
-        notes.metadata.samples_per_pixel = render.part.samples.count();
-        notes.metadata.render_seconds = render.part.seconds;
-        notes.metadata.created = std::chrono::system_clock::now();
+        notes.metadata = current_metadata(render);
         io::write_part(file, render.part, notes, io::OldPart::replace);
         return;
     }

@@ -8,12 +8,9 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <new>
-#include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>

@@ -5,17 +5,15 @@
 #include <nanobind/stl/string.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <optional>
-#include <sstream>
-#include <string>
-#include <utility>
 
+#include "options/arguments.h"
 #include "options/command_parser.h"
+#include "options/groups/camera_arguments.h"
 #include "options/job_file.h"
+#include "terminal/text.h"
 
 namespace bdpt::python {
 namespace {
@@ -59,12 +57,9 @@ bool belongs(const app::Option& option, Call call)
 template <typename Visitor>
 void visit_options(Call call, const Visitor& visit)
 {
-    SaveRequest save;
-    app::RenderRequest render;
-    app::OptionList render_options;
-    app::add_render_options(render_options, render);
-    for (const app::Option& option :
-         call == Call::save ? save.options.all() : render_options.all()) {
+    const SaveRequest save;
+    const app::RenderOptionList render;
+    for (const app::Option& option : (call == Call::save ? save.options : render.list).all()) {
         if (belongs(option, call)) {
             visit(option);
         }
@@ -74,9 +69,8 @@ void visit_options(Call call, const Visitor& visit)
 /// Returns "look_at" for --look-at. "from" is a keyword of Python.
 std::string to_keyword(const app::Option& option)
 {
-    std::string keyword = option.name().substr(2);
-    std::replace(keyword.begin(), keyword.end(), '-', '_');
-    return keyword == "from" ? "from_" : keyword;
+    const std::string key = to_key(option);
+    return key == "from" ? "from_" : key;
 }
 
 /// Returns the options by keyword.
@@ -236,34 +230,13 @@ const char* format_call(Call call)
 std::string wrapped(const std::string& text, std::size_t indent)
 {
     constexpr std::size_t columns = 100;
-    std::istringstream words(text);
+    const std::string lines = app::wrapped(text, columns - indent);
     std::string result;
-    std::size_t column = columns;
-    for (std::string word; words >> word; column += 1 + word.size()) {
-        const bool breaks = column + 1 + word.size() > columns;
-        result += breaks ? (result.empty() ? "" : "\n") + std::string(indent, ' ') : " ";
-        result += word;
-        column = breaks ? indent - 1 : column;
+    for (const std::string_view line : app::split(lines, '\n')) {
+        result += std::string(indent, ' ') + std::string(line) + "\n";
     }
-    return result + "\n";
+    return result;
 }
-
-/// Pairs of options of the view that exclude each other.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 13> exclusive{{
-    {"--view", "--camera"},
-    {"--view", "--from"},
-    {"--view", "--look-at"},
-    {"--margin", "--camera"},
-    {"--margin", "--from"},
-    {"--margin", "--look-at"},
-    {"--ortho", "--camera"},
-    {"--ortho", "--from"},
-    {"--ortho", "--look-at"},
-    {"--ortho", "--fov"},
-    {"--ortho", "--focal-length"},
-    {"--fov", "--focal-length"},
-    {"--lens-radius", "--f-stop"},
-}};
 
 /// Returns "--fov" for "--fov=30".
 std::string_view parse_name(std::string_view word)
@@ -271,10 +244,13 @@ std::string_view parse_name(std::string_view word)
     return word.substr(0, word.find('='));
 }
 
+/// Tests whether two options of a view exclude each other.
 bool exclude(std::string_view one, std::string_view other)
 {
-    return std::any_of(exclusive.begin(), exclusive.end(), [&](const auto& pair) {
-        return pair == std::pair(one, other) || pair == std::pair(other, one);
+    static const std::vector<app::Conflict> conflicts = app::view_conflicts();
+    return std::any_of(conflicts.begin(), conflicts.end(), [&](const app::Conflict& pair) {
+        return (pair.option == one && pair.other == other) ||
+               (pair.option == other && pair.other == one);
     });
 }
 

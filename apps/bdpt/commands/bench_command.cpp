@@ -60,19 +60,12 @@ std::vector<fs::path> all_files(const BenchArguments& arguments)
     return files;
 }
 
-void write_file(const fs::path& file, const std::string& text)
-{
-    io::OutputFile output(file);
-    output.write(text);
-    output.commit();
-}
-
 void write_all(const eval::BenchRecord& record, const fs::path& folder)
 {
     const Outputs outputs = outputs_in(folder);
-    write_file(outputs.json, eval::bench_json(record));
-    write_file(outputs.csv, eval::bench_csv(record));
-    write_file(outputs.page, eval::bench_page(record, folder));
+    write_text(outputs.json, eval::bench_json(record));
+    write_text(outputs.csv, eval::bench_csv(record));
+    write_text(outputs.page, eval::bench_page(record, folder));
 }
 
 std::string time_now()

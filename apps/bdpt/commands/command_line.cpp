@@ -1,13 +1,11 @@
 #include <bdpt/error.h>
 #include <bdpt/eval/bench/machine.h>
-#include <bdpt/io/output_file.h>
 #include <bdpt/scene.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>
 
 #include <array>
 #include <optional>
-#include <utility>
 
 #include "commands/commands.h"
 #include "options/job_file.h"
@@ -72,9 +70,7 @@ int save_job(const RenderRequest& request, const OptionList& options)
         }
     }
     check_files_of_job(arguments);
-    io::OutputFile output(file);
-    output.write(job_text(options, file));
-    output.commit();
+    write_text(file, job_text(options, file));
     TerminalConsole(arguments.printed.format, arguments.printed.verbosity)
         .note(fmt::format("wrote {}", file.string()));
     return 0;
@@ -116,6 +112,16 @@ int run_render_words(const RenderRequest& request, OptionList& options,
                              [&](const RenderArguments& one) { return run_scene(one, words); });
 }
 
+/// Runs `bdpt view SCENE` and `bdpt view JOB`.
+int run_view_words(const ViewRequest& request, OptionList& options,
+                   const std::vector<std::string>& /*words*/)
+{
+    if (const fs::path file = request.render.arguments.file; is_job(file)) {
+        load_viewed_job(file, options);
+    }
+    return run_view(checked(request, options), options);
+}
+
 }  // namespace
 
 CommandLine::CommandLine()
@@ -124,88 +130,75 @@ CommandLine::CommandLine()
     program.summary = "bdpt renders glTF 2.0 scenes by bidirectional path tracing.";
     program.footer = program_footer;
     program.version = version_text;  // a callback, as it asks Embree, which starts threads
+    using Words = std::vector<std::string>;
+    // `add_options` adds the options that store into `request`; `run` takes both, and the words.
     const auto add = [this](const char* name, const char* summary, const char* footer,
-                            const auto& add_options, auto&... places) {
+                            const auto& add_options, auto& request, const auto& run) -> Command& {
         Command& command = program.commands.emplace_back();
         command.name = name;
         command.summary = summary;
         command.footer = footer;
-        add_options(command.options, places...);
+        add_options(command.options, request);
+        command.run = [&command, &request, run](const Words& words) {
+            return run(request, command.options, words);
+        };
+        return command;
     };
-    add("render", "Render a scene to an image", render_footer, add_render_options, render);
-    program.commands.back().essentials = render_essentials();
-    program.commands.back().short_footer = render_short_footer;
-    add("view", "Preview a scene in the browser, to choose view, light and look", view_footer,
-        add_view_command_options, view);
-    program.commands.back().essentials = {
-        {"file"},       {"--spp"},        {"--size"},       {"--camera"}, {"--view"}, {"--env"},
-        {"--exposure"}, {"--integrator"}, {"--background"}, {"--listen"}, {"--open"}};
-    program.commands.back().short_footer = view_short_footer;
+    // Runs a command with its checked arguments alone.
+    const auto checked_by = [](const auto& run) {
+        return [run](const auto& request, OptionList& options, const Words& /*words*/) {
+            return run(checked(request, options));
+        };
+    };
+    Command& rendering = add("render", "Render a scene to an image", render_footer,
+                             add_render_options, render, run_render_words);
+    rendering.essentials = render_essentials();
+    rendering.short_footer = render_short_footer;
+    Command& viewing = add("view", "Preview a scene in the browser, to choose view, light and look",
+                           view_footer, add_view_command_options, view, run_view_words);
+    viewing.essentials = {{"file"},         {"--spp"},    {"--size"},     {"--camera"},
+                          {"--view"},       {"--env"},    {"--exposure"}, {"--integrator"},
+                          {"--background"}, {"--listen"}, {"--open"}};
+    viewing.short_footer = view_short_footer;
     add("plan", "Distribute a render over processes or machines", plan_footer, add_plan_options,
-        plan);
+        plan, checked_by(run_plan));
     add("merge", "Merge separately rendered parts of a render", merge_footer, add_merge_options,
-        merge);
+        merge, checked_by(run_merge));
     add("develop", "Convert an .exr file to pictures, without rendering", develop_footer,
-        add_develop_options, develop);
-    add("info", "Print what a scene contains", info_footer, add_info_options, info);
+        add_develop_options, develop,
+        [](const DevelopArguments& arguments, OptionList& options, const Words& /*words*/) {
+            check(arguments, options);
+            return run_develop(arguments);
+        });
+    add("info", "Print what a scene contains", info_footer, add_info_options, info,
+        [](const InfoArguments& arguments, OptionList& options, const Words& /*words*/) {
+            return run_info(arguments, options);
+        });
     add("compare", "Measure the error of images against a reference", compare_footer,
-        add_compare_options, compare);
+        add_compare_options, compare, checked_by(run_compare));
     add("bench", "Compare integrators at equal time and equal samples", bench_footer,
-        add_bench_options, bench);
+        add_bench_options, bench,
+        [](const BenchRequest& request, OptionList& options, const Words& words) {
+            return run_bench(checked(request, options), words);
+        });
     add("verify", "Test that all integrators and strategies agree on a scene", verify_footer,
-        add_verify_options, verify);
+        add_verify_options, verify, checked_by(run_verify));
     add("inspect", "Print the paths of one sample of a pixel", inspect_footer, add_inspect_options,
-        inspect);
-    add("help", "Print the help of a command", "", [this](OptionList& options) {
-        options.add("command", "COMMAND", "The command. Default: all", topic, any_text());
-    });
-    add("version", "Print the versions of bdpt and libraries, and the instruction set", "",
-        [](OptionList& /*options*/) {});
-}
-
-int CommandLine::run(const ParsedLine& line, const std::vector<std::string>& words)
-{
-    const std::string& name = line.command->name;
-    OptionList& options = line.command->options;
-    if (name == "help") {
-        return run_help(program, topic);
-    }
-    if (name == "version") {
-        print_text(version_text() + "\n");
-        return 0;
-    }
-    if (name == "plan") {
-        return run_plan(checked(plan, options));
-    }
-    if (name == "merge") {
-        return run_merge(checked(merge, options));
-    }
-    if (name == "develop") {
-        check(develop, options);
-        return run_develop(develop);
-    }
-    if (name == "info") {
-        return run_info(info, options);
-    }
-    if (name == "compare") {
-        return run_compare(checked(compare, options));
-    }
-    if (name == "bench") {
-        return run_bench(checked(bench, options), words);
-    }
-    if (name == "verify") {
-        return run_verify(checked(verify, options));
-    }
-    if (name == "view") {
-        if (const fs::path file = view.render.arguments.file; is_job(file)) {
-            load_viewed_job(file, options);
-        }
-        return run_view(checked(view, options), options);
-    }
-    if (name == "inspect") {
-        return run_inspect(checked(inspect, options));
-    }
-    return run_render_words(render, options, words);
+        inspect, checked_by(run_inspect));
+    const auto add_topic = [](OptionList& options, std::string& target) {
+        options.add("command", "COMMAND", "The command. Default: all", target, any_text());
+    };
+    add("help", "Print the help of a command", "", add_topic, topic,
+        [this](const std::string& asked, OptionList& /*options*/, const Words& /*words*/) {
+            return run_help(program, asked);
+        });
+    add(
+        "version", "Print the versions of bdpt and libraries, and the instruction set", "",
+        [](OptionList& /*options*/, const std::string& /*none*/) {}, topic,
+        [](const std::string& /*none*/, OptionList& /*options*/, const Words& /*words*/) {
+            print_text(version_text() + "\n");
+            return 0;
+        });
 }
 
 }  // namespace bdpt::app

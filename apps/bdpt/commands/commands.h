@@ -147,10 +147,6 @@ struct CommandLine {
     CommandLine(const CommandLine&) = delete;
     CommandLine& operator=(const CommandLine&) = delete;
 
-    /// Runs the command that `line` names; `words` are the whole command line. Returns the exit
-    /// code.
-    [[nodiscard]] int run(const ParsedLine& line, const std::vector<std::string>& words);
-
     RenderRequest render;
     PlanRequest plan;
     MergeRequest merge;

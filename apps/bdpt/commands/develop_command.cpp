@@ -116,11 +116,10 @@ int run_develop(const DevelopArguments& arguments)
                                  are_denoised ? ", denoised" : ""));
     }
     attempts.finish();
-    console.event(
-        "done",
-        {{"outputs", names_json(written.files)},
-         {"denoised", names_json(are_denoised ? written.files : std::vector<fs::path>())},
-         {"exposure", written.exposure ? ordered_json(*written.exposure) : ordered_json()}});
+    console.event("done",
+                  {{"outputs", names_json(written.files)},
+                   {"denoised", names_json(are_denoised ? written.files : std::vector<fs::path>())},
+                   {"exposure", or_null(written.exposure)}});
     return 0;
 }
 

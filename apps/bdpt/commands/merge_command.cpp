@@ -1,6 +1,5 @@
 #include "commands/commands.h"
 
-#include <bdpt/error.h>
 #include <bdpt/io/part_file.h>
 #include <bdpt/noise.h>
 #include <bdpt/part/render_result.h>
@@ -197,23 +196,6 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
     console.event("done", fields);
 }
 
-/// Remaining time to wait for all images together.
-class Patience {
-public:
-    explicit Patience(std::optional<double> seconds) : seconds_(seconds) {}
-
-    /// Returns the remaining time [s].
-    [[nodiscard]] std::optional<double> left() const
-    {
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-        return seconds_ ? std::optional(std::max(*seconds_ - passed.count(), 0.0)) : std::nullopt;
-    }
-
-private:
-    std::optional<double> seconds_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 /// Collects the parts of one image and, if there are enough, merges them.
 MergedImage merge_image(const MergeArguments& arguments, const MergeSession& session)
 {
@@ -281,11 +263,14 @@ int run_merge(const MergeArguments& asked)
     const std::optional<io::Denoiser> denoiser =
         open_denoiser(asked.denoise, asked.outputs, all_processors);
     const MergeSession session{plan, denoiser ? &*denoiser : nullptr, console};
-    const Patience patience(asked.wait);
+    const auto start = std::chrono::steady_clock::now();
     std::vector<MergedImage> merged;
     for (MergeArguments image : images) {
         interrupt.set_outputs(pending_outputs(merged_files(image)));
-        image.wait = patience.left();
+        if (image.wait) {  // for all images together
+            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+            image.wait = std::max(*asked.wait - passed.count(), 0.0);
+        }
         merged.push_back(merge_image(image, session));
     }
     return conclude(asked, plan, std::move(merged), console);

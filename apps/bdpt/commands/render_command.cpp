@@ -2,11 +2,8 @@
 #include <bdpt/io/image_cache.h>
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>

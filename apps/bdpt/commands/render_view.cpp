@@ -152,37 +152,12 @@ io::PartNotes part_notes(const RenderArguments& arguments, io::ImageMetadata met
             .command = command};
 }
 
-ImageFileOptions image_file_options(const RenderArguments& arguments, const PreparedScene& stage,
-                                    const RenderResult& result, io::ImageMetadata metadata,
-                                    const RenderSession& session)
-{
-    metadata.samples_per_pixel = result.film.sample_count();
-    metadata.render_seconds = result.seconds;
-    metadata.created = std::chrono::system_clock::now();
-    const PixelRect& region = result.film.region();
-    const io::ExrPlacement placement{.x = region.x0,
-                                     .y = region.y0,
-                                     .full_width = stage.size.width,
-                                     .full_height = stage.size.height};
-    std::vector<Layer> layers = develop_layers(result.film, result.aovs, result.ids);
-    return {.exr = {.type = arguments.exr.channel_type,
-                    .metadata = std::move(metadata),
-                    .storage = arguments.exr.storage,
-                    .placement = placement,
-                    .manifests = result.ids.manifests()},
-            .layers = std::move(layers),
-            .guides = arguments.guides,
-            .display = arguments.display,
-            .denoiser = session.denoiser,
-            .denoising = arguments.denoise.kind};
-}
-
 ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json& settings,
                            const std::optional<std::string>& stopped_by)
 {
     ordered_json stats{
         {"version", BDPT_VERSION}, {"file", arguments.file.string()}, {"settings", settings}};
-    stats["stopped_by"] = stopped_by ? ordered_json(*stopped_by) : ordered_json();
+    stats["stopped_by"] = or_null(stopped_by);
     return stats;
 }
 
@@ -276,8 +251,8 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
                                   "pixel are needed",
                                   noise_text(noise), noise_text(*goal), samples)});
     }
-    fields["exposure"] = images.exposure ? ordered_json(*images.exposure) : ordered_json();
-    fields["stopped_by"] = stopped_by ? ordered_json(*stopped_by) : ordered_json();
+    fields["exposure"] = or_null(images.exposure);
+    fields["stopped_by"] = or_null(stopped_by);
     console.event("done", fields);
 }
 
@@ -289,21 +264,17 @@ bool may_choose_rates(const RenderArguments& asked, const std::optional<PartKeep
     return asked.may_adapt && of_part.value_or(!std::isfinite(asked.goal.seconds));
 }
 
-/// Returns `images` and all other files that were written.
+/// Returns `images`, those of strategies among them, and all other files that were written.
 std::vector<std::filesystem::path> written_files(const RenderArguments& arguments,
                                                  std::vector<std::filesystem::path> images)
 {
-    std::vector<std::filesystem::path> files = std::move(images);
-    if (arguments.part) {
-        files.push_back(arguments.part->file);
-    }
-    if (arguments.rates && arguments.rates->saved) {
-        files.push_back(*arguments.rates->saved);
-    }
-    if (arguments.stats) {
-        files.push_back(*arguments.stats);
-    }
-    return files;
+    for_each_written_file(arguments,
+                          [&](std::string_view option, const std::filesystem::path& file) {
+                              if (option != "--output" && option != "--strategies") {
+                                  images.push_back(file);
+                              }
+                          });
+    return images;
 }
 
 }  // namespace
@@ -370,8 +341,10 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
     const auto writing_start = std::chrono::steady_clock::now();
     const Image image = result.image();
     report_clamp(console, result.film, image);
-    const ImageFileOptions options =
-        image_file_options(arguments, stage, result, metadata, session);
+    ImageFileOptions options =
+        image_file_options(result, completed(metadata, result.film.sample_count(), result.seconds),
+                           arguments.exr, arguments.display, session.denoiser, arguments.denoise);
+    options.guides = arguments.guides;
     const bool is_whole = !arguments.options.film.crop;
     if (is_whole && stage.scene.counts().lights > 0 && is_black(image, options.layers)) {
         console.warning(black_image_text(arguments.file.string()));

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdio>
+#include <memory>
 #include <string>
 
 #include "terminal/console.h"
@@ -43,7 +44,8 @@ private:
 int run_view(const ViewArguments& arguments, const OptionList& options)
 {
     TerminalConsole console(Format::text, arguments.stage.printed.verbosity);
-    Server server(arguments.listen, view_page());
+    const std::unique_ptr<Server> made = make_server(arguments.listen, view_page());
+    Server& server = *made;
     Session session(ViewWords(options), server, console);
     const Serving serving(
         server,

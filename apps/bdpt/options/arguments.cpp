@@ -1,43 +1,27 @@
 #include "options/arguments.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 namespace bdpt::app {
 namespace {
 
-/// Parses all of `text` as one number.
-template <typename Number>
-std::optional<Number> parse_number(std::string_view text)
-{
-    Number value{};
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || stop != end || text.empty()) {
-        return std::nullopt;
-    }
-    return value;
-}
-
 /// Parses "x,y,z", all finite.
 template <typename Vector>
 std::optional<Vector> parse_numbers(std::string_view text)
 {
+    const std::vector<std::string_view> parts = split(text, ',');
     Vector result(0);
     for (int axis = 0; axis < 3; ++axis) {
-        const std::size_t comma = text.find(',');
-        if ((comma == std::string_view::npos) != (axis == 2)) {
-            return std::nullopt;
-        }
-        const auto value = parse_number<typename Vector::value_type>(text.substr(0, comma));
+        const auto value =
+            parts.size() == 3
+                ? parse_number<typename Vector::value_type>(parts[static_cast<std::size_t>(axis)])
+                : std::nullopt;
         if (!value || !std::isfinite(*value)) {
             return std::nullopt;
         }
         result[axis] = *value;
-        text.remove_prefix(axis == 2 ? text.size() : comma + 1);
     }
     return result;
 }
@@ -51,6 +35,18 @@ std::string lower_case(std::string_view text)
         c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     }
     return result;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator)
+{
+    std::vector<std::string_view> parts;
+    for (std::size_t end = text.find(separator); end != std::string_view::npos;
+         end = text.find(separator)) {
+        parts.push_back(text.substr(0, end));
+        text.remove_prefix(end + 1);
+    }
+    parts.push_back(text);
+    return parts;
 }
 
 std::optional<Size> parse_size(std::string_view text)
@@ -133,6 +129,7 @@ std::optional<DVec3> parse_dvec3(std::string_view text)
 {
     return parse_vec3(text) ? parse_numbers<DVec3>(text) : std::nullopt;
 }
+
 std::optional<double> parse_double(std::string_view text)
 {
     const auto value = parse_number<double>(text);

@@ -2,11 +2,14 @@
 
 #include <bdpt/types.h>
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <vector>
 
 namespace bdpt::app {
 
@@ -18,6 +21,19 @@ struct Size {
 
 /// Converts ASCII letters to lower case.
 [[nodiscard]] std::string lower_case(std::string_view text);
+
+/// Splits `text` at each `separator`; parts may be empty.
+[[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// Parses all of `text` as one number in decimal digits, which may be infinite.
+template <typename Number>
+[[nodiscard]] std::optional<Number> parse_number(std::string_view text)
+{
+    Number value{};
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
 
 /// Parses "1280x720", or "512" for a square; both at least 1 and at most 65535.
 [[nodiscard]] std::optional<Size> parse_size(std::string_view text);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "options/foreign_words.h"
+#include "options/value_types.h"
 #include "terminal/console.h"
 #include "terminal/text.h"
 
@@ -130,11 +131,7 @@ std::string command_names(const Program& program)
             names.push_back(command.name);
         }
     }
-    std::string text = names.front();
-    for (std::size_t i = 1; i < names.size(); ++i) {
-        text += (i + 1 < names.size() ? ", " : " or ") + names[i];
-    }
-    return text;
+    return words_text(names);
 }
 
 /// The program's command line as a CLI11 parser.

@@ -18,6 +18,9 @@ struct Command {
     std::string summary;  ///< one line
     std::string footer;   ///< printed below the options in its help: examples, exit codes
     OptionList options;
+    /// Runs it with the options as stored; the words are the whole command line. Returns the exit
+    /// code.
+    std::function<int(const std::vector<std::string>& words)> run{};
     /// The options that its help shows, in one section; --help-all shows all. Empty: all.
     std::vector<Essential> essentials{};
     std::string short_footer{};  ///< in place of `footer`, below the essentials

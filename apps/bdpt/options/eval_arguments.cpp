@@ -12,7 +12,6 @@
 #include <set>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "options/arguments.h"
 #include "options/groups/film_arguments.h"
@@ -24,24 +23,27 @@ namespace {
 
 using eval::Metric;
 
-/// Parses metrics separated by commas; each once.
-std::optional<std::vector<Metric>> parse_metrics(const std::string& text)
+/// Parses values separated by commas; each once.
+template <typename Value>
+std::optional<std::vector<Value>> parse_each_once(
+    const std::string& text, std::optional<Value> (*parse)(std::string_view part))
 {
-    std::vector<Metric> result;
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::optional<Metric> metric =
-            eval::parse_metric(std::string_view(text).substr(begin, end - begin));
-        if (!metric) {
+    std::vector<Value> result;
+    for (const std::string_view part : split(text, ',')) {
+        const std::optional<Value> value = parse(part);
+        if (!value) {
             return std::nullopt;
         }
-        if (std::find(result.begin(), result.end(), *metric) == result.end()) {
-            result.push_back(*metric);
+        if (std::find(result.begin(), result.end(), *value) == result.end()) {
+            result.push_back(*value);
         }
-        begin = end + 1;
     }
     return result;
+}
+
+std::optional<std::vector<Metric>> parse_metrics(const std::string& text)
+{
+    return parse_each_once<Metric>(text, eval::parse_metric);
 }
 
 /// Parses "START,STOP,COUNT".
@@ -87,12 +89,11 @@ void add_measures(OptionList& options, CompareRequest& request)
                 "Added to the divisor of relative errors: to r^2 in relmse, to |r| in mape, to |x| "
                 "+ |r| in smape. Default: 0.01",
                 scale.epsilon, positive());
-    const Choices<eval::EpsilonUnit> units{
-        {{"true", eval::EpsilonUnit::reference_mean}, {"false", eval::EpsilonUnit::absolute}}};
     options.add_flag("--relative",
                      "Multiply epsilon by the reference's mean (for relmse: by its square). Then "
                      "relmse, mape and smape do not depend on the unit of light",
-                     scale.epsilon_unit, units.type());
+                     scale.epsilon_unit,
+                     on_or_off(eval::EpsilonUnit::reference_mean, eval::EpsilonUnit::absolute));
     options.add("--peak", "PEAK", "Peak value of psnr. Default: the reference's maximum",
                 scale.peak, positive());
     options.add("--ppd", "N",
@@ -117,8 +118,7 @@ void add_output(OptionList& options, CompareArguments& arguments)
         "Exit with code 10 if the metric (or bias, the largest of any channel) is above, or psnr "
         "(or p, the lowest of any tile) below this. May be repeated",
         arguments.thresholds,
-        parsed_by([](const std::string& text) { return eval::parse_threshold(text); },
-                  "NAME=NUMBER, where NAME is a metric, bias or p"));
+        parsed_by(eval::parse_threshold, "NAME=NUMBER, where NAME is a metric, bias or p"));
     options.add("--error-image", "FILE",
                 "Write the error of each pixel to this .png file, in false colours",
                 arguments.error_image, any_text());
@@ -202,24 +202,11 @@ constexpr Effort normal_effort{.seconds = 5.0, .pixels = 36864};
 /// of the error of most runs.
 constexpr double reference_effort = 12.0;
 
-/// Parses integrators separated by commas; each once.
 std::optional<std::vector<IntegratorKind>> parse_integrators(const std::string& text)
 {
-    std::vector<IntegratorKind> result;
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const auto kind =
-            parse_enumerator<IntegratorKind>(lower_case(text.substr(begin, end - begin)));
-        if (!kind) {
-            return std::nullopt;
-        }
-        if (std::find(result.begin(), result.end(), *kind) == result.end()) {
-            result.push_back(*kind);
-        }
-        begin = end + 1;
-    }
-    return result;
+    return parse_each_once<IntegratorKind>(text, [](std::string_view part) {
+        return parse_enumerator<IntegratorKind>(lower_case(part));
+    });
 }
 
 /// Returns the stem of the file with characters that all file systems allow, distinct from `taken`.
@@ -367,11 +354,11 @@ void add_how(OptionList& options, VerifyRequest& request)
     const Choices<IntegratorKind> integrators{{{"bdpt", IntegratorKind::bdpt},
                                                {"auto", IntegratorKind::automatic},
                                                {"vcm", IntegratorKind::vcm}}};
-    options.add("--integrator", choice_text(integrators.words()),
-                "What is verified: bdpt (default); auto: bdpt with the light paths and connections "
-                "that auto chooses; or vcm: bdpt and the image of vcm, which is correct if "
-                "--merge-radius is small enough",
-                render_options.integrator, integrators.type());
+    add_choice(options, "--integrator",
+               "What is verified: bdpt (default); auto: bdpt with the light paths and connections "
+               "that auto chooses; or vcm: bdpt and the image of vcm, which is correct if "
+               "--merge-radius is small enough",
+               render_options.integrator, integrators);
     add_fields(options, render_options,
                std::array<std::string_view, 7>{"seed", "threads", "light_paths", "connections",
                                                "connection_rays", "merge_radius", "light_samples"});

@@ -1,15 +1,13 @@
 #include "options/job_file.h"
 
-#include <bdpt/error.h>
-#include <bdpt/io/json_value.h>
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "options/arguments.h"
 #include "options/output_files.h"
 
 namespace bdpt::app {
@@ -143,17 +141,13 @@ ordered_json to_json(const Option& option, const std::string& text, const fs::pa
         return text == "true";
     }
     if (option.info.json == JsonType::whole_number) {
-        std::uint64_t number = 0;  // all whole numbers of options but negative ones
-        const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error == std::errc{} && stop == text.data() + text.size()) {
-            return number;
+        if (const auto number = parse_number<std::uint64_t>(text)) {  // none of them is negative
+            return *number;
         }
     }
     if (option.info.json == JsonType::number || option.info.may_be_number) {
-        double number = 0.0;
-        const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error == std::errc{} && std::isfinite(number)) {
-            return number;
+        if (const std::optional<double> number = parse_double(text)) {
+            return *number;
         }
     }
     return text;

@@ -9,6 +9,7 @@
 
 #include "options/arguments.h"
 #include "options/foreign_words.h"
+#include "options/value_types.h"
 
 namespace bdpt::app {
 namespace {
@@ -45,17 +46,6 @@ ValueType<bool> yes_or_no()
         return std::nullopt;
     };
     return {.parse = parse, .expected = "no value, or true or false", .info = {}};
-}
-
-std::vector<std::string> split_at_bars(std::string_view names)
-{
-    std::vector<std::string> result;
-    for (std::size_t bar = names.find('|'); bar != std::string_view::npos; bar = names.find('|')) {
-        result.emplace_back(names.substr(0, bar));
-        names.remove_prefix(bar + 1);
-    }
-    result.emplace_back(names);
-    return result;
 }
 
 /// Returns ": WHY", or nothing.
@@ -179,16 +169,12 @@ void check(std::span<const Need> needs, const OptionList& options)
         if (!options.given(need.option)) {
             continue;
         }
-        const std::vector<std::string> others = split_at_bars(need.other);
-        const bool met = std::any_of(others.begin(), others.end(), [&](const std::string& other) {
-            return options.given(other);
-        });
-        if (!met) {
-            std::string list = others.front();
-            for (std::size_t i = 1; i < others.size(); ++i) {
-                list += (i + 1 < others.size() ? ", " : " or ") + others[i];
-            }
-            throw OptionError(fmt::format("{} needs {}{}", need.option, list, reason(need.why)));
+        const std::vector<std::string_view> others = split(need.other, '|');
+        if (std::none_of(others.begin(), others.end(),
+                         [&](std::string_view other) { return options.given(other); })) {
+            throw OptionError(fmt::format("{} needs {}{}", need.option,
+                                          words_text({others.begin(), others.end()}),
+                                          reason(need.why)));
         }
     }
 }

@@ -9,15 +9,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cstdint>
 #include <cstdlib>
 #include <fstream>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "options/arguments.h"
 #include "options/option_list.h"
@@ -75,14 +69,9 @@ bool is_below(const fs::path& file, const fs::path& folder)
     return !way.empty() && way != "." && *way.begin() != "..";
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view stats_start = "{\n  \"version\": \"";  // report/stats_file.h
-
-}  // namespace
-
-namespace {
 
 /// Returns the message for an output whose name does not end in a known extension.
 std::string unknown_type(const fs::path& output)
@@ -140,10 +129,7 @@ bool is_for_screens(const fs::path& output)
 
 bool has_extension(const fs::path& file, std::string_view extension)
 {
-    std::string own = file.extension().string();
-    std::transform(own.begin(), own.end(), own.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return own == extension;
+    return lower_case(file.extension().string()) == extension;
 }
 
 void check_not_read(std::span<const fs::path> outputs, const FileSet& inputs)
@@ -181,6 +167,13 @@ void check_output(std::string_view option, const fs::path& file, const FileSet& 
                                 file.string()));
     }
     io::check_writable(file);
+}
+
+void write_text(const fs::path& file, const std::string& text)
+{
+    io::OutputFile output(file);
+    output.write(text);
+    output.commit();
 }
 
 bool is_file_of_ours(const fs::path& file)
@@ -235,8 +228,6 @@ PendingOutputs pending_outputs(std::span<const fs::path> outputs)
     return result;
 }
 
-namespace fs = std::filesystem;
-
 std::vector<std::string> standard_output_names()
 {
     return {"-", "exr:-", "hdr:-", "png:-", "jpg:-", "webp:-"};
@@ -269,8 +260,6 @@ void check_pipes(std::span<const fs::path> inputs, std::span<const fs::path> out
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::string_view camera_place = "{camera}";
 constexpr std::string_view scene_place = "{name}";
@@ -337,8 +326,6 @@ fs::path with_scene(const fs::path& file, const std::string& name)
 {
     return with_word(file, scene_place, name);
 }
-
-namespace fs = std::filesystem;
 
 fs::path default_output(const fs::path& file)
 {

@@ -64,6 +64,10 @@ void check_outputs(std::span<const std::filesystem::path> outputs, const FileSet
 void check_output(std::string_view option, const std::filesystem::path& file, const FileSet& inputs,
                   const FileSet& outputs);
 
+/// Writes `text` as a file that appears under its name when it is complete. Throws `Error`
+/// (output).
+void write_text(const std::filesystem::path& file, const std::string& text);
+
 /// Tests whether `file` is an image or a file of --stats that bdpt wrote.
 [[nodiscard]] bool is_file_of_ours(const std::filesystem::path& file);
 

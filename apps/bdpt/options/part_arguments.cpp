@@ -45,11 +45,9 @@ void add_part_options(OptionList& options, PartChoice& part)
              "only this file is written",
              part.file, file_named({".exr"}, "a file name that ends in .exr, best in .part.exr"))
         .uses.stated_in = StatedIn::own_folder;
-    const Choices<ExistingPart> existing{
-        {{"true", ExistingPart::restart}, {"false", ExistingPart::go_on}}};
     options
         .add_flag("--restart", "Replace the file of --part instead of resuming from it",
-                  part.existing, existing.type())
+                  part.existing, on_or_off(ExistingPart::restart, ExistingPart::go_on))
         .uses.stated_in = StatedIn::programs;
     options
         .add("--plan", "FILE",
@@ -77,32 +75,29 @@ std::optional<PartChoice> checked(const PartChoice& part, const OptionList& opti
 
 void add_half_option(OptionList& options, ExrFormat& exr)
 {
-    const Choices<io::ExrChannelType> types{
-        {{"true", io::ExrChannelType::half_float}, {"false", io::ExrChannelType::single_float}}};
-    options.add_flag("--half", "Store .exr as 16-bit floats", exr.channel_type, types.type());
+    options.add_flag("--half", "Store .exr as 16-bit floats", exr.channel_type,
+                     on_or_off(io::ExrChannelType::half_float, io::ExrChannelType::single_float));
 }
 
 void add_tiled_option(OptionList& options, ExrFormat& exr)
 {
-    const Choices<io::ExrStorage> storages{
-        {{"true", io::ExrStorage::tiles}, {"false", io::ExrStorage::scanlines}}};
     options.add_flag("--tiled", "Store .exr in tiles, for programs that read parts of it",
-                     exr.storage, storages.type());
+                     exr.storage, on_or_off(io::ExrStorage::tiles, io::ExrStorage::scanlines));
 }
 
 void add_quiet_option(OptionList& options, Printed& printed, std::string help)
 {
-    const Choices<Verbosity> verbosities{
-        {{"true", Verbosity::quiet}, {"false", Verbosity::normal}}};
-    options.add_flag("-q,--quiet", std::move(help), printed.verbosity, verbosities.type()).uses = {
-        .stated_in = StatedIn::command_line};
+    options
+        .add_flag("-q,--quiet", std::move(help), printed.verbosity,
+                  on_or_off(Verbosity::quiet, Verbosity::normal))
+        .uses = {.stated_in = StatedIn::command_line};
 }
 
 void add_json_option(OptionList& options, Printed& printed, std::string help)
 {
-    const Choices<Format> formats{{{"true", Format::json}, {"false", Format::text}}};
-    options.add_flag("--json", std::move(help), printed.format, formats.type()).uses = {
-        .stated_in = StatedIn::command_line};
+    options
+        .add_flag("--json", std::move(help), printed.format, on_or_off(Format::json, Format::text))
+        .uses = {.stated_in = StatedIn::command_line};
 }
 
 bool is_part_name(const std::filesystem::path& file)
@@ -134,12 +129,10 @@ void add_merge_options(OptionList& options, MergeRequest& request)
                      "--wait=90s, 30m or 2h limits the wait",
                      arguments.wait, parsed_by(parse_wait, "a time like 90s, 30m or 2h"));
     options.section("Output");
-    const Choices<Incomplete> incomplete{
-        {{"true", Incomplete::write}, {"false", Incomplete::refuse}}};
     options.add_flag("--partial",
                      "Write the image even if samples are missing: it has more noise, but is "
                      "otherwise correct",
-                     arguments.incomplete, incomplete.type());
+                     arguments.incomplete, on_or_off(Incomplete::write, Incomplete::refuse));
     options.add("--spp", "N",
                 "Samples per pixel of the complete render. Default: as stored in the parts",
                 arguments.samples, whole_number(1, std::int64_t{1} << 31));

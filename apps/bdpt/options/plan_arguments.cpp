@@ -1,8 +1,5 @@
 #include "options/plan_arguments.h"
 
-#include <array>
-#include <utility>
-
 #include "options/arguments.h"
 #include "options/output_files.h"
 #include "options/value_types.h"
@@ -89,10 +86,9 @@ void add_plan_options(OptionList& options, PlanRequest& request)
         .add("-d,--directory", "FOLDER", "Folder of the plan and its parts, created if missing",
              arguments.folder, any_text())
         .required = true;
-    const Choices<ExistingPlan> existing{
-        {{"true", ExistingPlan::replace}, {"false", ExistingPlan::must_be_equal}}};
     options.add_flag("--restart", "Replace an existing plan, and remove the parts of its tasks",
-                     arguments.existing, existing.type());
+                     arguments.existing,
+                     on_or_off(ExistingPlan::replace, ExistingPlan::must_be_equal));
     add_plannable_options(options, request.render);
     add_sequence_options(options, request.render.sequence);
     options.section("Output");

@@ -3,14 +3,10 @@
 #include <bdpt/options/option_text.h>
 #include <bdpt/part/sample_rates.h>
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "options/command_parser.h"
-#include "options/groups/camera_arguments.h"
-#include "options/groups/film_arguments.h"
-#include "options/groups/scene_arguments.h"
 #include "options/output_files.h"
 #include "options/value_types.h"
 #include "terminal/machine_limits.h"
@@ -37,14 +33,13 @@ void add_how(OptionList& options, RenderRequest& request)
     add_size_option(options, request,
                     "Image size. Default: the largest with the camera's aspect ratio within "
                     "1280x720");
-    const Choices<Adaptivity> adaptivity{{{"true", Adaptivity::on}, {"false", Adaptivity::off}}};
     options
         .add_flag("--adaptive",
                   "Adaptive sampling: 1/4 to 4 times --spp samples, by the noise in a test render "
                   "of 8 samples per pixel; --spp is the mean, a multiple of 8. Unbiased. Not for "
                   "lt and vcm. By default, --integrator auto gives pixels 1/2 to 2 times "
                   "--spp where that helps; --adaptive=false gives all equally many",
-                  request.adaptive, adaptivity.type())
+                  request.adaptive, on_or_off(Adaptivity::on, Adaptivity::off))
         .default_is_chosen = true;
     options
         .add("--rates", "FILE",
@@ -85,24 +80,19 @@ void add_image_output(OptionList& options, RenderRequest& request)
     add_display_options(options, arguments.display);
     add_denoise_options(options, arguments.denoise);
     add_half_option(options, arguments.exr);
-    const Choices<io::ExrChannelType> types{
-        {{"true", io::ExrChannelType::single_float}, {"false", io::ExrChannelType::half_float}}};
     options
         .add_flag("--float", "Store .exr as 32-bit floats (default)", arguments.exr.channel_type,
-                  types.type())
+                  on_or_off(io::ExrChannelType::single_float, io::ExrChannelType::half_float))
         .uses = {};
     add_tiled_option(options, arguments.exr);
-    const Choices<PathNames> names{{{"true", PathNames::paths}, {"false", PathNames::files}}};
     options
         .add_flag("--full-paths", "Store full paths of the scene and other files in image metadata",
-                  arguments.path_names, names.type())
+                  arguments.path_names, on_or_off(PathNames::paths, PathNames::files))
         .uses = {.plan_render = true};
     add_quiet_option(options, arguments.printed);
-    const Choices<Verbosity> verbosities{
-        {{"true", Verbosity::verbose}, {"false", Verbosity::normal}}};
     options
         .add_flag("-v,--verbose", "Print also how the render was set up",
-                  arguments.printed.verbosity, verbosities.type())
+                  arguments.printed.verbosity, on_or_off(Verbosity::verbose, Verbosity::normal))
         .uses = {.stated_in = StatedIn::command_line};
     add_json_option(options, arguments.printed,
                     "Print one JSON object per line on stdout: start, progress, note, warning, "
@@ -219,7 +209,6 @@ void check_combinations(const OptionList& options, const std::optional<std::stri
     static constexpr std::array needs{Need{"--save-rates", "--adaptive|--rates"}};
     check(conflicts, options);
     check(needs, options);
-    check_lens_options(options);
     check_camera_options(options, camera);
     check_medium_options(options);
 }
@@ -332,19 +321,18 @@ void add_view_options(OptionList& options, RenderRequest& request)
     add_volume_options(options, request.volume);
     const Choices<TextureFilter> filters{
         {{"bilinear", TextureFilter::bilinear}, {"mip", TextureFilter::mip_mapped}}};
-    options.add("--texture-filter", choice_text(filters.words()),
-                "Texture filter: bilinear (default) or mip (mip mapping: faster for large "
-                "textures, but blurs them in magnifying mirrors and lenses)",
-                arguments.texture_filter, filters.type());
+    add_choice(options, "--texture-filter",
+               "Texture filter: bilinear (default) or mip (mip mapping: faster for large "
+               "textures, but blurs them in magnifying mirrors and lenses)",
+               arguments.texture_filter, filters);
     const Choices<ContactKind> kinds{{{"auto", ContactKind::automatic},
                                       {"air", ContactKind::air},
                                       {"bonded", ContactKind::bonded}}};
-    options.add(
-        "--contacts", choice_text(kinds.words()),
-        "Between bodies of glass that touch: air (a thin film: two boundaries), bonded (one "
-        "boundary) or auto (default: bonded if their indices of refraction differ, like "
-        "those of a liquid and its glass, else air)",
-        arguments.contacts, kinds.type());
+    add_choice(options, "--contacts",
+               "Between bodies of glass that touch: air (a thin film: two boundaries), bonded (one "
+               "boundary) or auto (default: bonded if their indices of refraction differ, like "
+               "those of a liquid and its glass, else air)",
+               arguments.contacts, kinds);
     options.section("What to render", of_view);
     add_lens_options(options, arguments.lens);
 }
@@ -429,11 +417,9 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
 
 RenderArguments render_arguments(const std::vector<std::string>& words)
 {
-    RenderRequest request;
-    OptionList options;
-    add_render_options(options, request);
-    parse(options, words);
-    return checked(request, options);
+    RenderOptionList options;
+    parse(options.list, words);
+    return checked(options.request, options.list);
 }
 
 bool is_file_of_environment(const std::string& environment)

@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "options/arguments.h"
@@ -93,6 +92,29 @@ struct RenderArguments {
     std::optional<JobSource> job{};           ///< set if there is one
 };
 
+/// Calls `visit(option, file)` for each file that `arguments` write, with the option that names it:
+/// images, then the files of strategies, part, rates and statistics.
+template <typename Arguments, typename Visitor>
+void for_each_written_file(Arguments& arguments, const Visitor& visit)
+{
+    for (auto& output : arguments.outputs) {
+        visit("--output", output);
+    }
+    if (arguments.strategies && !arguments.strategies->layers.empty()) {
+        visit("--strategies", arguments.strategies->layers);
+        visit("--strategies", arguments.strategies->sheet);
+    }
+    if (arguments.part) {
+        visit("--part", arguments.part->file);
+    }
+    if (arguments.rates && arguments.rates->saved) {
+        visit("--save-rates", *arguments.rates->saved);
+    }
+    if (arguments.stats) {
+        visit("--stats", *arguments.stats);
+    }
+}
+
 /// Options of `bdpt render`, as given: `arguments`, and the options that are resolved when all of
 /// them are known (`checked`).
 struct RenderRequest {
@@ -139,6 +161,16 @@ void add_time_option(OptionList& options, RenderRequest& request, std::string he
 
 /// Adds the file of the scene, a positional argument.
 void add_scene_file(OptionList& options, RenderRequest& request);
+
+/// The options of `bdpt render`, and the request that they store into.
+struct RenderOptionList {
+    RenderOptionList() { add_render_options(list, request); }
+    RenderOptionList(const RenderOptionList&) = delete;
+    RenderOptionList& operator=(const RenderOptionList&) = delete;
+
+    RenderRequest request{};
+    OptionList list{};
+};
 
 /// Checks and converts the options. Throws `OptionError` for incompatible ones.
 [[nodiscard]] RenderArguments checked(const RenderRequest& request, const OptionList& options);

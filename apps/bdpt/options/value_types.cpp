@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <span>
 
@@ -14,21 +13,12 @@
 namespace bdpt::app {
 namespace {
 
-template <typename Number>
-std::optional<Number> to_number(const std::string& text)
-{
-    Number value{};
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
-}
-
 /// Returns 1e3 and 1000.0 as "1000"; texts that are no whole number are unchanged.
 std::string whole_spelling(std::string text)
 {
     constexpr double exact = 0x1p53;
     const bool has_digits_only = text.find_first_of(".eE") == std::string::npos;
-    const std::optional<double> value = has_digits_only ? std::nullopt : to_number<double>(text);
+    const std::optional<double> value = has_digits_only ? std::nullopt : parse_number<double>(text);
     const bool is_whole = value && std::abs(*value) <= exact && *value == std::trunc(*value);
     return is_whole ? fmt::format("{:.0f}", *value) : text;
 }
@@ -54,7 +44,7 @@ template <typename Accept>
 ValueType<double> number_that(const Accept& accept, std::string expected, Range range = {})
 {
     const auto parse = [accept](const std::string& text) {
-        const std::optional<double> value = to_number<double>(text);
+        const std::optional<double> value = parse_number<double>(text);
         return value && accept(*value) ? value : std::nullopt;
     };
     return {.parse = parse,
@@ -112,15 +102,10 @@ ValueType<std::string> file_named(std::vector<std::string> extensions, std::stri
     return {.parse = parse, .expected = std::move(expected), .info = {.is_path = true}};
 }
 
-std::optional<double> decimal_number(const std::string& text)
-{
-    return to_number<double>(text);
-}
-
 ValueType<std::int64_t> whole_number(std::int64_t least, std::int64_t most)
 {
     const auto parse = [least, most](const std::string& text) {
-        const auto value = to_number<std::int64_t>(text);
+        const auto value = parse_number<std::int64_t>(text);
         return value && *value >= least && *value <= most ? value : std::nullopt;
     };
     return {.parse = parse,
@@ -132,15 +117,14 @@ ValueType<std::int64_t> whole_number(std::int64_t least, std::int64_t most)
 
 ValueType<std::uint64_t> any_seed()
 {
-    return {.parse = to_number<std::uint64_t>,
+    return {.parse = parse_number<std::uint64_t>,
             .expected = "a whole number from 0 to 2^64 - 1",
             .info = {.json = JsonType::whole_number, .range = {.low = 0}}};
 }
 
 ValueType<std::uint64_t> memory_size()
 {
-    return parsed_by([](const std::string& text) { return parse_bytes(text); },
-                     "a size like 500M or 2G");
+    return parsed_by(parse_bytes, "a size like 500M or 2G");
 }
 
 ValueType<double> number(double least, double most)
@@ -176,23 +160,20 @@ ValueType<double> positive_number(std::string expected)
 
 ValueType<DVec3> point()
 {
-    ValueType<DVec3> type =
-        parsed_by([](const std::string& text) { return parse_dvec3(text); }, "three numbers x,y,z");
+    ValueType<DVec3> type = parsed_by(parse_dvec3, "three numbers x,y,z");
     type.info.separator = ',';
     return type;
 }
 
 ValueType<double> duration(std::string expected)
 {
-    return parsed_by([](const std::string& text) { return parse_duration(text); },
-                     std::move(expected));
+    return parsed_by(parse_duration, std::move(expected));
 }
 
 ValueType<Size> image_size()
 {
     ValueType<Size> type =
-        parsed_by([](const std::string& text) { return parse_size(text); },
-                  "WIDTHxHEIGHT from 1x1 to 65535x65535, or one number for both");
+        parsed_by(parse_size, "WIDTHxHEIGHT from 1x1 to 65535x65535, or one number for both");
     type.info.separator = 'x';
     type.info.respelled = size_spelling;
     return type;
@@ -200,8 +181,7 @@ ValueType<Size> image_size()
 
 ValueType<double> noise_level()
 {
-    return parsed_by([](const std::string& text) { return parse_share(text); },
-                     "a relative error above 0% and up to 100%, like 2%");
+    return parsed_by(parse_share, "a relative error above 0% and up to 100%, like 2%");
 }
 
 ValueType<SampleRange> sample_range()
@@ -218,13 +198,9 @@ ValueType<SampleRange> sample_range()
 
 ValueType<double> percent(double most)
 {
-    ValueType<double> type =
-        number_above(0.0, most, fmt::format("a percentage above 0 and up to {:g}", most));
-    type.parse = [parse = std::move(type.parse)](const std::string& text) {
-        const std::optional<double> value = parse(text);
-        return value ? std::optional(*value / 100.0) : std::nullopt;
-    };
-    return type;
+    return converted(
+        number_above(0.0, most, fmt::format("a percentage above 0 and up to {:g}", most)),
+        [](double value) { return value / 100.0; });
 }
 
 ValueType<Rgb> extinction()
@@ -241,13 +217,9 @@ ValueType<Rgb> albedo()
 ValueType<float> anisotropy()
 {
     constexpr auto most = static_cast<double>(max_anisotropy);
-    const ValueType<double> wide =
-        number(-most, most, fmt::format("a number from {:.4f} to {:.4f}", -most, most));
-    const auto parse = [parse = wide.parse](const std::string& text) {
-        const std::optional<double> value = parse(text);
-        return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
-    };
-    return {.parse = parse, .expected = wide.expected, .info = wide.info};
+    return converted(
+        number(-most, most, fmt::format("a number from {:.4f} to {:.4f}", -most, most)),
+        [](double value) { return static_cast<float>(value); });
 }
 
 std::string words_text(const std::vector<std::string>& words)

@@ -35,9 +35,6 @@ namespace bdpt::app {
 /// Accepts digits with an optional sign, in [least, most].
 [[nodiscard]] ValueType<std::int64_t> whole_number(std::int64_t least, std::int64_t most);
 
-/// Parses all of `text` as a decimal number, which may be infinite.
-[[nodiscard]] std::optional<double> decimal_number(const std::string& text);
-
 /// Accepts 0 to 2^64 - 1.
 [[nodiscard]] ValueType<std::uint64_t> any_seed();
 
@@ -65,6 +62,18 @@ template <typename Parse>
     -> ValueType<typename decltype(parse(std::declval<const std::string&>()))::value_type>
 {
     return {.parse = std::move(parse), .expected = std::move(expected), .info = {}};
+}
+
+/// Returns `type` with its values converted.
+template <typename Value, typename Convert>
+[[nodiscard]] auto converted(ValueType<Value> type, Convert convert)
+    -> ValueType<decltype(convert(std::declval<Value>()))>
+{
+    const auto parse = [parse = std::move(type.parse), convert](const std::string& text) {
+        const std::optional<Value> value = parse(text);
+        return value ? std::optional(convert(*value)) : std::nullopt;
+    };
+    return {.parse = parse, .expected = std::move(type.expected), .info = std::move(type.info)};
 }
 
 /// Accepts "three numbers x,y,z".
@@ -126,6 +135,22 @@ struct Choices {
         return {.parse = parse, .expected = words_text(words()), .info = {.words = words()}};
     }
 };
+
+/// Accepts the "true" and "false" of a flag.
+template <typename Value>
+[[nodiscard]] ValueType<Value> on_or_off(Value on, Value off)
+{
+    return Choices<Value>{{{"true", on}, {"false", off}}}.type();
+}
+
+/// Adds an option whose value is one of `choices`.
+template <typename Target, typename Value>
+Option& add_choice(OptionList& options, std::string names, std::string help, Target& target,
+                   const Choices<Value>& choices)
+{
+    return options.add(std::move(names), choice_text(choices.words()), std::move(help), target,
+                       choices.type());
+}
 
 /// Returns the words of an enumeration.
 template <HasEnumerators Enum>

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include "options/arguments.h"
 #include "options/groups/film_arguments.h"
 #include "options/job_file.h"
 #include "options/output_files.h"
@@ -101,20 +100,17 @@ void add_view_command_options(OptionList& options, ViewRequest& request)
 
 void load_viewed_job(const std::filesystem::path& file, OptionList& options)
 {
-    RenderRequest request;
-    OptionList render;
-    add_render_options(render, request);
-    for (Option& option : render.all()) {
-        if (const Option* given = options.find(option.name())) {
-            option.texts = given->texts;
+    const auto copy_texts = [](const OptionList& from, OptionList& to) {
+        for (Option& option : to.all()) {
+            if (const Option* same = from.find(option.name())) {
+                option.texts = same->texts;
+            }
         }
-    }
-    load_job(file, render);
-    for (Option& option : options.all()) {
-        if (const Option* loaded = render.find(option.name())) {
-            option.texts = loaded->texts;
-        }
-    }
+    };
+    RenderOptionList render;
+    copy_texts(options, render.list);
+    load_job(file, render.list);
+    copy_texts(render.list, options);
     options.store_given();
 }
 
@@ -138,17 +134,13 @@ constexpr int widest = 8192;
 /// Parses "X,Y".
 std::optional<std::pair<int, int>> parse_pixel(const std::string& text)
 {
-    const std::size_t comma = text.find(',');
-    if (comma == std::string::npos) {
-        return std::nullopt;
-    }
-    const auto x = parse_index(std::string_view(text).substr(0, comma));
-    const auto y = parse_index(std::string_view(text).substr(comma + 1));
     constexpr std::size_t widest_image = 65535;
-    if (!x || !y || *x > widest_image || *y > widest_image) {
-        return std::nullopt;
-    }
-    return std::pair(static_cast<int>(*x), static_cast<int>(*y));
+    const std::vector<std::string_view> parts = split(text, ',');
+    const auto x = parts.size() == 2 ? parse_index(parts[0]) : std::nullopt;
+    const auto y = parts.size() == 2 ? parse_index(parts[1]) : std::nullopt;
+    return x && y && std::max(*x, *y) <= widest_image
+               ? std::optional(std::pair(static_cast<int>(*x), static_cast<int>(*y)))
+               : std::nullopt;
 }
 
 void add_what(OptionList& options, InspectArguments& arguments)

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 
 #include "options/output_files.h"
 #include "plan/plan_file.h"

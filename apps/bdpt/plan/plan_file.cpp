@@ -7,11 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -80,7 +77,6 @@ fs::path file_of_plan(const fs::path& name, const fs::path& folder)
 
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 std::vector<std::string> to_texts(const std::vector<fs::path>& paths)
@@ -180,7 +176,6 @@ std::string to_text(const Plan& plan)
 
 namespace {
 
-namespace fs = std::filesystem;
 using io::JsonValue;
 
 std::vector<fs::path> read_paths(const JsonValue& json)

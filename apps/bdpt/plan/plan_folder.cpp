@@ -1,4 +1,5 @@
 #include "plan/plan_folder.h"
+#include "options/output_files.h"
 
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
@@ -10,10 +11,8 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "plan/plan_file.h"
 #include "terminal/text.h"
@@ -91,6 +90,7 @@ again() {
     scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
   fi
 }
+
 if [ -n "$time_is_over" ] && [ "$code" = 143 ]; then
   again 1000
 elif [ "$code" = 137 ]; then # killed: for want of memory, perhaps
@@ -333,13 +333,9 @@ std::string start_command(Engine engine, const fs::path& folder)
 
 namespace {
 
-namespace fs = std::filesystem;
-
 void write_file(const fs::path& file, const std::string& text, FileKind kind)
 {
-    io::OutputFile output(file);
-    output.write(text);
-    output.commit();
+    write_text(file, text);
     if (kind == FileKind::program) {
         std::error_code failure;  // if it fails, the user can run "bash submit.sh"
         fs::permissions(file,

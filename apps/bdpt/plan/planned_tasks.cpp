@@ -5,13 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdlib>
 #include <map>
-#include <optional>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "options/arguments.h"
 #include "options/option_list.h"

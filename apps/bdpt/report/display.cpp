@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstring>
 #include <functional>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string_view>

@@ -8,7 +8,6 @@
 #include <bdpt/io/rates_file.h>
 #include <bdpt/noise.h>
 #include <bdpt/options/option_fields.h>
-#include <bdpt/part/sample_rates.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>
 
@@ -17,16 +16,12 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "options/arguments.h"
 #include "options/groups/camera_arguments.h"
 #include "options/groups/film_arguments.h"
-#include "options/groups/transport_arguments.h"
-#include "options/output_files.h"
 #include "report/values.h"
 #include "terminal/text.h"
 
@@ -148,31 +143,15 @@ ordered_json stats_json(const RenderResult& result, const TimeSplit& time)
 
 void write_stats_file(const fs::path& file, const ordered_json& stats)
 {
-    const std::string text =
-        stats.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-    io::OutputFile output(file);
-    output.write(text);
-    output.commit();
+    write_text(file, stats.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 namespace {
 
-using nlohmann::ordered_json;
-
 ordered_json view_json(const CameraDesc& camera)
 {
     ordered_json view{{"camera", camera.name}};
-    if (camera.projection == Projection::orthographic) {
-        view["projection"] = "orthographic";
-        view["vertical_extent"] = camera.vertical_extent;
-        return view;
-    }
-    view["projection"] = "perspective";
-    view["vertical_fov_degrees"] = degrees(camera.vertical_fov);
-    if (camera.lens_radius > 0.0f) {
-        view["lens_radius"] = camera.lens_radius;
-        view["focus_distance"] = camera.focus_distance;
-    }
+    add_projection(view, camera);
     return view;
 }
 
@@ -214,6 +193,16 @@ ordered_json make_settings(const RenderArguments& arguments, const PreparedScene
     const RenderOptions& options = arguments.options;
     ordered_json settings{{"width", stage.size.width}, {"height", stage.size.height}};
     settings.update(transport_json(options));
+    const auto add_if = [&settings](bool is_set, const char* name, const auto& value) {
+        if (is_set) {
+            settings[name] = value;
+        }
+    };
+    const auto add = [&settings](const char* name, const auto& value) {
+        if (value) {
+            settings[name] = *value;
+        }
+    };
     settings["sampler"] = to_name(options.sampling.sampler);
     settings["seed"] = options.sampling.seed;
     if (options.sampling.rates) {
@@ -222,12 +211,9 @@ ordered_json make_settings(const RenderArguments& arguments, const PreparedScene
     settings["isa"] = isa_name(stage.scene.isa());
     settings.update(view_json(stage.camera));
     settings["environment"] = named(arguments, stage.environment_name);
-    if (arguments.environment_change.rotation != 0.0) {
-        settings["environment_rotation_degrees"] = arguments.environment_change.rotation;
-    }
-    if (arguments.environment_change.intensity != 1.0f) {
-        settings["environment_intensity"] = arguments.environment_change.intensity;
-    }
+    const EnvironmentChange& change = arguments.environment_change;
+    add_if(change.rotation != 0.0, "environment_rotation_degrees", change.rotation);
+    add_if(change.intensity != 1.0f, "environment_intensity", change.intensity);
     if (arguments.fog) {
         settings["fog"] = {{"extinction", to_json(arguments.fog->extinction)},
                            {"albedo", to_json(arguments.fog->albedo)},
@@ -239,20 +225,15 @@ ordered_json make_settings(const RenderArguments& arguments, const PreparedScene
     if (arguments.display.backdrop) {
         settings["background"] = backdrop_text(*arguments.display.backdrop);
     }
-    if (arguments.light_exposure) {
-        settings["light_exposure"] = *arguments.light_exposure;
-    }
+    add("light_exposure", arguments.light_exposure);
     if (options.film.aovs.contains(Aov::shadow)) {
         settings["ground"] = "shadow";
         const Vec3 lowest(to_file(stage.scene.bounds().min, stage.scene.description().origin));
         settings["ground_height"] = options.film.ground_height.value_or(lowest.y);
     }
-    if (arguments.texture_filter == TextureFilter::mip_mapped) {
-        settings["texture_filter"] = "mip";
-    }
-    if (arguments.contacts != ContactKind::automatic) {
-        settings["contacts"] = arguments.contacts == ContactKind::bonded ? "bonded" : "air";
-    }
+    add_if(arguments.texture_filter == TextureFilter::mip_mapped, "texture_filter", "mip");
+    add_if(arguments.contacts != ContactKind::automatic, "contacts",
+           arguments.contacts == ContactKind::bonded ? "bonded" : "air");
     const FilterOptions& filter = options.film.filter;
     settings["filter"] = to_name(filter.kind);
     settings["filter_radius"] = filter.radius.value_or(default_radius(filter.kind));
@@ -260,41 +241,22 @@ ordered_json make_settings(const RenderArguments& arguments, const PreparedScene
         const PixelRect& crop = *options.film.crop;
         settings["crop"] = {crop.x0, crop.y0, crop.x1, crop.y1};
     }
-    if (std::isfinite(options.film.clamp)) {
-        settings["clamp"] = options.film.clamp;
-    }
-    const auto add_word = [&settings](const char* name, const std::optional<std::string>& word) {
-        if (word) {
-            settings[name] = *word;
-        }
-    };
-    add_word("scene", arguments.scene.scene);
-    add_word("variant", arguments.scene.variant);
-    add_word("animation", arguments.scene.animation);
-    if (arguments.scene.time) {
-        settings["frame_time"] = *arguments.scene.time;
-    }
+    add_if(std::isfinite(options.film.clamp), "clamp", options.film.clamp);
+    add("scene", arguments.scene.scene);
+    add("variant", arguments.scene.variant);
+    add("animation", arguments.scene.animation);
+    add("frame_time", arguments.scene.time);
     if (arguments.scene.shutter) {
         settings["shutter"] = {arguments.scene.shutter->open, arguments.scene.shutter->close};
     }
     if (arguments.sequence && arguments.sequence_view->frame) {
         settings["frame"] = *arguments.sequence_view->frame;
-        if (arguments.sequence->fps > 0.0) {
-            settings["fps"] = arguments.sequence->fps;
-        }
-        if (arguments.sequence->orbit > 0) {
-            settings["orbit"] = arguments.sequence->orbit;
-        }
+        add_if(arguments.sequence->fps > 0.0, "fps", arguments.sequence->fps);
+        add_if(arguments.sequence->orbit > 0, "orbit", arguments.sequence->orbit);
     }
-    if (arguments.goal.samples) {
-        settings["spp"] = *arguments.goal.samples;
-    }
-    if (arguments.goal.noise) {
-        settings["noise_goal"] = *arguments.goal.noise;
-    }
-    if (std::isfinite(arguments.goal.seconds)) {
-        settings["time_limit_seconds"] = arguments.goal.seconds;
-    }
+    add("spp", arguments.goal.samples);
+    add("noise_goal", arguments.goal.noise);
+    add_if(std::isfinite(arguments.goal.seconds), "time_limit_seconds", arguments.goal.seconds);
     return settings;
 }
 
@@ -317,8 +279,6 @@ io::ImageMetadata make_metadata(const RenderArguments& arguments, const Prepared
     metadata.xmp = stage.xmp;
     return metadata;
 }
-
-namespace fs = std::filesystem;
 
 void check_strategy_files(const StrategyFiles& files, const FileSet& inputs, const FileSet& outputs)
 {
@@ -384,36 +344,30 @@ void check_part_file(const std::filesystem::path& file)
     }
 }
 
-/// Checks `files`, which a job may have named by `option`.
-void check_files_of_job(const RenderArguments& arguments, std::string_view option,
-                        const std::vector<std::filesystem::path>& files)
+/// Checks `file`, which `job` may have named by `option`.
+void check_file_of_job(const JobSource& job, std::string_view option,
+                       const std::filesystem::path& file)
 {
-    if (!arguments.job) {
+    if (is_standard_output(file)) {
         return;
     }
-    const JobSource& job = *arguments.job;
     const bool names =
         std::find(job.outputs.begin(), job.outputs.end(), option) != job.outputs.end();
     const bool names_default = job.names_default && option == "--output";
-    for (const std::filesystem::path& file : files) {
-        if (is_standard_output(file)) {
-            continue;
-        }
-        if (names && !is_below(file, job.file.parent_path())) {
-            throw Error(ErrorCode::invalid_input,
-                        fmt::format("{}: {} \"{}\": a job writes only into its folder; name other "
-                                    "files on the command line",
-                                    job.file.string(), option, file.string()));
-        }
-        std::error_code ignored;
-        // A part is not replaced but continued.
-        if ((names || names_default) && option != "--part" &&
-            std::filesystem::exists(file, ignored) && !is_file_of_ours(file)) {
-            throw Error(ErrorCode::output,
-                        fmt::format("{}: cannot write: a job names it, but it is not a file that "
-                                    "bdpt wrote; remove it, or name files with {}",
-                                    file.string(), option));
-        }
+    if (names && !is_below(file, job.file.parent_path())) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("{}: {} \"{}\": a job writes only into its folder; name other "
+                                "files on the command line",
+                                job.file.string(), option, file.string()));
+    }
+    std::error_code ignored;
+    // A part is not replaced but continued.
+    if ((names || names_default) && option != "--part" && std::filesystem::exists(file, ignored) &&
+        !is_file_of_ours(file)) {
+        throw Error(ErrorCode::output,
+                    fmt::format("{}: cannot write: a job names it, but it is not a file that "
+                                "bdpt wrote; remove it, or name files with {}",
+                                file.string(), option));
     }
 }
 
@@ -421,19 +375,12 @@ void check_files_of_job(const RenderArguments& arguments, std::string_view optio
 
 void check_files_of_job(const RenderArguments& arguments)
 {
-    check_files_of_job(arguments, "--output", arguments.outputs);
-    if (arguments.strategies) {
-        check_files_of_job(arguments, "--strategies", arguments.strategies->both());
-    }
-    if (arguments.rates && arguments.rates->saved) {
-        check_files_of_job(arguments, "--save-rates", {*arguments.rates->saved});
-    }
-    if (arguments.part) {
-        check_files_of_job(arguments, "--part", {arguments.part->file});
-    }
-    if (arguments.stats) {
-        check_files_of_job(arguments, "--stats", {*arguments.stats});
-    }
+    for_each_written_file(arguments,
+                          [&](std::string_view option, const std::filesystem::path& file) {
+                              if (arguments.job) {
+                                  check_file_of_job(*arguments.job, option, file);
+                              }
+                          });
 }
 
 std::vector<std::filesystem::path> check_files(const RenderArguments& arguments,

@@ -166,8 +166,6 @@ ordered_json light_json(const LightDesc& light, const DVec3& origin)
 
 namespace {
 
-using nlohmann::ordered_json;
-
 /// Groups equal sizes as "3 of 1024x1024".
 std::string summary(const std::vector<Size>& sizes)
 {
@@ -271,19 +269,8 @@ ordered_json camera_json(const CameraDesc& camera, const DVec3& origin)
 {
     ordered_json result{{"name", camera.name},
                         {"position", to_json(Vec3(camera.world_from_camera[3]), origin)}};
-    if (camera.projection == Projection::orthographic) {
-        result["projection"] = "orthographic";
-        result["vertical_extent"] = camera.vertical_extent;
-    } else {
-        result["projection"] = "perspective";
-        result["vertical_fov_degrees"] = degrees(camera.vertical_fov);
-    }
-    if (camera.lens_radius > 0.0f) {
-        result["lens_radius"] = camera.lens_radius;
-        result["focus_distance"] = camera.focus_distance;
-    }
-    result["aspect_ratio"] =
-        camera.aspect_ratio ? ordered_json(*camera.aspect_ratio) : ordered_json();
+    add_projection(result, camera);
+    result["aspect_ratio"] = or_null(camera.aspect_ratio);
     return result;
 }
 
@@ -507,7 +494,7 @@ ordered_json to_json(const SceneReport& report)
                         {"generator", facts.generator},
                         {"copyright", facts.copyright},
                         {"scenes", facts.scene_names}};
-    result["scene"] = facts.scene ? ordered_json(*facts.scene) : ordered_json();
+    result["scene"] = or_null(facts.scene);
     result["counts"] = {{"nodes", facts.nodes},           {"meshes", facts.meshes},
                         {"primitives", facts.primitives}, {"instances", report.instances},
                         {"materials", facts.materials},   {"textures", facts.textures},

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,29 @@ namespace bdpt::app {
 {
     const DVec3 place = to_file(point, origin);
     return nlohmann::ordered_json::array({place.x, place.y, place.z});
+}
+
+/// Returns the value, or null if there is none.
+template <typename Value>
+[[nodiscard]] nlohmann::ordered_json or_null(const std::optional<Value>& value)
+{
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
+/// Adds the projection of `camera`, and its lens if it has one, to the object `json`.
+inline void add_projection(nlohmann::ordered_json& json, const CameraDesc& camera)
+{
+    if (camera.projection == Projection::orthographic) {
+        json["projection"] = "orthographic";
+        json["vertical_extent"] = camera.vertical_extent;
+    } else {
+        json["projection"] = "perspective";
+        json["vertical_fov_degrees"] = degrees(camera.vertical_fov);
+    }
+    if (camera.lens_radius > 0.0f) {
+        json["lens_radius"] = camera.lens_radius;
+        json["focus_distance"] = camera.focus_distance;
+    }
 }
 
 /// Returns the names of `files` as an array.

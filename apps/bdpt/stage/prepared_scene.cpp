@@ -7,7 +7,6 @@
 #include <bdpt/io/memory_budget.h>
 #include <bdpt/io/volume.h>
 #include <bdpt/light/studio_environment.h>
-#include <bdpt/scene_desc.h>
 #include <bdpt/thread_limit.h>
 #include <fmt/core.h>
 

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <bdpt/error.h>
 #include <bdpt/render.h>
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -11,7 +11,6 @@
 #include <limits>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace bdpt::app {
@@ -138,8 +137,6 @@ CgroupLimits cgroup_limits(const fs::path& root)
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Returns line `name` of a file with lines such as "MemAvailable:   23456 kB" [bytes].
 std::optional<std::uint64_t> read_line(const fs::path& file, const std::string& name)

@@ -6,17 +6,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
 
 #include "options/output_files.h"
-#include "report/image/denoised.h"
 #include "report/image/image_files.h"
 #include "report/render_report.h"
 #include "stage/render_preparation.h"
@@ -172,31 +168,8 @@ namespace {
 io::ImageMetadata metadata(const LiveRender& render, const PreparedScene& stage)
 {
     nlohmann::ordered_json settings = make_settings(render.arguments(), stage);
-    io::ImageMetadata result = make_metadata(render.arguments(), stage, settings);
-    result.samples_per_pixel = render.renderer().samples();
-    result.render_seconds = render.renderer().seconds();
-    result.created = std::chrono::system_clock::now();
-    return result;
-}
-
-ImageFileOptions file_options(const LiveRender& render, const PreparedScene& stage,
-                              const std::optional<io::Denoiser>& denoiser)
-{
-    const RenderArguments& arguments = render.arguments();
-    const RenderResult& part = render.renderer().result();
-    const PixelRect& region = part.film.region();
-    return {.exr = {.type = arguments.exr.channel_type,
-                    .metadata = metadata(render, stage),
-                    .storage = arguments.exr.storage,
-                    .placement = {{.x = region.x0,
-                                   .y = region.y0,
-                                   .full_width = stage.size.width,
-                                   .full_height = stage.size.height}},
-                    .manifests = part.ids.manifests()},
-            .layers = develop_layers(part.film, part.aovs, part.ids),
-            .display = arguments.display,
-            .denoiser = denoiser ? &*denoiser : nullptr,
-            .denoising = arguments.denoise.kind};
+    return completed(make_metadata(render.arguments(), stage, settings),
+                     render.renderer().samples(), render.renderer().seconds());
 }
 
 }  // namespace
@@ -211,8 +184,11 @@ Download saved_image(const LiveRender& render, const PreparedScene& stage,
     const std::optional<io::Denoiser> denoiser =
         open_denoiser(arguments.denoise, files, arguments.options.system.threads);
     Attempts attempts;
-    static_cast<void>(write_image_files(files, render.renderer().image(),
-                                        file_options(render, stage, denoiser), attempts));
+    static_cast<void>(write_image_files(
+        files, render.renderer().image(),
+        image_file_options(render.renderer().result(), metadata(render, stage), arguments.exr,
+                           arguments.display, denoiser ? &*denoiser : nullptr, arguments.denoise),
+        attempts));
     attempts.finish();
     std::ifstream file(files.front(), std::ios::binary);
     return {.type = extension == ".png" ? "image/png" : "image/x-exr",

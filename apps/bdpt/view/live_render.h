@@ -3,7 +3,6 @@
 #include <bdpt/image.h>
 #include <bdpt/renderer.h>
 
-#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>

@@ -1,16 +1,13 @@
 #include "view/live_scene.h"
 
-#include <bdpt/error.h>
 #include <bdpt/inspect.h>
 
 #include <chrono>
 #include <glm/geometric.hpp>
 #include <system_error>
-#include <utility>
 #include <variant>
 
 #include "options/groups/camera_arguments.h"
-#include "stage/prepared_scene.h"
 #include "stage/render_preparation.h"
 
 namespace bdpt::app {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -14,7 +15,7 @@
 #include "view/live_render.h"
 #include "view/live_scene.h"
 #include "view/mailbox.h"
-#include "view/page_messages.h"
+#include "view/page_request.h"
 #include "view/server/page.h"
 #include "view/view_words.h"
 
@@ -83,8 +84,10 @@ private:
               const PixelRect& region, std::int64_t samples);
     /// Sends the state to pages, now or shortly if it was sent just before.
     void tell(bool now);
-    [[nodiscard]] ViewState state();
-    [[nodiscard]] SlotState slot_state(std::size_t slot) const;
+    /// Returns the state for pages: all but pixels. Before a scene is loaded it has no picture.
+    [[nodiscard]] nlohmann::ordered_json state();
+    /// Returns the state of one of the pictures side by side.
+    [[nodiscard]] nlohmann::ordered_json slot_state(std::size_t slot) const;
     void meter(const Image& image, const LiveRender* render);
 
     Audience& audience_;

@@ -5,18 +5,33 @@
 #include <bdpt/options/option_fields.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "report/render_report.h"
 #include "report/values.h"
 #include "stage/render_preparation.h"
+#include "view/layers.h"
 #include "view/session.h"
 
 namespace bdpt::app {
 namespace {
 
+using nlohmann::ordered_json;
+
 /// Maximum path length [edges] of strategies that are shown separately.
 constexpr int strategy_edges = 4;
+
+ordered_json to_json(const Scale& scale)
+{
+    ordered_json ticks = ordered_json::array();
+    for (const Tick& tick : scale.ticks) {
+        ticks.push_back(ordered_json::array({tick.place, tick.text}));
+    }
+    return {{"label", scale.label}, {"ticks", std::move(ticks)}};
+}
 
 /// Returns the strategies with a vertex on the lens, for paths of up to `edges`.
 std::vector<Strategy> strategies_up_to(int edges)
@@ -158,15 +173,20 @@ void Session::tell(bool now)
     }
     is_untold_ = false;
     told_ = time;
-    audience_.tell(state_text(state()));
+    audience_.tell(ordered_json{{"state", state()}}.dump(-1, ' ', false,
+                                                         ordered_json::error_handler_t::replace));
 }
 
-ViewState Session::state()
+nlohmann::ordered_json Session::state()
 {
-    ViewState state;
-    state.file = words_.text("file");
-    state.message = file_message_.empty() ? message_ : file_message_;
-    state.is_loading = !scene_.is_there() && file_message_.empty();
+    const auto text_or_null = [](const std::string& text) {
+        return text.empty() ? ordered_json() : ordered_json(text);
+    };
+    const std::string file = words_.text("file");
+    ordered_json state{{"loading", !scene_.is_there() && file_message_.empty()},
+                       {"file", file},
+                       {"title", std::filesystem::path(file).filename().string()},
+                       {"message", text_or_null(file_message_.empty() ? message_ : file_message_)}};
     if (!scene_.is_there()) {
         return state;
     }
@@ -176,80 +196,84 @@ ViewState Session::state()
     if (!is_stale_) {
         pose_ = pose;  // otherwise it belongs to a moving camera
     }
-    state.size = stage.size;
-    state.camera_name = stage.camera.name;
-    state.pose = pose;
-    state.origin = scene_.stage().scene.description().origin;
-    state.vertical_fov = stage.camera.projection == Projection::orthographic
-                             ? 0.0
-                             : degrees(stage.camera.vertical_fov);
-    state.integrator_a = to_name(arguments.options.integrator);
-    state.integrator_b = integrator_b_;
-    state.environments = {"scene", "default", "studio", "none"};
+    const DVec3& origin = stage.scene.description().origin;
+    const bool has_fov = stage.camera.projection != Projection::orthographic;
+    state["size"] = {stage.size.width, stage.size.height};
+    state["camera"] = {
+        {"name", stage.camera.name},
+        {"from", to_json(pose.from, origin)},
+        {"look_at", to_json(pose.look_at, origin)},
+        {"fov", has_fov ? ordered_json(degrees(stage.camera.vertical_fov)) : ordered_json()}};
+    for (const IntegratorInfo& integrator : integrators()) {
+        state["integrators"].push_back(integrator.name);
+    }
+    state["integrator_a"] = to_name(arguments.options.integrator);
+    state["integrator_b"] = text_or_null(integrator_b_);
+    std::vector<std::string> environments{"scene", "default", "studio", "none"};
     if (const std::string own = first_words_.text("--env");
         !own.empty() && is_file_of_environment(own)) {
-        state.environments.insert(state.environments.begin(), own);
+        environments.insert(environments.begin(), own);
     }
+    state["environments"] = environments;
     const std::string environment = shown_words_.text("--env");
-    state.environment = environment.empty() ? "scene" : environment;
-    state.rotation = arguments.environment_change.rotation;
-    state.intensity = static_cast<double>(arguments.environment_change.intensity);
+    state["environment"] = environment.empty() ? "scene" : environment;
+    state["rotation"] = arguments.environment_change.rotation;
+    state["intensity"] = static_cast<double>(arguments.environment_change.intensity);
     const std::optional<Exposure>& exposure = arguments.display.exposure;
-    state.exposure_is_automatic = !(exposure && exposure->base == ExposureBase::radiance);
-    state.automatic_exposure = static_cast<double>(automatic_exposure_);
-    state.exposure =
-        static_cast<double>(state.exposure_is_automatic ? automatic_exposure_ : exposure->value);
-    state.curve = io::tone_curve_name(arguments.display.curve);
-    if (arguments.display.backdrop) {
-        state.background = backdrop_text(*arguments.display.backdrop);
+    const bool is_automatic = !(exposure && exposure->base == ExposureBase::radiance);
+    state["exposure"] = static_cast<double>(is_automatic ? automatic_exposure_ : exposure->value);
+    state["exposure_auto"] = static_cast<double>(automatic_exposure_);
+    state["exposure_is_auto"] = is_automatic;
+    state["curve"] = io::tone_curve_name(arguments.display.curve);
+    state["background"] = arguments.display.backdrop
+                              ? ordered_json(backdrop_text(*arguments.display.backdrop))
+                              : ordered_json();
+    for (const ViewLayer layer :
+         {ViewLayer::picture, ViewLayer::noise, ViewLayer::rates, ViewLayer::strategy}) {
+        if (layer != ViewLayer::rates || arguments.rates) {
+            state["layers"].push_back(layer_name(layer));
+        }
     }
-    state.layers = {ViewLayer::picture, ViewLayer::noise};
-    if (arguments.rates) {
-        state.layers.push_back(ViewLayer::rates);
+    state["layer"] = layer_name(layer_);
+    state["scale"] = layer_ == ViewLayer::noise   ? to_json(noise_scale())
+                     : layer_ == ViewLayer::rates ? to_json(rates_scale())
+                                                  : ordered_json();
+    state["strategies"] = ordered_json::array();
+    for (const Strategy& strategy : known_strategies()) {
+        state["strategies"].push_back({strategy.s, strategy.t});
     }
-    state.layers.push_back(ViewLayer::strategy);
-    state.layer = layer_;
-    if (layer_ == ViewLayer::noise) {
-        state.scale = noise_scale();
-    } else if (layer_ == ViewLayer::rates) {
-        state.scale = rates_scale();
-    }
-    state.strategies = known_strategies();
-    state.strategy = strategy_;
-    state.is_paused = is_paused_;
-    state.slots.push_back(slot_state(0));
+    state["strategy"] = {strategy_.s, strategy_.t};
+    state["paused"] = is_paused_;
+    state["slots"] = ordered_json::array({slot_state(0)});
     if (!integrator_b_.empty()) {
-        state.slots.push_back(slot_state(1));
+        state["slots"].push_back(slot_state(1));
     }
-    state.warnings = stage.warnings;
+    state["warnings"] = stage.warnings;
     for (const Note& note : stage.notes) {
-        state.warnings.push_back(note.text);
+        state["warnings"].push_back(note.text);
     }
-    const std::int64_t samples = state.slots.front().samples;
+    const auto samples = state["slots"][0]["samples"].get<std::int64_t>();
     const ViewWords words = words_of_slot(0);
-    state.command = words.command(samples > 0 ? samples : arguments.samples.end);
-    state.final_command = words.final_command();
+    state["command"] = words.command(samples > 0 ? samples : arguments.samples.end);
+    state["final_command"] = words.final_command();
     return state;
 }
 
-SlotState Session::slot_state(std::size_t slot) const
+nlohmann::ordered_json Session::slot_state(std::size_t slot) const
 {
     const std::optional<LiveRender>& render = renders_[slot];
-    SlotState state;
-    state.target = scene_.arguments().samples.end;
-    state.noise = std::numeric_limits<double>::infinity();
-    if (!render) {
-        state.integrator =
-            slot == 1 ? integrator_b_ : std::string(to_name(scene_.arguments().options.integrator));
-        return state;
-    }
-    state.integrator = to_name(render->renderer().options().integrator);
-    state.samples = render->renderer().samples();
-    state.noise = render->noise();
-    state.seconds = render->renderer().seconds();
+    ordered_json state{
+        {"integrator", render      ? std::string(to_name(render->renderer().options().integrator))
+                       : slot == 1 ? integrator_b_
+                                   : std::string(to_name(scene_.arguments().options.integrator))},
+        {"samples", render ? render->renderer().samples() : 0},
+        {"target", scene_.arguments().samples.end}};
+    state["noise"] = render ? noise_json(render->noise()) : ordered_json();
+    state["seconds"] = render ? render->renderer().seconds() : 0.0;
     // Pages relate the state to the picture that they have.
-    const bool is_shown = layer_ == ViewLayer::strategy || shown_samples_[slot] == state.samples;
-    state.is_done = render->is_done() && is_shown && !is_stale_;
+    const bool is_shown = layer_ == ViewLayer::strategy ||
+                          shown_samples_[slot] == state["samples"].get<std::int64_t>();
+    state["done"] = render && render->is_done() && is_shown && !is_stale_;
     return state;
 }
 

@@ -1,7 +1,5 @@
 #include "view/view_camera.h"
 
-#include <bdpt/error.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

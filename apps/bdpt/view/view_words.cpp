@@ -9,22 +9,12 @@
 #include "terminal/text.h"
 
 namespace bdpt::app {
-namespace {
-
-/// The options of `bdpt render`, and the request that they are stored in.
-struct RenderOptionList {
-    RenderOptionList() { add_render_options(options, request); }
-    RenderRequest request;
-    OptionList options;
-};
-
-}  // namespace
 
 ViewWords::ViewWords(const OptionList& given)
 {
     const RenderOptionList render;
     for (const Option& option : given.all()) {
-        if (option.given() && render.options.find(option.name()) != nullptr) {
+        if (option.given() && render.list.find(option.name()) != nullptr) {
             texts_[option.name()] = option.texts;
         }
     }
@@ -38,12 +28,14 @@ ViewWords::ViewWords(const OptionList& given)
 void ViewWords::set(std::string_view option, std::string text)
 {
     texts_.insert_or_assign(std::string(option), std::vector{std::move(text)});
+    arguments_.reset();
 }
 
 void ViewWords::remove(std::string_view option)
 {
     if (const auto found = texts_.find(option); found != texts_.end()) {
         texts_.erase(found);
+        arguments_.reset();
     }
 }
 
@@ -68,12 +60,15 @@ void ViewWords::give_to(OptionList& options) const
     options.store_given();
 }
 
-RenderArguments ViewWords::arguments() const
+const RenderArguments& ViewWords::arguments() const
 {
-    RenderOptionList render;
-    const bool is_unlimited = !has("--spp") && !has("--noise");
-    (is_unlimited ? ending_after(view_samples) : *this).give_to(render.options);
-    return checked(render.request, render.options);
+    if (!arguments_) {
+        RenderOptionList render;
+        const bool is_unlimited = !has("--spp") && !has("--noise");
+        (is_unlimited ? ending_after(view_samples) : *this).give_to(render.list);
+        arguments_ = std::make_shared<const RenderArguments>(checked(render.request, render.list));
+    }
+    return *arguments_;
 }
 
 ViewWords ViewWords::ending_after(std::int64_t samples) const
@@ -106,9 +101,9 @@ std::string ViewWords::final_command() const
 std::string ViewWords::line() const
 {
     RenderOptionList render;
-    give_to(render.options);
+    give_to(render.list);
     std::string line = "bdpt render";
-    for (const std::string& word : to_words(render.options)) {
+    for (const std::string& word : to_words(render.list)) {
         line += " " + shell_word(word);
     }
     return line;
@@ -118,7 +113,7 @@ std::string ViewWords::final_job() const
 {
     RenderOptionList render;
     ViewWords absolute = final_words();
-    for (const Option& option : render.options.all()) {
+    for (const Option& option : render.list.all()) {
         const auto found = absolute.texts_.find(option.name());
         if (found == absolute.texts_.end() || !option.info.is_path) {
             continue;
@@ -129,8 +124,8 @@ std::string ViewWords::final_job() const
             text = is_word ? text : std::filesystem::absolute(text).lexically_normal().string();
         }
     }
-    absolute.give_to(render.options);
-    return job_text(render.options, "job.json");
+    absolute.give_to(render.list);
+    return job_text(render.list, "job.json");
 }
 
 }  // namespace bdpt::app

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +28,7 @@ public:
 
     /// Parses the words; without --spp and --noise, for `view_samples`. Throws `OptionError` for
     /// texts that are invalid, alone or together.
-    [[nodiscard]] RenderArguments arguments() const;
+    [[nodiscard]] const RenderArguments& arguments() const;
     /// Returns the command line that renders the picture with `samples` per pixel to the bit, as
     /// one line for a shell.
     [[nodiscard]] std::string command(std::int64_t samples) const;
@@ -38,7 +39,7 @@ public:
     /// may be saved anywhere.
     [[nodiscard]] std::string final_job() const;
 
-    [[nodiscard]] bool operator==(const ViewWords&) const = default;
+    [[nodiscard]] bool operator==(const ViewWords& other) const { return texts_ == other.texts_; }
 
 private:
     /// Stores all texts into `options`, which are those of `bdpt render`.
@@ -50,6 +51,7 @@ private:
 
     bool sets_adaptive_ = false;  ///< --adaptive was not given
     std::map<std::string, std::vector<std::string>, std::less<>> texts_;  ///< by name of option
+    mutable std::shared_ptr<const RenderArguments> arguments_{};  ///< of `texts_`; null: not parsed
 };
 
 }  // namespace bdpt::app

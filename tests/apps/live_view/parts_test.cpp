@@ -16,7 +16,7 @@
 #include "view/live_render.h"
 #include "view/live_scene.h"
 #include "view/mailbox.h"
-#include "view/page_messages.h"
+#include "view/page_request.h"
 #include "view/server/access.h"
 #include "view/server/page.h"
 #include "view/view_camera.h"

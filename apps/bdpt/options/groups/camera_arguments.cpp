@@ -14,7 +14,6 @@
 #include <string_view>
 #include <utility>
 
-#include "options/arguments.h"
 #include "options/value_types.h"
 #include "terminal/text.h"
 
@@ -137,8 +136,6 @@ Size default_size(const std::optional<float>& aspect_ratio)
 
 namespace {
 
-constexpr std::array<std::string_view, 3> framing_options{"--view", "--margin", "--ortho"};
-
 double radians(double degrees)
 {
     return degrees * std::numbers::pi / 180.0;
@@ -147,7 +144,7 @@ double radians(double degrees)
 ValueType<float> field_of_view()
 {
     const auto parse = [](const std::string& text) -> std::optional<float> {
-        const std::optional<double> degrees = decimal_number(text);
+        const std::optional<double> degrees = parse_number<double>(text);
         if (!degrees || !(*degrees > 0.0 && *degrees < 180.0)) {
             return std::nullopt;
         }
@@ -161,18 +158,9 @@ ValueType<float> field_of_view()
 /// Accepts a focal length in millimetres, as the vertical field of view.
 ValueType<float> focal_length()
 {
-    constexpr double shortest = 1.0;
-    constexpr double longest = 10'000.0;
-    const auto parse = [](const std::string& text) -> std::optional<float> {
-        const std::optional<double> length = decimal_number(text);
-        if (!length || !(*length >= shortest && *length <= longest)) {
-            return std::nullopt;
-        }
-        return static_cast<float>(compute_vertical_fov(1e-3 * *length));
-    };
-    return {.parse = parse,
-            .expected = "millimetres from 1 to 10000",
-            .info = {.json = JsonType::number, .range = {.low = shortest, .high = longest}}};
+    return converted(number(1.0, 10'000.0, "millimetres from 1 to 10000"), [](double length) {
+        return static_cast<float>(compute_vertical_fov(1e-3 * length));
+    });
 }
 
 ValueType<ViewDirection> view_direction()
@@ -198,8 +186,8 @@ ValueType<ViewDirection> view_direction()
         if (comma == std::string::npos) {
             return std::nullopt;
         }
-        const auto azimuth = decimal_number(text.substr(0, comma));
-        const auto elevation = decimal_number(text.substr(comma + 1));
+        const auto azimuth = parse_number<double>(text.substr(0, comma));
+        const auto elevation = parse_number<double>(text.substr(comma + 1));
         if (!azimuth || !elevation || !(std::abs(*azimuth) <= 360.0) ||
             !(std::abs(*elevation) <= 90.0)) {
             return std::nullopt;
@@ -221,7 +209,7 @@ ValueType<float> margin()
     constexpr double widest = 45.0;
     const auto parse = [](const std::string& text) -> std::optional<float> {
         const std::optional<double> percent =
-            decimal_number(text.ends_with('%') ? text.substr(0, text.size() - 1) : text);
+            parse_number<double>(text.ends_with('%') ? text.substr(0, text.size() - 1) : text);
         if (!percent || !(*percent >= 0.0 && *percent <= widest)) {
             return std::nullopt;
         }
@@ -247,10 +235,8 @@ void add_camera_options(OptionList& options, std::optional<std::string>& camera,
                 "Frame the whole scene with this margin on each side, relative to width and "
                 "height. Default: 10%",
                 view.margin, margin());
-    const Choices<Projection> projections{
-        {{"true", Projection::orthographic}, {"false", Projection::perspective}}};
     options.add_flag("--ortho", "Frame the whole scene with an orthographic camera",
-                     view.projection, projections.type());
+                     view.projection, on_or_off(Projection::orthographic, Projection::perspective));
     options.add("--from", "X,Y,Z", "Position of the camera [m]", view.from, point());
     options.add("--look-at", "X,Y,Z", "Point that the camera looks at [m]", view.look_at, point());
     options.add("--fov", "DEG", "Vertical field of view [degrees]", view.vertical_fov,
@@ -260,20 +246,29 @@ void add_camera_options(OptionList& options, std::optional<std::string>& camera,
                 focal_length());
 }
 
+std::vector<Conflict> view_conflicts()
+{
+    std::vector<Conflict> conflicts{{"--lens-radius", "--f-stop"},
+                                    {"--focal-length", "--fov"},
+                                    {"--ortho", "--fov"},
+                                    {"--ortho", "--focal-length"}};
+    for (const std::string_view framing : {"--view", "--margin", "--ortho"}) {
+        for (const std::string_view other : {"--from", "--look-at", "--cameras", "--camera"}) {
+            conflicts.push_back({framing, other});
+        }
+    }
+    return conflicts;
+}
+
 void check_camera_options(const OptionList& options, const std::optional<std::string>& camera)
 {
-    static constexpr std::array conflicts{Conflict{"--focal-length", "--fov"},
-                                          Conflict{"--ortho", "--fov"},
-                                          Conflict{"--ortho", "--focal-length"}};
-    check(conflicts, options);
-    for (const std::string_view framing : framing_options) {
-        const std::array others{Conflict{framing, "--from"}, Conflict{framing, "--look-at"},
-                                Conflict{framing, "--cameras"}};
-        check(others, options);
-        if (options.given(framing) && camera && *camera != "auto") {
+    for (const Conflict& conflict : view_conflicts()) {
+        if (conflict.other != "--camera") {
+            check(std::span(&conflict, 1), options);
+        } else if (options.given(conflict.option) && camera && *camera != "auto") {
             throw OptionError(
                 fmt::format("{} frames the whole scene and cannot be combined with --camera \"{}\"",
-                            framing, *camera));
+                            conflict.option, *camera));
         }
     }
 }
@@ -336,12 +331,6 @@ void add_lens_options(OptionList& options, LensChoice& lens)
                 "Focus distance [m]. Default: that of the file's lens, else the depth at the image "
                 "centre",
                 lens.focus_distance, positive_number("metres, above 0"));
-}
-
-void check_lens_options(const OptionList& options)
-{
-    static constexpr std::array conflicts{Conflict{"--lens-radius", "--f-stop"}};
-    check(conflicts, options);
 }
 
 CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& scene)

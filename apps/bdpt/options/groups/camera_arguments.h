@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "options/arguments.h"
 #include "options/option_list.h"
@@ -28,6 +29,7 @@ namespace bdpt::app {
 {
     return Vec3(point - origin);
 }
+
 /// Returns a point of the world in the coordinates of the file.
 [[nodiscard]] inline DVec3 to_file(Vec3 point, const DVec3& origin)
 {
@@ -71,7 +73,11 @@ struct ViewOverrides {
 void add_camera_options(OptionList& options, std::optional<std::string>& camera,
                         ViewOverrides& view);
 
-/// Throws `OptionError` if the given options are incompatible.
+/// Returns the options of a view, with its lens, that exclude each other. Those that frame the
+/// scene exclude --camera, unless its value is auto.
+[[nodiscard]] std::vector<Conflict> view_conflicts();
+
+/// Throws `OptionError` if the given options of a view are incompatible.
 void check_camera_options(const OptionList& options, const std::optional<std::string>& camera);
 
 /// Lens of a view.
@@ -83,9 +89,6 @@ struct LensChoice {
 
 /// Adds --lens-radius, --f-stop and --focus-distance.
 void add_lens_options(OptionList& options, LensChoice& lens);
-
-/// Throws `OptionError` for a lens that is given in two ways.
-void check_lens_options(const OptionList& options);
 
 /// Returns `camera` with `lens`. If neither `lens` nor the camera's own lens has a focus distance,
 /// it focuses on the surface in the middle of the view of `scene`. Throws `Error` (usage) if there

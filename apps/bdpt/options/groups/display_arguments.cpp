@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 
 #include "options/arguments.h"
@@ -22,7 +21,7 @@ std::optional<float> parse_stops(const std::string& text)
 {
     constexpr double most = 100.0;  // 2^100 is far beyond any ratio of a scene to a screen
     const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
-    const std::optional<double> stops = decimal_number(has_plus ? text.substr(1) : text);
+    const std::optional<double> stops = parse_number<double>(has_plus ? text.substr(1) : text);
     return stops && std::abs(*stops) <= most ? std::optional(static_cast<float>(*stops))
                                              : std::nullopt;
 }
@@ -180,11 +179,11 @@ void add_display_options(OptionList& options, DisplayArguments& display)
     exposure.uses.plan_render = true;    // the light is metered where the scene is
     exposure.uses.python_render = true;  // likewise
     const auto curves = make_choices(io::all_tone_curves, io::tone_curve_name);
-    options.add("--tone-map", choice_text(curves.words()),
-                "Tone mapping of .png, .jpg and .webp: filmic (default), pbr-neutral (keeps base "
-                "colours under "
-                "grey light, best with --exposure), agx, or none (clamps)",
-                display.curve, curves.type());
+    add_choice(options, "--tone-map",
+               "Tone mapping of .png, .jpg and .webp: filmic (default), pbr-neutral (keeps base "
+               "colours under "
+               "grey light, best with --exposure), agx, or none (clamps)",
+               display.curve, curves);
     Option& background = options.add(
         "--background", "transparent|black|white|#RRGGBB|FILE",
         "Replace the environment where the camera sees it directly; it still lights the scene. "
@@ -193,7 +192,7 @@ void add_display_options(OptionList& options, DisplayArguments& display)
         ".webp, .exr, .hdr) that fills the frame",
         display.backdrop,
         parsed_by(
-            [](const std::string& text) { return parse_backdrop(text); },
+            parse_backdrop,
             "transparent, a colour like white, #f0f0f0, #fff or 0.9,0.9,0.9, or the name of a "
             ".png, .jpg, .webp, .exr or .hdr file"));
     background.info.separator = ',';

@@ -3,43 +3,22 @@
 #include <bdpt/film/exact_sum.h>
 #include <bdpt/film/id_film.h>
 #include <bdpt/options/integrators.h>
-#include <bdpt/options/option_fields.h>
 #include <bdpt/options/option_text.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "options/arguments.h"
 #include "options/groups/transport_arguments.h"
 #include "options/value_types.h"
 
 namespace bdpt::app {
 
-namespace {
-
-/// Splits `text` at commas; parts may be empty.
-std::vector<std::string_view> split_at_commas(std::string_view text)
-{
-    std::vector<std::string_view> parts;
-    for (;;) {
-        const std::size_t comma = text.find(',');
-        parts.push_back(text.substr(0, comma));
-        if (comma == std::string_view::npos) {
-            return parts;
-        }
-        text.remove_prefix(comma + 1);
-    }
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<FilterOptions> parse_filter(std::string_view text)
 {
@@ -62,7 +41,7 @@ std::optional<FilterOptions> parse_filter(std::string_view text)
 std::optional<AovSet> parse_aovs(std::string_view text)
 {
     AovSet result;
-    for (const std::string_view part : split_at_commas(text)) {
+    for (const std::string_view part : split(text, ',')) {
         const std::optional<Aov> aov = parse_enumerator<Aov>(lower_case(part));
         if (!aov || *aov == Aov::shadow) {  // requested by --ground
             return std::nullopt;
@@ -76,7 +55,7 @@ std::optional<PixelRect> parse_crop(std::string_view text)
 {
     constexpr std::size_t largest = 65535;
     std::array<int, 4> corners{};
-    const std::vector<std::string_view> parts = split_at_commas(text);
+    const std::vector<std::string_view> parts = split(text, ',');
     if (parts.size() != corners.size()) {
         return std::nullopt;
     }
@@ -96,7 +75,7 @@ std::optional<PixelRect> parse_crop(std::string_view text)
 
 ValueType<FilterOptions> filter_type()
 {
-    return parsed_by([](const std::string& text) { return parse_filter(text); },
+    return parsed_by(parse_filter,
                      "box, tent, gaussian or blackman-harris, optionally with a radius from 0.01 "
                      "to 16, like gaussian:2");
 }
@@ -104,15 +83,14 @@ ValueType<FilterOptions> filter_type()
 ValueType<AovSet> aov_type()
 {
     return parsed_by(
-        [](const std::string& text) { return parse_aovs(text); },
+        parse_aovs,
         "a comma-separated list of albedo, normal, depth, position, samples, variance, alpha, "
         "opacity, object and material");
 }
 
 ValueType<PixelRect> crop_type()
 {
-    return parsed_by([](const std::string& text) { return parse_crop(text); },
-                     "four whole numbers x0,y0,x1,y1 with x0 < x1 and y0 < y1");
+    return parsed_by(parse_crop, "four whole numbers x0,y0,x1,y1 with x0 < x1 and y0 < y1");
 }
 
 void add_ground_option(OptionList& options, Ground& ground)
@@ -225,6 +203,7 @@ template <typename T>
 struct Unwrapped {
     using Type = T;
 };
+
 template <typename T>
 struct Unwrapped<std::optional<T>> {
     using Type = T;
@@ -241,7 +220,7 @@ auto value_type(const OptionInfo& info)
                             static_cast<std::int64_t>(info.range.high));
     } else if constexpr (std::is_floating_point_v<T>) {
         const auto parse = [range = info.range](const std::string& text) {
-            const std::optional<double> value = decimal_number(text);
+            const std::optional<double> value = parse_number<double>(text);
             return value && range.contains(*value) ? value : std::nullopt;
         };
         return ValueType<double>{.parse = parse,
@@ -286,8 +265,10 @@ void add_field(OptionList& options, const Field& field, Value& value)
                 value_type<T>(field.info));
 }
 
+}  // namespace
+
 template <typename Group>
-void add_all(OptionList& options, Group& group)
+void add_fields(OptionList& options, Group& group)
 {
     for_each_field(group, [&options](const auto& field, auto& value) {
         if constexpr (requires { option_text(value); }) {
@@ -296,32 +277,11 @@ void add_all(OptionList& options, Group& group)
     });
 }
 
-}  // namespace
-
-void add_fields(OptionList& options, FilmOptions& film)
-{
-    add_all(options, film);
-}
-
-void add_fields(OptionList& options, SamplingOptions& sampling)
-{
-    add_all(options, sampling);
-}
-
-void add_fields(OptionList& options, TransportOptions& transport)
-{
-    add_all(options, transport);
-}
-
-void add_fields(OptionList& options, BidirectionalOptions& bidirectional)
-{
-    add_all(options, bidirectional);
-}
-
-void add_fields(OptionList& options, SystemOptions& system)
-{
-    add_all(options, system);
-}
+template void add_fields(OptionList& options, FilmOptions& group);
+template void add_fields(OptionList& options, SamplingOptions& group);
+template void add_fields(OptionList& options, TransportOptions& group);
+template void add_fields(OptionList& options, BidirectionalOptions& group);
+template void add_fields(OptionList& options, SystemOptions& group);
 
 void add_fields(OptionList& options, RenderOptions& render, std::span<const std::string_view> names)
 {

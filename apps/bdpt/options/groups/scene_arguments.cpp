@@ -38,12 +38,12 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
     options.add("--animation", "NAME|INDEX|all",
                 "Animation for --frame-time, or all. Default: the first", scene.animation,
                 any_text());
-    options.add("--shutter", "SECONDS|OPEN,CLOSE",
-                "Motion blur: seconds that the shutter is open after --frame-time, or OPEN,CLOSE "
-                "relative to it",
-                scene.shutter,
-                parsed_by([](const std::string& text) { return parse_shutter(text); },
-                          "seconds from 0, or OPEN,CLOSE with OPEN not after CLOSE"));
+    options.add(
+        "--shutter", "SECONDS|OPEN,CLOSE",
+        "Motion blur: seconds that the shutter is open after --frame-time, or OPEN,CLOSE "
+        "relative to it",
+        scene.shutter,
+        parsed_by(parse_shutter, "seconds from 0, or OPEN,CLOSE with OPEN not after CLOSE"));
     Option& library =
         options.add("--ktx-library", "FILE|DIR",
                     "libktx 4 for KTX2 textures (KHR_texture_basisu): the library or its folder. "

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -25,31 +24,15 @@ constexpr int max_frames = 1'000'000;
 
 std::optional<int> parse_int(std::string_view text)
 {
-    int value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    const bool good = error == std::errc{} && stop == end && std::abs(value) <= 100 * max_frames;
-    return good ? std::optional(value) : std::nullopt;
-}
-
-/// Splits `text` at colons.
-std::vector<std::string_view> split_at_colons(std::string_view text)
-{
-    std::vector<std::string_view> parts;
-    for (std::size_t colon = text.find(':'); colon != std::string_view::npos;
-         colon = text.find(':')) {
-        parts.push_back(text.substr(0, colon));
-        text.remove_prefix(colon + 1);
-    }
-    parts.push_back(text);
-    return parts;
+    const std::optional<int> value = parse_number<int>(text);
+    return value && std::abs(*value) <= 100 * max_frames ? value : std::nullopt;
 }
 
 }  // namespace
 
 std::optional<FrameRange> parse_frames(const std::string& text)
 {
-    const std::vector<std::string_view> parts = split_at_colons(text);
+    const std::vector<std::string_view> parts = split(text, ':');
     if (parts.size() > 3) {
         return std::nullopt;
     }
@@ -87,13 +70,12 @@ void add_sequence_options(OptionList& options, Sequence& sequence)
              "of the animation, plus --frame-time; its file is out.0012.exr for -o out.####.exr. "
              "With --orbit: these of its views",
              sequence.frames,
-             parsed_by([](const std::string& text) { return parse_frames(text); },
+             parsed_by(parse_frames,
                        "whole numbers FIRST:LAST or FIRST:LAST:STEP, like 1:24, with FIRST not "
                        "above LAST"))
         .uses.python_render = true;
     options.add("--fps", "F", "Frames per second of --frames, like 24 or 24000/1001", sequence.fps,
-                parsed_by([](const std::string& text) { return parse_rate(text); },
-                          "frames per second, like 24 or 24000/1001"));
+                parsed_by(parse_rate, "frames per second, like 24 or 24000/1001"));
     options
         .add("--orbit", "N",
              "Turntable: N views, numbered from 1; the camera orbits once about the vertical axis "
@@ -102,24 +84,22 @@ void add_sequence_options(OptionList& options, Sequence& sequence)
         .uses.python_render = true;
     const Choices<TurntableMotion> motions{
         {{"camera", TurntableMotion::camera}, {"object", TurntableMotion::object}}};
-    options
-        .add("--turn", choice_text(motions.words()),
-             "What --orbit turns: the camera, with lighting fixed to the object (default), or the "
-             "object and the lamps of the file, before a fixed camera and environment",
-             sequence.motion, motions.type())
+    add_choice(
+        options, "--turn",
+        "What --orbit turns: the camera, with lighting fixed to the object (default), or the "
+        "object and the lamps of the file, before a fixed camera and environment",
+        sequence.motion, motions)
         .uses.python_render = true;
     const Choices<SequenceCameras> cameras{{{"all", SequenceCameras::all}}};
     options.add("--cameras", "all",
                 "Render the view of each camera; {camera} in file names becomes the camera's name, "
                 "or its index if it has none",
                 sequence.cameras, cameras.type());
-    const Choices<SequenceNoise> noises{
-        {{"true", SequenceNoise::same}, {"false", SequenceNoise::fresh}}};
     options
         .add_flag("--same-noise",
                   "Use the same random numbers for all frames: noise becomes a static pattern "
                   "instead of flickering. Default with --denoise; --same-noise=false turns it off",
-                  sequence.noise, noises.type())
+                  sequence.noise, on_or_off(SequenceNoise::same, SequenceNoise::fresh))
         .uses.python_render = true;
 }
 
@@ -151,26 +131,6 @@ std::optional<Sequence> checked(Sequence sequence, const OptionList& options)
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Returns all files of an image.
-std::vector<fs::path> collect_files(const RenderArguments& arguments)
-{
-    std::vector<fs::path> files = arguments.outputs;
-    if (arguments.strategies) {
-        const std::vector<fs::path> more = arguments.strategies->both();
-        files.insert(files.end(), more.begin(), more.end());
-    }
-    if (arguments.part) {
-        files.push_back(arguments.part->file);
-    }
-    if (arguments.stats) {
-        files.push_back(*arguments.stats);
-    }
-    if (arguments.rates && arguments.rates->saved) {
-        files.push_back(*arguments.rates->saved);
-    }
-    return files;
-}
 
 std::vector<int> list_frames(const FrameRange& range)
 {
@@ -210,7 +170,7 @@ void check_patterns(const RenderArguments& arguments)
     }
     const Sequence& sequence = *arguments.sequence;
     const bool many = sequence.frames && list_frames(*sequence.frames).size() > 1;
-    for (const fs::path& file : collect_files(arguments)) {
+    for_each_written_file(arguments, [&](std::string_view /*option*/, const fs::path& file) {
         if (many && !takes_number(file)) {
             throw OptionError(
                 fmt::format("{}: several frames need #### in the name", file.string()));
@@ -220,7 +180,7 @@ void check_patterns(const RenderArguments& arguments)
             throw OptionError(
                 fmt::format("{}: --cameras all needs {{camera}} in the name", file.string()));
         }
-    }
+    });
 }
 
 std::optional<std::string> warning_of_flicker(const RenderArguments& arguments, FramesBy by)
@@ -297,24 +257,10 @@ RenderArguments make_view_arguments(const RenderArguments& arguments, const Sequ
         const fs::path file = view.frame ? with_number(pattern, *view.frame) : pattern;
         return view.camera ? with_camera(file, view.camera_name) : file;
     };
-    for (fs::path& output : result.outputs) {
-        output = expand(output);
-    }
-    if (result.strategies) {
-        result.strategies->layers = expand(result.strategies->layers);
-        result.strategies->sheet = expand(result.strategies->sheet);
-    }
-    if (result.part) {
-        result.part->file = expand(result.part->file);
-    }
-    if (result.stats) {
-        result.stats = expand(*result.stats);
-    }
+    for_each_written_file(
+        result, [&](std::string_view /*option*/, fs::path& file) { file = expand(file); });
     if (result.rates && result.rates->file) {
         result.rates->file = expand(*result.rates->file);
-    }
-    if (result.rates && result.rates->saved) {
-        result.rates->saved = expand(*result.rates->saved);
     }
     if (view.time) {
         result.scene.time = view.time;

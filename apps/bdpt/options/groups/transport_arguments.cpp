@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -161,23 +160,19 @@ nlohmann::ordered_json number_json(double number)
 std::optional<std::vector<Strategy>> parse_strategies(std::string_view text)
 {
     std::vector<Strategy> result;
-    for (;;) {
-        const std::size_t comma = text.find(',');
-        const std::optional<Strategy> strategy = parse_strategy(text.substr(0, comma));
+    for (const std::string_view part : split(text, ',')) {
+        const std::optional<Strategy> strategy = parse_strategy(part);
         if (!strategy) {
             return std::nullopt;
         }
         result.push_back(*strategy);
-        if (comma == std::string_view::npos) {
-            return result;
-        }
-        text.remove_prefix(comma + 1);
     }
+    return result;
 }
 
 ValueType<std::vector<Strategy>> strategies_type()
 {
-    return parsed_by([](const std::string& text) { return parse_strategies(text); },
+    return parsed_by(parse_strategies,
                      "a comma-separated list of strategies sStT with at least two vertices, like "
                      "s2t1,s0t3");
 }
@@ -185,8 +180,7 @@ ValueType<std::vector<Strategy>> strategies_type()
 void add_transport_options(OptionList& options, RenderOptions& render, PathsOnly& only)
 {
     const auto integrators = choices_of_enumeration<IntegratorKind>();
-    options.add("--integrator", choice_text(integrators.words()), integrator_help(),
-                render.integrator, integrators.type());
+    add_choice(options, "--integrator", integrator_help(), render.integrator, integrators);
     add_fields(options, render.transport);
     const Choices<PathsOnly> which{
         {{"direct", PathsOnly::direct}, {"indirect", PathsOnly::indirect}}};
@@ -218,24 +212,23 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
                                   {"environment_sampling", to_name(options.sampling.environment)},
                                   {"light_sampling", to_name(options.sampling.lights)},
                                   {"light_samples", options.sampling.light_samples}};
-    if (options.bidirectional.connections) {
-        result["connections"] = number_json(*options.bidirectional.connections);
-    }
-    if (options.bidirectional.connection_rays > 0.0) {
-        result["connection_rays"] = number_json(options.bidirectional.connection_rays);
-    }
-    if (options.integrator == IntegratorKind::vcm) {
-        result["merge_radius"] = number_json(options.bidirectional.merge_radius);
-        result["merge_alpha"] = number_json(options.bidirectional.merge_alpha);
-    }
-    const auto add = [&](const char* name, int limit) {
-        if (limit != unlimited) {
-            result[name] = limit;
+    const BidirectionalOptions& bidirectional = options.bidirectional;
+    const bool merges = options.integrator == IntegratorKind::vcm;
+    const auto add_if = [&result](bool is_set, const char* name, double value) {
+        if (is_set) {
+            result[name] = number_json(value);
         }
     };
-    add("max_camera_depth", options.bidirectional.max_camera_depth);
-    add("max_light_depth", options.bidirectional.max_light_depth);
-    for (const Strategy& strategy : options.bidirectional.disabled) {
+    add_if(bidirectional.connections.has_value(), "connections",
+           bidirectional.connections.value_or(0.0));
+    add_if(bidirectional.connection_rays > 0.0, "connection_rays", bidirectional.connection_rays);
+    add_if(merges, "merge_radius", bidirectional.merge_radius);
+    add_if(merges, "merge_alpha", bidirectional.merge_alpha);
+    add_if(bidirectional.max_camera_depth != unlimited, "max_camera_depth",
+           bidirectional.max_camera_depth);
+    add_if(bidirectional.max_light_depth != unlimited, "max_light_depth",
+           bidirectional.max_light_depth);
+    for (const Strategy& strategy : bidirectional.disabled) {
         result["disabled"].push_back(option_text(strategy));
     }
     return result;

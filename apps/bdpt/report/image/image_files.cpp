@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -218,12 +219,39 @@ void drop_guides(ImageFileOptions& options)
 
 }  // namespace
 
-std::vector<Layer> develop_layers(const Film& film, const AovFilm& aovs, const IdFilm& ids)
+std::vector<Layer> develop_layers(const RenderResult& part)
 {
-    std::vector<Layer> layers = aovs.develop(film);
-    std::vector<Layer> more = ids.develop(film);
+    std::vector<Layer> layers = part.aovs.develop(part.film);
+    std::vector<Layer> more = part.ids.develop(part.film);
     std::move(more.begin(), more.end(), std::back_inserter(layers));
     return layers;
+}
+
+io::ImageMetadata completed(io::ImageMetadata metadata, std::int64_t samples, double seconds)
+{
+    metadata.samples_per_pixel = samples;
+    metadata.render_seconds = seconds;
+    metadata.created = std::chrono::system_clock::now();
+    return metadata;
+}
+
+ImageFileOptions image_file_options(const RenderResult& part, io::ImageMetadata metadata,
+                                    const ExrFormat& exr, const DisplayArguments& display,
+                                    const io::Denoiser* denoiser, const DenoiseArguments& denoise)
+{
+    const FilmLayout& layout = part.film.layout();
+    return {.exr = {.type = exr.channel_type,
+                    .metadata = std::move(metadata),
+                    .storage = exr.storage,
+                    .placement = {{.x = layout.region.x0,
+                                   .y = layout.region.y0,
+                                   .full_width = layout.width,
+                                   .full_height = layout.height}},
+                    .manifests = part.ids.manifests()},
+            .layers = develop_layers(part),
+            .display = display,
+            .denoiser = denoiser,
+            .denoising = denoise.kind};
 }
 
 WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& rendered,

@@ -1,22 +1,22 @@
 #pragma once
 
 #include <bdpt/error.h>
-#include <bdpt/film/aov_film.h>
-#include <bdpt/film/id_film.h>
 #include <bdpt/image.h>
 #include <bdpt/io/denoise.h>
 #include <bdpt/io/exr.h>
 #include <bdpt/io/image_metadata.h>
+#include <bdpt/part/render_result.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "options/groups/display_arguments.h"
+#include "options/part_arguments.h"
 
 namespace bdpt::app {
 
@@ -71,9 +71,19 @@ struct WrittenImages {
     std::string why_noisy{};  ///< message of a denoiser that failed without being asked for
 };
 
-/// Returns all requested layers; `film` is of the same samples.
-[[nodiscard]] std::vector<Layer> develop_layers(const Film& film, const AovFilm& aovs,
-                                                const IdFilm& ids);
+/// Returns all requested layers.
+[[nodiscard]] std::vector<Layer> develop_layers(const RenderResult& part);
+
+/// Completes `metadata` for an image of `samples` per pixel that took that time [s].
+[[nodiscard]] io::ImageMetadata completed(io::ImageMetadata metadata, std::int64_t samples,
+                                          double seconds);
+
+/// Returns the options for files of the image of `part`, with all its layers.
+[[nodiscard]] ImageFileOptions image_file_options(const RenderResult& part,
+                                                  io::ImageMetadata metadata, const ExrFormat& exr,
+                                                  const DisplayArguments& display,
+                                                  const io::Denoiser* denoiser,
+                                                  const DenoiseArguments& denoise);
 
 /// Writes all `outputs`, each by its extension. With a denoiser, files for screens are denoised
 /// and, if that was asked for, EXR files have both images; automatic denoising needs layers that

@@ -7,13 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstddef>
-#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -311,7 +307,6 @@ PartCollection collect_parts(const MergeArguments& arguments, const std::optiona
 
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// Parses the settings `text` of a part. Invalid JSON is discarded, and so is text longer or deeper
@@ -426,9 +421,7 @@ std::vector<fs::path> write_merged_files(const MergeArguments& arguments,
                                          const io::Denoiser* denoiser, const RenderResult& part,
                                          io::PartNotes notes)
 {
-    notes.metadata.samples_per_pixel = part.samples.count();
-    notes.metadata.render_seconds = part.cpu_seconds;
-    notes.metadata.created = std::chrono::system_clock::now();
+    notes.metadata = completed(std::move(notes.metadata), part.samples.count(), part.cpu_seconds);
     notes.metadata.settings =
         merge_settings(notes.metadata.settings, part.samples.count(), display.backdrop);
     std::vector<fs::path> images;
@@ -444,21 +437,9 @@ std::vector<fs::path> write_merged_files(const MergeArguments& arguments,
         attempts.finish();
         return {};
     }
-    const FilmLayout& layout = part.film.layout();
-    const io::ExrPlacement placement{.x = layout.region.x0,
-                                     .y = layout.region.y0,
-                                     .full_width = layout.width,
-                                     .full_height = layout.height};
     const Image image = part.image();
-    const ImageFileOptions options{.exr = {.type = arguments.exr.channel_type,
-                                           .metadata = std::move(notes.metadata),
-                                           .storage = arguments.exr.storage,
-                                           .placement = placement,
-                                           .manifests = part.ids.manifests()},
-                                   .layers = develop_layers(part.film, part.aovs, part.ids),
-                                   .display = display,
-                                   .denoiser = denoiser,
-                                   .denoising = arguments.denoise.kind};
+    const ImageFileOptions options = image_file_options(
+        part, std::move(notes.metadata), arguments.exr, display, denoiser, arguments.denoise);
     WrittenImages written = write_image_files(images, image, options, attempts);
     if (arguments.strategies) {
         attempts.run([&] {
@@ -472,8 +453,6 @@ std::vector<fs::path> write_merged_files(const MergeArguments& arguments,
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Returns the files that the plan in `file` names for image `image`.
 std::set<fs::path> planned_files(const Plan& plan, const fs::path& file, std::size_t image)

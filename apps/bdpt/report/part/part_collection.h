@@ -7,7 +7,6 @@
 #include <bdpt/part/sample_set.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>

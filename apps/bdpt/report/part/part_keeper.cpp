@@ -4,8 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
-#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>

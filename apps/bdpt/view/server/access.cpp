@@ -3,23 +3,16 @@
 #include <bdpt/error.h>
 #include <sys/random.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
+
+#include "options/arguments.h"
 
 namespace bdpt::app {
 namespace {
 
 constexpr std::size_t token_bytes = 16;
-
-std::string lowered(std::string_view text)
-{
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    return result;
-}
 
 /// Returns "localhost" for "localhost:8080", "[::1]" for "[::1]:8080"; empty: the port is no
 /// number.
@@ -74,14 +67,14 @@ bool are_equal_in_constant_time(std::string_view a, std::string_view b)
 Access::Access(std::string token, std::string ticket, std::string host)
     : token_(std::move(token)),
       ticket_(std::move(ticket)),
-      host_(lowered(host)),
+      host_(lower_case(host)),
       listens_everywhere_(host_ == "0.0.0.0" || host_ == "::")
 {}
 
 bool Access::is_ours(std::string_view host) const
 {
     // Ports differ behind tunnels.
-    const std::string name = lowered(without_port(host));
+    const std::string name = lower_case(without_port(host));
     return !name.empty() &&
            (name == "localhost" || name == "127.0.0.1" || name == "[::1]" || name == host_ ||
             name == "[" + host_ + "]" || (listens_everywhere_ && is_numeric(name)));
@@ -93,7 +86,7 @@ std::optional<Refusal> Access::refusal_of_sender(const RequestHead& head) const
     if (!is_ours(head.host)) {
         return Refusal{403, "this server is not known by that name"};
     }
-    if (head.origin && lowered(*head.origin) != "http://" + lowered(head.host)) {
+    if (head.origin && lower_case(*head.origin) != "http://" + lower_case(head.host)) {
         return Refusal{403, "pages of others may not ask this server"};
     }
     if (head.method != "GET") {

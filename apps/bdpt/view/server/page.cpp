@@ -3,7 +3,6 @@
 #include <bdpt/eval/report/page_text.h>
 #include <bdpt/version.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>

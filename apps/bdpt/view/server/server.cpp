@@ -31,11 +31,9 @@ std::string host_text(const std::string& host)
     return host.find(':') != std::string::npos ? "[" + host + "]" : host;
 }
 
-}  // namespace
-
-class Server::Impl {
+class ListeningServer final : public Server {
 public:
-    Impl(const DisplayAddress& address, std::string page)
+    ListeningServer(const DisplayAddress& address, std::string page)
         : signals_(context_),
           acceptor_(context_),
           pause_(context_),
@@ -62,15 +60,18 @@ public:
                             acceptor_.local_endpoint().port());
     }
 
-    [[nodiscard]] std::string url() const { return site_ + token_ + "/"; }
-    [[nodiscard]] std::string url_once() const { return site_ + ticket_; }
-    [[nodiscard]] int signal() const { return signal_; }
+    ~ListeningServer() override { stop(); }
+    ListeningServer(const ListeningServer&) = delete;
+    ListeningServer& operator=(const ListeningServer&) = delete;
 
-    void start(Doors doors)
+    [[nodiscard]] std::string url() const override { return site_ + token_ + "/"; }
+    [[nodiscard]] std::string url_once() const override { return site_ + ticket_; }
+
+    void start(Doors doors) override
     {
         state_.doors = std::move(doors);
         for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-            struct sigaction action{};
+            struct sigaction action {};
             ::sigaction(number, nullptr, &action);
             if (action.sa_handler != SIG_IGN) {  // nohup ignores signals
                 signals_.add(number);
@@ -81,7 +82,7 @@ public:
         thread_ = std::thread([this] { context_.run(); });
     }
 
-    void stop()
+    void stop() override
     {
         asio::post(context_, [this] {
             state_.is_closing = true;
@@ -92,7 +93,7 @@ public:
         }
     }
 
-    void tell(std::string state)
+    void tell(std::string state) override
     {
         asio::post(context_, [this, state = std::move(state)]() mutable {
             state_.text = std::move(state);
@@ -100,7 +101,7 @@ public:
         });
     }
 
-    void show(std::shared_ptr<const Frame> frame)
+    void show(std::shared_ptr<const Frame> frame) override
     {
         asio::post(context_, [this, frame = std::move(frame)] {
             state_.frames.at(frame->slot) = frame;
@@ -108,7 +109,7 @@ public:
         });
     }
 
-    void answer(ClientId client, std::string text)
+    void answer(ClientId client, std::string text) override
     {
         asio::post(context_, [this, client, text = std::move(text)]() mutable {
             const auto found = state_.windows.find(client);
@@ -192,53 +193,11 @@ private:
     std::thread thread_;
 };
 
-Server::Server(const DisplayAddress& address, std::string page)
-    : impl_(std::make_unique<Impl>(address, std::move(page)))
-{}
+}  // namespace
 
-Server::~Server()
+std::unique_ptr<Server> make_server(const DisplayAddress& address, std::string page)
 {
-    impl_->stop();
-}
-
-std::string Server::url() const
-{
-    return impl_->url();
-}
-
-std::string Server::url_once() const
-{
-    return impl_->url_once();
-}
-
-void Server::start(Doors doors)
-{
-    impl_->start(std::move(doors));
-}
-
-void Server::stop()
-{
-    impl_->stop();
-}
-
-int Server::signal() const
-{
-    return impl_->signal();
-}
-
-void Server::tell(std::string state)
-{
-    impl_->tell(std::move(state));
-}
-
-void Server::show(std::shared_ptr<const Frame> frame)
-{
-    impl_->show(std::move(frame));
-}
-
-void Server::answer(ClientId client, std::string text)
-{
-    impl_->answer(client, std::move(text));
+    return std::make_unique<ListeningServer>(address, std::move(page));
 }
 
 }  // namespace bdpt::app

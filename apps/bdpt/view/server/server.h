@@ -21,35 +21,20 @@ struct Doors {
 
 /// The server of `bdpt view`: the page, a web socket for each window, files. It runs on one thread
 /// and never waits for a slow reader: each window has one picture in flight, and newer ones replace
-/// the waiting one.
+/// the waiting one. What an audience does is thread-safe.
 class Server : public Audience {
 public:
-    /// Starts to listen. Throws `Error` (output) if that fails.
-    Server(const DisplayAddress& address, std::string page);
-    ~Server() override;
-    Server(const Server&) = delete;
-    Server& operator=(const Server&) = delete;
-
     /// Returns the address of the page, with the token.
-    [[nodiscard]] std::string url() const;
+    [[nodiscard]] virtual std::string url() const = 0;
     /// Returns an address that leads to the page once, for command lines, which others can see.
-    [[nodiscard]] std::string url_once() const;
+    [[nodiscard]] virtual std::string url_once() const = 0;
     /// Serves until `stop()`. SIGINT, SIGTERM and SIGHUP call `doors.stop`; a second one ends the
     /// process.
-    void start(Doors doors);
+    virtual void start(Doors doors) = 0;
     /// Stops serving.
-    void stop();
-    /// Returns the signal that was received, or 0.
-    [[nodiscard]] int signal() const;
-
-    // Thread-safe:
-    void tell(std::string state) override;
-    void show(std::shared_ptr<const Frame> frame) override;
-    void answer(ClientId client, std::string text) override;
-
-private:
-    class Impl;
-    std::unique_ptr<Impl> impl_;
+    virtual void stop() = 0;
 };
 
+/// Starts to listen. Throws `Error` (output) if that fails.
+[[nodiscard]] std::unique_ptr<Server> make_server(const DisplayAddress& address, std::string page);
 }  // namespace bdpt::app

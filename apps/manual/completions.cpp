@@ -3,65 +3,11 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <string_view>
+#include <utility>
+
 namespace bdpt::manual {
 namespace {
-
-// In bash "=" separates words, so that --name=va is three of them.
-constexpr const char* before =
-    R"SH(# Completion of bdpt in bash; made from the options of the command.
-
-# Options of the command $1, and the words that its options are.
-_bdpt_options() {
-  case $1 in
-)SH";
-
-constexpr const char* between = R"SH(  esac
-}
-
-# Words that option $2 of the command $1 may be: those, "@files" and "@folders"; fails for flags.
-_bdpt_values() {
-  case $1:$2 in
-)SH";
-
-constexpr const char* after = R"SH(    *) return 1 ;;
-  esac
-}
-
-# The words $1 and, with "@files" or "@folders" among them, paths that begin with $2.
-_bdpt_offer() {
-  mapfile -t COMPREPLY < <(compgen -W "${1%%@*}" -- "$2")
-  if [[ $1 == *@files* ]]; then
-    mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -f -- "$2")
-    compopt -o filenames 2>/dev/null
-  elif [[ $1 == *@folders* ]]; then
-    mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -d -- "$2")
-    compopt -o filenames 2>/dev/null
-  fi
-}
-
-_bdpt() {
-  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]} values
-  COMPREPLY=()
-  if ((COMP_CWORD == 1)); then
-    _bdpt_offer "$(_bdpt_options "") --help --version" "$word"
-    return
-  fi
-  if [[ $word == = ]]; then
-    word=
-  elif [[ $previous == = ]]; then
-    previous=${COMP_WORDS[COMP_CWORD-2]}
-  fi
-  if [[ $previous == -* ]] && values=$(_bdpt_values "$command" "$previous"); then
-    _bdpt_offer "$values" "$word"
-  elif [[ $word == -* ]]; then
-    _bdpt_offer "$(_bdpt_options "$command")" "$word"
-  else
-    _bdpt_offer "$(_bdpt_values "$command" "")" "$word"
-  fi
-}
-
-complete -F _bdpt bdpt
-)SH";
 
 /// A line of _bdpt_values; empty for flags.
 std::string values(const CommandInfo& command, const OptionInfo& option)
@@ -85,26 +31,27 @@ std::string values(const CommandInfo& command, const OptionInfo& option)
 
 std::string bash_completion(std::span<const CommandInfo> commands)
 {
-    std::string result = before;
     std::string names;
+    std::string options;
+    std::string words;
     for (const CommandInfo& command : commands) {
         names += (names.empty() ? "" : " ") + command.name;
-        std::string options;
+        std::string own;
         for (const OptionInfo& option : command.options) {
-            options += (options.empty() ? "" : " ") + option.names.back();
-        }
-        result += fmt::format("    {}) echo \"{}\" ;;\n", command.name, options);
-    }
-    result += fmt::format("    \"\") echo \"{}\" ;;\n", names) + between;
-    for (const CommandInfo& command : commands) {
-        for (const OptionInfo& option : command.options) {
-            result += values(command, option);
+            own += (own.empty() ? "" : " ") + option.names.back();
+            words += values(command, option);
         }
         for (const OptionInfo& argument : command.arguments) {
-            result += values(command, argument);
+            words += values(command, argument);
         }
+        options += fmt::format("    {}) echo \"{}\" ;;\n", command.name, own);
     }
-    return result + after;
+    options += fmt::format("    \"\") echo \"{}\" ;;\n", names);
+    std::string result(bash_template());
+    for (const auto& [mark, text] : {std::pair("@OPTIONS@\n", options), {"@VALUES@\n", words}}) {
+        result.replace(result.find(mark), std::string_view(mark).size(), text);
+    }
+    return result;
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "options/command_parser.h"
@@ -44,6 +45,8 @@ struct CommandInfo {
 
 // Scripts that let a shell complete commands, options, their words and files.
 
+/// Returns the file bash_completion.sh, with \@OPTIONS\@ and \@VALUES\@ in place of those.
+[[nodiscard]] std::string_view bash_template();
 [[nodiscard]] std::string bash_completion(std::span<const CommandInfo> commands);
 [[nodiscard]] std::string zsh_completion(std::span<const CommandInfo> commands);
 [[nodiscard]] std::string fish_completion(std::span<const CommandInfo> commands);

@@ -88,6 +88,11 @@ std::vector<std::string> to_texts(const std::vector<fs::path>& paths)
     return result;
 }
 
+ordered_json path_or_null(const std::optional<fs::path>& path)
+{
+    return path ? ordered_json(path->string()) : ordered_json();
+}
+
 ordered_json to_json(const PlanImage& image)
 {
     ordered_json json = ordered_json::object();
@@ -129,24 +134,18 @@ std::string to_text(const Plan& plan)
     ordered_json json{{"format", plan_format},
                       {"version", BDPT_VERSION},
                       {"scene", plan.scene.string()},
-                      {"environment", ordered_json()},
+                      {"environment", path_or_null(plan.environment)},
                       {"render", plan.render_options},
                       {"merge", plan.merge_options},
                       {"outputs", to_texts(plan.outputs)},
-                      {"strategies", ordered_json()},
+                      {"strategies", path_or_null(plan.strategies)},
                       {"engine_files", to_texts(plan.engine_files)},
                       {"images", ordered_json::array()},
                       {"tasks", ordered_json::array()},
                       {"files", to_json(plan.files)},
                       {"identity", to_json(plan.identity)}};
-    if (plan.environment) {
-        json["environment"] = plan.environment->string();
-    }
     if (plan.volume) {
         json["volume"] = plan.volume->string();
-    }
-    if (plan.strategies) {
-        json["strategies"] = plan.strategies->string();
     }
     if (plan.rates) {
         json["rates"] = plan.rates->string();

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -24,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Replaces @NAME@ in `text` by its value.
-std::string filled(const std::string& text,
+std::string filled(std::string_view text,
                    const std::vector<std::pair<std::string, std::string>>& values)
 {
     std::string result;
@@ -44,134 +45,16 @@ std::string filled(const std::string& text,
     return result;
 }
 
-constexpr const char* slurm_submit = R"sh(#!/bin/bash
-# ./submit.sh [OPTION OF sbatch]... renders plan.json with Slurm and merges the parts. The options apply to the
-# tasks, like --time=2:00:00 --cpus-per-task=16. SBATCH_PARTITION and SBATCH_ACCOUNT apply to all jobs.
-# Run it again to render what is missing: complete tasks end at once. --array=3,7 runs only these tasks.
-# BDPT=/opt/bdpt/bin/bdpt ./submit.sh sets the path of bdpt.
-set -eu
-cd -- "$(dirname -- "$0")"
-job=$(sbatch --parsable "$@" tasks.sbatch)
-# afterany: the merge also runs after failed tasks. merge.log then lists the commands that render what is missing.
-merge=$(sbatch --parsable --dependency=afterany:"${job%%;*}" merge.sbatch)
-echo "tasks: job ${job%%;*}; merge: job ${merge%%;*}, merge.log"
-)sh";
-
-constexpr const char* slurm_tasks = R"sh(#!/bin/bash
-#SBATCH --job-name=bdpt
-#SBATCH --array=0-@LAST@
-#SBATCH --requeue
-#SBATCH --open-mode=append
-#SBATCH --output=task-%a.log
-#SBATCH --signal=B:USR1@120
-# Renders one task of plan.json. Its part survives the time limit, a preempted node and a killed process, and the task
-# resumes from it when Slurm starts it again.
-"${BDPT:-bdpt}" render --plan plan.json --task "$SLURM_ARRAY_TASK_ID" --quiet \
-  ${SLURM_CPUS_PER_TASK:+--threads "$SLURM_CPUS_PER_TASK"} &
-task=$!
-# Slurm sends this signal before the time limit. It is not TERM, because scancel sends that.
-time_is_over=
-trap 'time_is_over=1; kill -TERM "$task" 2>/dev/null' USR1
-trap 'kill -TERM "$task" 2>/dev/null' TERM
-
-# A signal ends "wait" early, with a code above 128.
-while :; do
-  wait "$task"
-  code=$?
-  kill -0 "$task" 2>/dev/null || break
-done
-wait "$task" 2>/dev/null
-last=$?
-[ "$last" = 127 ] || code=$last
-
-# Slurm itself restarts tasks only after a node failure.
-again() {
-  if [ "${SLURM_RESTART_COUNT:-0}" -lt "$1" ]; then
-    scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
-  fi
-}
-
-if [ -n "$time_is_over" ] && [ "$code" = 143 ]; then
-  again 1000
-elif [ "$code" = 137 ]; then # killed: for want of memory, perhaps
-  again 3
-fi
-exit "$code"
-)sh";
-
-constexpr const char* slurm_merge = R"sh(#!/bin/bash
-#SBATCH --job-name=bdpt-merge
-#SBATCH --output=merge.log
-# Merges the images of plan.json. Exit code 12: samples are missing; merge.log lists the tasks.
-exec "${BDPT:-bdpt}" merge --plan plan.json
-)sh";
-
 std::vector<EngineFile> slurm_files(const Plan& plan)
 {
     const std::string last = fmt::format("{}", plan.tasks.size() - 1);
-    return {{.name = "submit.sh", .text = slurm_submit, .kind = FileKind::program},
-            {.name = "tasks.sbatch", .text = filled(slurm_tasks, {{"LAST", last}})},
-            {.name = "merge.sbatch", .text = slurm_merge}};
+    return {
+        {.name = "submit.sh",
+         .text = std::string(engine_texts::submit_sh()),
+         .kind = FileKind::program},
+        {.name = "tasks.sbatch", .text = filled(engine_texts::tasks_sbatch(), {{"LAST", last}})},
+        {.name = "merge.sbatch", .text = std::string(engine_texts::merge_sbatch())}};
 }
-
-constexpr const char* kubernetes_head = R"(# kubectl apply -f kubernetes.yaml
-# Renders plan.json as an Indexed Job, and merges the parts (Kubernetes 1.29 or later). Change these fields:
-# - image: bdpt in a registry that your cluster can reach; build it from the Containerfile of bdpt
-# - claimName: a PersistentVolumeClaim that all pods can write to (ReadWriteMany), with the contents of
-#   @SHARED@ (subPath, beside mountPath, names a folder of the claim)
-# - resources: CPUs and memory of each task
-# To render what is missing, run kubectl delete -f, then apply: complete tasks end at once.
-)";
-
-constexpr const char* kubernetes_job = R"(---
-apiVersion: batch/v1
-kind: Job
-metadata:
-  name: @NAME@
-spec:@HOW@
-  template:
-    spec:
-      restartPolicy: Never
-      terminationGracePeriodSeconds: 120
-      securityContext:
-        runAsNonRoot: true
-        runAsUser: 1000
-        runAsGroup: 1000
-        fsGroup: 1000
-      containers:
-        - name: bdpt
-          image: bdpt:@VERSION@
-          workingDir: @WORKING@
-          args: @ARGS@
-          resources:
-            requests: {cpu: "4", memory: 4Gi}
-            limits: {cpu: "4", memory: 4Gi}
-          volumeMounts:
-            - {name: data, mountPath: /data}
-      volumes:
-        - name: data
-          persistentVolumeClaim: {claimName: bdpt}
-)";
-
-// 143: the pod was evicted, and has written its part. 2 to 5: retrying in another pod would not
-// help.
-constexpr const char* how_tasks = R"(
-  completionMode: Indexed
-  completions: @COUNT@
-  parallelism: @COUNT@
-  backoffLimitPerIndex: 6
-  podFailurePolicy:
-    rules:
-      - action: Ignore
-        onPodConditions:
-          - {type: DisruptionTarget, status: "True"}
-      - action: Ignore
-        onExitCodes: {containerName: bdpt, operator: In, values: [143]}
-      - action: FailJob
-        onExitCodes: {containerName: bdpt, operator: In, values: [2, 3, 4, 5]})";
-
-constexpr const char* how_merge = R"(
-  backoffLimit: 6)";
 
 /// Paths of a plan in a container that has the planned files in /data.
 struct ContainerPlace {
@@ -235,18 +118,21 @@ std::string job_name(const fs::path& folder)
     return result;
 }
 
+// Of the exit codes in its policy, 143 means that the pod was evicted, and has written its part;
+// after 2 to 5, retrying in another pod would not help.
 std::vector<EngineFile> kubernetes_files(const Plan& plan, const fs::path& folder)
 {
     using nlohmann::json;
     const ContainerPlace place = container_place(plan, folder);
     const std::string how_many =
-        filled(how_tasks, {{"COUNT", fmt::format("{}", plan.tasks.size())}});
+        filled(engine_texts::kubernetes_tasks(), {{"COUNT", fmt::format("{}", plan.tasks.size())}});
     const auto format_job = [&](const std::string& name, const std::string& how, const json& args) {
-        return filled(kubernetes_job, {{"HOW", how},
-                                       {"NAME", name},
-                                       {"VERSION", BDPT_VERSION},
-                                       {"WORKING", json(place.working.string()).dump()},
-                                       {"ARGS", args.dump()}});
+        return filled(engine_texts::kubernetes_job(),
+                      {{"HOW", how},
+                       {"NAME", name},
+                       {"VERSION", BDPT_VERSION},
+                       {"WORKING", json(place.working.string()).dump()},
+                       {"ARGS", args.dump()}});
     };
     // Kubernetes replaces $(...) by the index.
     const json task{"render", "--plan", "plan.json", "--task", "$(JOB_COMPLETION_INDEX)",
@@ -254,30 +140,12 @@ std::vector<EngineFile> kubernetes_files(const Plan& plan, const fs::path& folde
     const json merge{"merge", "--plan", "plan.json", "--wait"};
     const std::string name = job_name(folder);
     return {{.name = "kubernetes.yaml",
-             .text = filled(kubernetes_head, {{"SHARED", one_line(place.shared.string())}}) +
+             .text = filled(engine_texts::kubernetes_head(),
+                            {{"SHARED", one_line(place.shared.string())}}) +
                      format_job(name, how_many, task) +
-                     format_job(name + "-merge", how_merge, merge)}};
+                     format_job(name + "-merge", std::string(engine_texts::kubernetes_merge()),
+                                merge)}};
 }
-
-// Tasks are phony: bdpt decides by the samples in a part whether its task is done. By time stamps
-// the checkpoint of a killed task would count as complete.
-constexpr const char* makefile =
-    R"(# make -j4 -k: renders four tasks of plan.json at a time, and merges them.
-# Run it again to render what is missing: complete tasks end at once.
-# make -j4 -k THREADS=8 BDPT=/opt/bdpt/bin/bdpt sets the threads of each task and the path of bdpt.
-BDPT := @PROGRAM@
-THREADS :=
-
-tasks :=@TASKS@
-
-.PHONY: merge $(tasks)
-
-merge: $(tasks)
-	$(BDPT) merge --plan plan.json
-
-$(tasks): task-%:
-	$(BDPT) render --plan plan.json --task $* --quiet $(THREADS:%=--threads %)
-)";
 
 /// Returns the path of this program, quoted for a shell in a makefile. make runs on this machine,
 /// where `bdpt` may be another program, or none.
@@ -292,6 +160,8 @@ std::string this_program()
     return text;
 }
 
+// Tasks are phony: bdpt decides by the samples in a part whether its task is done. By time stamps
+// the checkpoint of a killed task would count as complete.
 std::vector<EngineFile> make_files(const Plan& plan)
 {
     std::string tasks;
@@ -299,7 +169,8 @@ std::vector<EngineFile> make_files(const Plan& plan)
         tasks += fmt::format(" task-{}", i);
     }
     return {{.name = "Makefile",
-             .text = filled(makefile, {{"TASKS", tasks}, {"PROGRAM", this_program()}})}};
+             .text = filled(engine_texts::makefile(),
+                            {{"TASKS", tasks}, {"PROGRAM", this_program()}})}};
 }
 
 }  // namespace

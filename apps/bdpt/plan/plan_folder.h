@@ -4,12 +4,25 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "options/plan_arguments.h"
 #include "plan/plan.h"
 
 namespace bdpt::app {
+
+/// Texts of the files of apps/bdpt/plan/engines, with names like \@COUNT\@ in place of values.
+namespace engine_texts {
+[[nodiscard]] std::string_view submit_sh();
+[[nodiscard]] std::string_view tasks_sbatch();
+[[nodiscard]] std::string_view merge_sbatch();
+[[nodiscard]] std::string_view kubernetes_head();
+[[nodiscard]] std::string_view kubernetes_job();
+[[nodiscard]] std::string_view kubernetes_tasks();
+[[nodiscard]] std::string_view kubernetes_merge();
+[[nodiscard]] std::string_view makefile();
+}  // namespace engine_texts
 
 enum class FileKind : std::uint8_t { text, program };
 

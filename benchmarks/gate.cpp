@@ -1,9 +1,8 @@
 // The gate: tests whether bdpt is as much better than mis as required. Compares the error at equal
 // CPU time in scenes where light is hard to find, and where it is easy.
 
-#include <bdpt/eval/bench/bench_scene.h>
-#include <bdpt/eval/bench/equal_time.h>
-#include <bdpt/eval/bench/reference.h>
+#include <bdpt/eval/bench.h>
+#include <bdpt/eval/equal_time.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/render.h>
 

@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/eval/metrics/metric.h>
+#include <bdpt/eval/metric.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>
 #include <nanobind/nanobind.h>

@@ -1,7 +1,7 @@
 // --exposure: by the light that falls in, not by what it falls on.
 
 #include <bdpt/image.h>
-#include <bdpt/io/exr.h>
+#include <bdpt/io/write_image.h>
 
 #include <algorithm>
 #include <cmath>

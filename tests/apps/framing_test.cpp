@@ -1,6 +1,6 @@
 #include <OpenEXR/ImfMatrixAttribute.h>
 
-#include <bdpt/io/exr.h>
+#include <bdpt/io/write_image.h>
 
 #include <algorithm>
 #include <cmath>

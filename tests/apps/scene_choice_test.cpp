@@ -1,4 +1,4 @@
-#include <bdpt/io/png.h>
+#include <bdpt/io/write_image.h>
 
 #include <cstdint>
 #include <filesystem>

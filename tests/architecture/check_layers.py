@@ -62,10 +62,10 @@ OWN = {
     "lib/include": r"bdpt/(film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
     "lib/src": r"bdpt/(film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
     "lib/io": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
-    "lib/eval": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "apps": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "tests": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "benchmarks": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "lib/eval": r"bdpt/(io/|eval/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
+    "apps": r"bdpt/(io/|eval/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
+    "tests": r"bdpt/(io/|eval/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
+    "benchmarks": r"bdpt/(io/|eval/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
 }
 STANDARD = re.compile(r"[a-z_]+")  # like <vector>; our code does not use the C headers with .h
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)

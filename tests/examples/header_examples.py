@@ -12,7 +12,8 @@ A public header begins with `#pragma once`, an empty line and a comment that exp
     /// const bdpt::Scene scene(std::move(file.scene));
     /// @endcode
 
-The example is the body of a function or, to take parameters, a whole function: then `{` has a line of its own.
+An example is the body of a function or, to take parameters, a whole function: then `{` has a line of its own. A
+header may have several.
 The source file includes all public headers and the usual ones of the standard library.
 """
 
@@ -40,22 +41,22 @@ def find_public_headers(root):
     return sorted(headers)
 
 
-def find_example(text):
-    """Returns the line where a header's example begins, counted from 1, and its lines, indented; or None."""
+def find_examples(text):
+    """Returns, for each example of a header, the line where it begins, counted from 1, and its lines, indented."""
     comment = COMMENT.match(text)
-    example = comment and EXAMPLE.search(comment[1])
-    if not example:
-        return None
-    line = text.count("\n", 0, comment.start(1) + example.start(1)) + 1
-    # Keeps the columns of the header, for compiler messages.
-    return line, ["    " + line[4:] for line in example[1].splitlines()]
+    examples = []
+    for example in EXAMPLE.finditer(comment[1]) if comment else ():
+        line = text.count("\n", 0, comment.start(1) + example.start(1)) + 1
+        # Keeps the columns of the header, for compiler messages.
+        examples.append((line, ["    " + line[4:] for line in example[1].splitlines()]))
+    return examples
 
 
-def write_function(name, file, example):
-    """Returns the text of a namespace with the example of the header `name`."""
+def write_function(name, file, number, example):
+    """Returns the text of a namespace with example `number`, from 0, of the header `name`."""
     line, code = example
     begin, end = ("", "") if "    {" in code else ("void run()\n{\n", "}\n")
-    space = "example_" + re.sub(r"\W", "_", name.removesuffix(".h"))
+    space = "example_" + re.sub(r"\W", "_", name.removesuffix(".h")) + (f"_{number}" if number else "")
     return f'namespace {space} {{\n{begin}#line {line} "{file.as_posix()}"\n' + "\n".join(code) + f"\n{end}}}\n"
 
 
@@ -65,10 +66,9 @@ def source(root):
     errors = [] if headers else [f"{root}: no public headers"]
     functions = []
     for name, file in headers:
-        example = find_example(file.read_text(encoding="utf-8"))
-        if example:
-            functions.append(write_function(name, file, example))
-        elif name not in EXEMPT:
+        examples = find_examples(file.read_text(encoding="utf-8"))
+        functions += [write_function(name, file, number, example) for number, example in enumerate(examples)]
+        if not examples and name not in EXEMPT:
             errors.append(f"{file.relative_to(root).as_posix()}: no example after #pragma once: a comment with "
                           "/// @file, /// @code{.cpp} and /// @endcode")
     includes = [f"#include <{name}>\n" for name in [name for name, _ in headers] + list(STANDARD)]

@@ -25,7 +25,7 @@ WITHOUT = {
     "comment without example": ("lib/include/bdpt/scene.h", "/// @file\n/// Holds a scene.\n\nint i;\n"),
     "empty example": ("lib/include/bdpt/scene.h", "/// @file\n/// @code{.cpp}\n/// @endcode\n\nint i;\n"),
     "example without end": ("lib/include/bdpt/scene.h", "/// @file\n/// @code{.cpp}\n/// f();\n\nint i;\n"),
-    "example of something else": ("lib/eval/include/bdpt/eval/metrics/flip.h",
+    "example of something else": ("lib/eval/include/bdpt/eval/flip.h",
                                   "#include <vector>\n\n/// @code{.cpp}\n/// f();\n/// @endcode\nint i;\n"),
     "example after the includes": ("lib/io/include/bdpt/io/png.h",
                                    "#include <vector>\n\n/// @file\n/// @code{.cpp}\n/// f();\n/// @endcode\n"),

@@ -1,4 +1,4 @@
-#include <bdpt/io/rates_file.h>
+#include <bdpt/io/part_file.h>
 
 #include <algorithm>
 #include <cstddef>

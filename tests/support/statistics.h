@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/eval/statistics/moments.h>
+#include <bdpt/eval/statistics.h>
 #include <bdpt/types.h>
 
 #include <cmath>

@@ -1,9 +1,8 @@
 #include "commands/commands.h"
 
 #include <bdpt/error.h>
-#include <bdpt/eval/bench/bench.h>
-#include <bdpt/eval/bench/bench_scene.h>
-#include <bdpt/eval/report/bench_output.h>
+#include <bdpt/eval/bench.h>
+#include <bdpt/eval/bench_report.h>
 #include <bdpt/io/output_file.h>
 #include <fmt/core.h>
 

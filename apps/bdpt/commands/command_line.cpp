@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/eval/bench/machine.h>
+#include <bdpt/eval/bench.h>
 #include <bdpt/scene.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>

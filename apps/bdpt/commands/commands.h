@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/eval/verify/verify_report.h>
+#include <bdpt/eval/verify.h>
 #include <bdpt/io/denoise.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/job.h>

@@ -1,10 +1,8 @@
 #include "commands/commands.h"
 
-#include <bdpt/eval/compare/compare_files.h>
-#include <bdpt/eval/compare/comparison_json.h>
-#include <bdpt/eval/compare/seed_files.h>
-#include <bdpt/eval/image/false_color.h>
-#include <bdpt/io/png.h>
+#include <bdpt/eval/comparison.h>
+#include <bdpt/eval/drawing.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>
 

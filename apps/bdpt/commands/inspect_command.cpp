@@ -1,7 +1,6 @@
 #include "commands/commands.h"
 
-#include <bdpt/io/exr.h>
-#include <bdpt/io/png.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/render.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>

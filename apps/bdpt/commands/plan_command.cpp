@@ -1,7 +1,7 @@
 #include "commands/commands.h"
 
 #include <bdpt/error.h>
-#include <bdpt/io/rates_file.h>
+#include <bdpt/io/part_file.h>
 #include <bdpt/isa.h>
 #include <bdpt/options/integrators.h>
 #include <bdpt/options/option_fields.h>

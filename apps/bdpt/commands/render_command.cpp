@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/io/image_cache.h>
+#include <bdpt/io/gltf.h>
 #include <fmt/core.h>
 
 #include <cstddef>

@@ -1,7 +1,6 @@
 #include "commands/commands.h"
 
-#include <bdpt/eval/verify/verify.h>
-#include <bdpt/eval/verify/verify_json.h>
+#include <bdpt/eval/verify.h>
 #include <bdpt/render.h>
 #include <fmt/core.h>
 

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <bdpt/eval/bench/bench_options.h>
-#include <bdpt/eval/compare/comparison.h>
-#include <bdpt/eval/compare/threshold.h>
-#include <bdpt/eval/metrics/metric.h>
-#include <bdpt/eval/verify/verify_options.h>
+#include <bdpt/eval/bench.h>
+#include <bdpt/eval/comparison.h>
+#include <bdpt/eval/metric.h>
+#include <bdpt/eval/verify.h>
 
 #include <filesystem>
 #include <optional>

@@ -2,7 +2,7 @@
 
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
-#include <bdpt/io/png.h>
+#include <bdpt/io/write_image.h>
 #include <fmt/core.h>
 #include <sys/stat.h>
 #include <unistd.h>

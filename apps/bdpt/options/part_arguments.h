@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/io/exr.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/part/sample_set.h>
 #include <bdpt/render_options.h>
 

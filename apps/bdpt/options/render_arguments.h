@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bdpt/io/gltf.h>
-#include <bdpt/io/memory_budget.h>
+#include <bdpt/io/read_limits.h>
 #include <bdpt/isa.h>
 #include <bdpt/medium_desc.h>
 #include <bdpt/render.h>

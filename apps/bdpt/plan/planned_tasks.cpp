@@ -1,6 +1,6 @@
 #include "plan/planned_tasks.h"
 
-#include <bdpt/io/file_contents.h>
+#include <bdpt/io/gltf.h>
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "report/eval_text.h"
 
-#include <bdpt/eval/bench/summary.h>
-#include <bdpt/eval/verify/verify_json.h>
+#include <bdpt/eval/bench_report.h>
+#include <bdpt/eval/verify.h>
 #include <bdpt/options/option_fields.h>
 #include <fmt/core.h>
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <bdpt/eval/bench/bench.h>
-#include <bdpt/eval/compare/comparison_report.h>
-#include <bdpt/eval/compare/threshold.h>
-#include <bdpt/eval/verify/verify_options.h>
-#include <bdpt/eval/verify/verify_report.h>
+#include <bdpt/eval/bench.h>
+#include <bdpt/eval/comparison.h>
+#include <bdpt/eval/verify.h>
 
 #include <span>
 #include <string>

@@ -1,7 +1,6 @@
 #include "report/inspect_report.h"
 
-#include <bdpt/eval/image/heat_map.h>
-#include <bdpt/eval/image/pixel_font.h>
+#include <bdpt/eval/drawing.h>
 #include <fmt/core.h>
 
 #include <algorithm>

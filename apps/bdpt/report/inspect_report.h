@@ -2,7 +2,7 @@
 
 #include <bdpt/image.h>
 #include <bdpt/inspect.h>
-#include <bdpt/io/tone_map.h>
+#include <bdpt/io/display.h>
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

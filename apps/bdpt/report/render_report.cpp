@@ -1,11 +1,10 @@
 #include "report/render_report.h"
 
 #include <bdpt/error.h>
-#include <bdpt/eval/image/contact_sheet.h>
-#include <bdpt/eval/image/false_color.h>
+#include <bdpt/eval/drawing.h>
 #include <bdpt/io/output_file.h>
-#include <bdpt/io/png.h>
-#include <bdpt/io/rates_file.h>
+#include <bdpt/io/part_file.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/noise.h>
 #include <bdpt/options/option_fields.h>
 #include <bdpt/version.h>

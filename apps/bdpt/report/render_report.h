@@ -2,8 +2,7 @@
 
 #include <bdpt/film/film.h>
 #include <bdpt/image.h>
-#include <bdpt/io/exr.h>
-#include <bdpt/io/image_metadata.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
 

@@ -3,8 +3,8 @@
 #include <bdpt/default_lights.h>
 #include <bdpt/error.h>
 #include <bdpt/framing.h>
-#include <bdpt/io/environment.h>
-#include <bdpt/io/memory_budget.h>
+#include <bdpt/io/read_image.h>
+#include <bdpt/io/read_limits.h>
 #include <bdpt/io/volume.h>
 #include <bdpt/light/studio_environment.h>
 #include <bdpt/thread_limit.h>

@@ -3,7 +3,7 @@
 #include <bdpt/error.h>
 #include <bdpt/framing.h>
 #include <bdpt/io/gltf.h>
-#include <bdpt/io/rates_file.h>
+#include <bdpt/io/part_file.h>
 #include <bdpt/light/light_meter.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>

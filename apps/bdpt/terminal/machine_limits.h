@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/io/memory_budget.h>
+#include <bdpt/io/read_limits.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -2,7 +2,7 @@
 
 #include <bdpt/error.h>
 #include <bdpt/inspect.h>
-#include <bdpt/io/tone_map.h>
+#include <bdpt/io/display.h>
 #include <bdpt/options/option_fields.h>
 #include <fmt/core.h>
 

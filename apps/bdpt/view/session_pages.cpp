@@ -1,6 +1,6 @@
 // Output to pages.
 
-#include <bdpt/io/tone_map.h>
+#include <bdpt/io/display.h>
 #include <bdpt/options/integrators.h>
 #include <bdpt/options/option_fields.h>
 

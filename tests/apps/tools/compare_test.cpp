@@ -1,5 +1,5 @@
-#include <bdpt/eval/metrics/metric.h>
-#include <bdpt/io/exr.h>
+#include <bdpt/eval/metric.h>
+#include <bdpt/io/write_image.h>
 
 #include <algorithm>
 #include <cmath>

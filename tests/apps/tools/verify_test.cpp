@@ -1,7 +1,6 @@
 #include "commands/commands.h"
 
-#include <bdpt/eval/verify/verify_options.h>
-#include <bdpt/eval/verify/verify_report.h>
+#include <bdpt/eval/verify.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // How images look on a screen: tone curves, backgrounds, depth of .png files, and environments that
 // are turned.
 
-#include <bdpt/io/exr.h>
-#include <bdpt/io/tone_map.h>
+#include <bdpt/io/display.h>
+#include <bdpt/io/write_image.h>
 
 #include <cmath>
 #include <cstddef>

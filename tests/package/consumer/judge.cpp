@@ -1,5 +1,5 @@
 // Holds a flat image against another.
-#include <bdpt/eval/metrics/metric.h>
+#include <bdpt/eval/metric.h>
 #include <bdpt/image.h>
 
 #include <cmath>

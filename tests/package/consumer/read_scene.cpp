@@ -1,9 +1,9 @@
 // Renders the glTF scene of a file under a sky of another one: read_scene SCENE SKY [VOLUME].
 #include <bdpt/error.h>
-#include <bdpt/io/environment.h>
-#include <bdpt/io/exr.h>
 #include <bdpt/io/gltf.h>
+#include <bdpt/io/read_image.h>
 #include <bdpt/io/volume.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/render.h>
 
 #include <cstdio>

@@ -1,9 +1,8 @@
 // Reads an image of one pixel, (1, 1, 1), and writes it as EXR and PNG beside it.
 #include <bdpt/error.h>
-#include <bdpt/io/environment.h>
-#include <bdpt/io/exr.h>
-#include <bdpt/io/png.h>
-#include <bdpt/io/tone_map.h>
+#include <bdpt/io/display.h>
+#include <bdpt/io/read_image.h>
+#include <bdpt/io/write_image.h>
 
 #include <cstdio>
 #include <filesystem>

@@ -1,10 +1,7 @@
-#include <bdpt/eval/bench/bench_options.h>
-#include <bdpt/eval/bench/bench_scene.h>
-#include <bdpt/eval/bench/error_floor.h>
-#include <bdpt/eval/bench/integrator_kinds.h>
-#include <bdpt/eval/bench/reference.h>
-#include <bdpt/eval/image/shrunk.h>
-#include <bdpt/eval/report/packed_image.h>
+#include <bdpt/eval/bench.h>
+#include <bdpt/eval/bench_report.h>
+#include <bdpt/eval/drawing.h>
+#include <bdpt/eval/page.h>
 #include <bdpt/options/integrators.h>
 #include <bdpt/options/option_fields.h>
 

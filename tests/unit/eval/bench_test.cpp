@@ -1,9 +1,9 @@
 #include <bdpt/error.h>
-#include <bdpt/eval/bench/bench.h>
-#include <bdpt/eval/metrics/metric.h>
-#include <bdpt/eval/report/bench_output.h>
-#include <bdpt/io/exr.h>
+#include <bdpt/eval/bench.h>
+#include <bdpt/eval/bench_report.h>
+#include <bdpt/eval/metric.h>
 #include <bdpt/io/read_image.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/render.h>
 
 #include <algorithm>

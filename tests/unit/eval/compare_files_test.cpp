@@ -1,7 +1,6 @@
 #include <bdpt/error.h>
-#include <bdpt/eval/compare/compare_files.h>
-#include <bdpt/eval/compare/seed_files.h>
-#include <bdpt/io/exr.h>
+#include <bdpt/eval/comparison.h>
+#include <bdpt/io/write_image.h>
 
 #include <filesystem>
 #include <string>

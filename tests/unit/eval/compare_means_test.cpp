@@ -5,7 +5,7 @@
 #include "verify/second_moment.h"
 #include "verify/tile_grid.h"
 
-#include <bdpt/eval/statistics/student.h>
+#include <bdpt/eval/statistics.h>
 
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/eval/compare/comparison.h>
-#include <bdpt/eval/compare/comparison_json.h>
+#include <bdpt/eval/comparison.h>
 
 #include <cmath>
 #include <limits>

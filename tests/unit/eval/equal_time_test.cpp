@@ -1,5 +1,5 @@
-#include <bdpt/eval/bench/equal_time.h>
-#include <bdpt/eval/metrics/metric.h>
+#include <bdpt/eval/equal_time.h>
+#include <bdpt/eval/metric.h>
 #include <bdpt/render.h>
 
 #include <array>

@@ -1,5 +1,4 @@
-#include <bdpt/eval/image/false_color.h>
-#include <bdpt/eval/image/heat_map.h>
+#include <bdpt/eval/drawing.h>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,4 @@
-#include <bdpt/eval/metrics/flip.h>
-#include <bdpt/eval/metrics/metric.h>
+#include <bdpt/eval/metric.h>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/eval/metrics/metric.h>
+#include <bdpt/eval/metric.h>
 
 #include <cmath>
 #include <limits>

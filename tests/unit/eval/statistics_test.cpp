@@ -1,7 +1,4 @@
-#include <bdpt/eval/statistics/block_mean.h>
-#include <bdpt/eval/statistics/holm.h>
-#include <bdpt/eval/statistics/moments.h>
-#include <bdpt/eval/statistics/student.h>
+#include <bdpt/eval/statistics.h>
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
-#include <bdpt/eval/bench/summary.h>
-#include <bdpt/eval/statistics/spread.h>
+#include <bdpt/eval/bench_report.h>
+#include <bdpt/eval/statistics.h>
 
 #include <cmath>
 #include <vector>

@@ -3,7 +3,7 @@
 #include "verify/roulette.h"
 #include "verify/verdict.h"
 
-#include <bdpt/eval/verify/verify.h>
+#include <bdpt/eval/verify.h>
 
 #include "catch.hpp"
 #include "scene_builder.h"

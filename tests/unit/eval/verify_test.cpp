@@ -1,8 +1,7 @@
 // bdpt::eval::verify() on small scenes.
 
 #include <bdpt/error.h>
-#include <bdpt/eval/verify/verify.h>
-#include <bdpt/eval/verify/verify_json.h>
+#include <bdpt/eval/verify.h>
 
 #include "catch.hpp"
 #include "scene_builder.h"

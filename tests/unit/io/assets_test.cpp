@@ -4,7 +4,7 @@
 #include "gltf_fixture.h"
 
 #include <bdpt/framing.h>
-#include <bdpt/io/environment.h>
+#include <bdpt/io/read_image.h>
 #include <bdpt/render.h>
 
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 #include "catch.hpp"
 
 #include <bdpt/error.h>
-#include <bdpt/io/memory_budget.h>
+#include <bdpt/io/read_limits.h>
 
 #include <string>
 

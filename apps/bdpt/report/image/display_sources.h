@@ -1,8 +1,7 @@
 #pragma once
 
 #include <bdpt/image.h>
-#include <bdpt/io/exr.h>
-#include <bdpt/io/image_metadata.h>
+#include <bdpt/io/write_image.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,9 +1,7 @@
 #include "report/image/image_files.h"
 
 #include <bdpt/io/display.h>
-#include <bdpt/io/picture.h>
-#include <bdpt/io/png.h>
-#include <bdpt/io/tone_map.h>
+#include <bdpt/io/write_image.h>
 #include <fmt/core.h>
 
 #include <algorithm>

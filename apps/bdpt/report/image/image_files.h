@@ -3,8 +3,7 @@
 #include <bdpt/error.h>
 #include <bdpt/image.h>
 #include <bdpt/io/denoise.h>
-#include <bdpt/io/exr.h>
-#include <bdpt/io/image_metadata.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/part/render_result.h>
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "view/server/page.h"
 
-#include <bdpt/eval/report/page_text.h>
+#include <bdpt/eval/page.h>
 #include <bdpt/version.h>
 
 #include <bit>

@@ -1,10 +1,10 @@
-#include <bdpt/eval/bench/bench.h>
+#include <bdpt/eval/bench.h>
 #include <bdpt/options/option_fields.h>
 
 #include <bdpt/error.h>
-#include <bdpt/eval/bench/error_floor.h>
-#include <bdpt/io/exr.h>
+#include <bdpt/eval/bench_report.h>
 #include <bdpt/io/read_image.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/version.h>
 
 #include <algorithm>

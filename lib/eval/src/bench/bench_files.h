@@ -1,8 +1,6 @@
 #pragma once
 
-#include <bdpt/eval/bench/bench_options.h>
-#include <bdpt/eval/bench/bench_run.h>
-#include <bdpt/eval/bench/bench_scene.h>
+#include <bdpt/eval/bench.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,9 +1,9 @@
-#include <bdpt/eval/bench/reference.h>
+#include <bdpt/eval/bench.h>
 
 #include <algorithm>
 #include <cstddef>
 
-#include <bdpt/eval/metrics/metric.h>
+#include <bdpt/eval/metric.h>
 
 namespace bdpt::eval {
 namespace {

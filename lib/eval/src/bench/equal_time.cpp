@@ -1,4 +1,4 @@
-#include <bdpt/eval/bench/equal_time.h>
+#include <bdpt/eval/equal_time.h>
 
 #include <algorithm>
 #include <cstddef>

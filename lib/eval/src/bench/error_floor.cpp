@@ -1,6 +1,6 @@
-#include <bdpt/eval/bench/error_floor.h>
-#include <bdpt/eval/bench/reference.h>
-#include <bdpt/eval/statistics/moments.h>
+#include <bdpt/eval/bench.h>
+#include <bdpt/eval/bench_report.h>
+#include <bdpt/eval/statistics.h>
 
 #include <cstddef>
 

@@ -1,4 +1,4 @@
-#include <bdpt/eval/bench/integrator_kinds.h>
+#include <bdpt/eval/bench.h>
 #include <bdpt/options/integrators.h>
 
 namespace bdpt::eval {

@@ -1,4 +1,4 @@
-#include <bdpt/eval/bench/machine.h>
+#include <bdpt/eval/bench.h>
 
 #include <tbb/info.h>
 

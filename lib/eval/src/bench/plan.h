@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/eval/bench/bench.h>
+#include <bdpt/eval/bench.h>
 
 #include <cstdint>
 #include <filesystem>

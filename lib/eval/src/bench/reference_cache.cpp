@@ -1,8 +1,8 @@
 #include "bench/reference_cache.h"
 
 #include <bdpt/error.h>
-#include <bdpt/io/exr.h>
 #include <bdpt/io/read_image.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/options/option_fields.h>
 #include <bdpt/version.h>
 
@@ -126,9 +126,9 @@ std::optional<KeyedReference> kept_reference(const std::string& key, const Bench
     const auto origin = facts->find("origin");
     if (noise == facts->end() || !noise->is_number() || origin == facts->end() ||
         !origin->is_string()) {
-        throw Error(ErrorCode::invalid_input,
-                    facts_file.string() +
-                        ": is incomplete; delete it to render the reference again");
+        throw Error(
+            ErrorCode::invalid_input,
+            facts_file.string() + ": is incomplete; delete it to render the reference again");
     }
     const fs::path file = files.reference_image(key);
     Reference reference{.image = io::read_image(file).image,

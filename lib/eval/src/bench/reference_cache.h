@@ -1,7 +1,6 @@
 #pragma once
 
-#include <bdpt/eval/bench/bench.h>
-#include <bdpt/eval/bench/reference.h>
+#include <bdpt/eval/bench.h>
 
 #include <filesystem>
 #include <optional>

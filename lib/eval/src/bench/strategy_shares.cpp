@@ -1,7 +1,7 @@
 #include "bench/strategy_shares.h"
 
-#include <bdpt/eval/image/shrunk.h>
-#include <bdpt/eval/report/packed_image.h>
+#include <bdpt/eval/drawing.h>
+#include <bdpt/eval/page.h>
 #include <bdpt/render.h>
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <bdpt/eval/bench/bench.h>
-#include <bdpt/eval/bench/reference.h>
+#include <bdpt/eval/bench.h>
 
 #include "bench/bench_files.h"
 #include "bench/progress_meter.h"

@@ -1,4 +1,4 @@
-#include <bdpt/eval/bench/summary.h>
+#include <bdpt/eval/bench_report.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "bench/trial.h"
 
-#include <bdpt/eval/bench/cpu_seconds.h>
-#include <bdpt/eval/metrics/metric.h>
+#include <bdpt/eval/bench.h>
+#include <bdpt/eval/metric.h>
 
 #include <algorithm>
 #include <chrono>

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <bdpt/eval/bench/bench.h>
-#include <bdpt/eval/bench/bench_run.h>
-#include <bdpt/eval/bench/reference.h>
+#include <bdpt/eval/bench.h>
 #include <bdpt/film/film.h>
 #include <bdpt/render.h>
 

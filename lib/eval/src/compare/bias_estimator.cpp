@@ -1,9 +1,7 @@
 #include "compare/tiles.h"
 
-#include <bdpt/eval/compare/bias_estimator.h>
-#include <bdpt/eval/statistics/block_mean.h>
-#include <bdpt/eval/statistics/holm.h>
-#include <bdpt/eval/statistics/student.h>
+#include <bdpt/eval/comparison.h>
+#include <bdpt/eval/statistics.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/eval/compare/compare_files.h>
+#include <bdpt/eval/comparison.h>
 #include <bdpt/io/read_image.h>
 
 #include <algorithm>

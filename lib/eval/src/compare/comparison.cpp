@@ -2,7 +2,7 @@
 #include "metrics/check_images.h"
 
 #include <bdpt/error.h>
-#include <bdpt/eval/compare/comparison.h>
+#include <bdpt/eval/comparison.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <bdpt/eval/compare/comparison_json.h>
+#include <bdpt/eval/comparison.h>
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/eval/compare/seed_files.h>
+#include <bdpt/eval/comparison.h>
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/eval/compare/threshold.h>
+#include <bdpt/eval/comparison.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,4 @@
-#include <bdpt/eval/image/contact_sheet.h>
-#include <bdpt/eval/image/pixel_font.h>
-#include <bdpt/eval/image/shrunk.h>
+#include <bdpt/eval/drawing.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,4 @@
-#include <bdpt/eval/image/false_color.h>
-#include <bdpt/eval/image/heat_map.h>
-#include <bdpt/eval/image/pixel_font.h>
+#include <bdpt/eval/drawing.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/eval/image/pixel_font.h>
+#include <bdpt/eval/drawing.h>
 
 #include <array>
 #include <string_view>

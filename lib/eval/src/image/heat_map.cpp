@@ -1,7 +1,7 @@
 #include "metrics/color_spaces.h"
 
-#include <bdpt/eval/image/heat_map.h>
-#include <bdpt/io/tone_map.h>
+#include <bdpt/eval/drawing.h>
+#include <bdpt/io/display.h>
 
 #include <glm/geometric.hpp>
 

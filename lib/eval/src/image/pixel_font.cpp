@@ -1,6 +1,6 @@
 #include "image/glyphs.h"
 
-#include <bdpt/eval/image/pixel_font.h>
+#include <bdpt/eval/drawing.h>
 
 #include <algorithm>
 #include <cstddef>

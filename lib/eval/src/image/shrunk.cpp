@@ -1,4 +1,4 @@
-#include <bdpt/eval/image/shrunk.h>
+#include <bdpt/eval/drawing.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #include "metrics/color_spaces.h"
 #include "metrics/convolution.h"
 
-#include <bdpt/eval/metrics/flip.h>
+#include <bdpt/eval/metric.h>
 
 #include <oneapi/tbb/parallel_for.h>
 #include <glm/common.hpp>

@@ -1,6 +1,6 @@
 #include "metrics/aces_curve.h"
 
-#include <bdpt/eval/metrics/flip.h>
+#include <bdpt/eval/metric.h>
 
 #include <algorithm>
 #include <cmath>

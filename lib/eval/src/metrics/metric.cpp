@@ -1,8 +1,8 @@
 #include "metrics/check_images.h"
 
-#include <bdpt/eval/image/shrunk.h>
-#include <bdpt/eval/metrics/metric.h>
-#include <bdpt/io/tone_map.h>
+#include <bdpt/eval/drawing.h>
+#include <bdpt/eval/metric.h>
+#include <bdpt/io/display.h>
 
 #include <algorithm>
 #include <array>

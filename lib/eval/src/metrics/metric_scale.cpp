@@ -1,6 +1,6 @@
 #include <bdpt/error.h>
-#include <bdpt/eval/metrics/metric_scale.h>
-#include <bdpt/io/tone_map.h>
+#include <bdpt/eval/metric.h>
+#include <bdpt/io/display.h>
 
 #include <algorithm>
 #include <cmath>

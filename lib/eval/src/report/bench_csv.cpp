@@ -1,4 +1,4 @@
-#include <bdpt/eval/report/bench_output.h>
+#include <bdpt/eval/bench_report.h>
 #include <bdpt/options/option_fields.h>
 #include <bdpt/version.h>
 

@@ -1,8 +1,7 @@
-#include <bdpt/eval/report/bench_output.h>
-#include <bdpt/eval/report/packed_image.h>
-#include <bdpt/eval/report/page_text.h>
+#include <bdpt/eval/bench_report.h>
+#include <bdpt/eval/page.h>
+#include <bdpt/io/display.h>
 #include <bdpt/io/read_image.h>
-#include <bdpt/io/tone_map.h>
 #include <bdpt/options/option_fields.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/eval/report/packed_image.h>
+#include <bdpt/eval/page.h>
 #include <zlib.h>
 
 #include <algorithm>

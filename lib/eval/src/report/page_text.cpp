@@ -1,5 +1,5 @@
-#include <bdpt/eval/image/heat_map.h>
-#include <bdpt/eval/report/page_text.h>
+#include <bdpt/eval/drawing.h>
+#include <bdpt/eval/page.h>
 
 #include <cstddef>
 #include <cstdint>

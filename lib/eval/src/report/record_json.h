@@ -1,7 +1,6 @@
 #pragma once
 
-#include <bdpt/eval/bench/summary.h>
-#include <bdpt/eval/report/bench_output.h>
+#include <bdpt/eval/bench_report.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,4 +1,4 @@
-#include <bdpt/eval/statistics/block_mean.h>
+#include <bdpt/eval/statistics.h>
 
 #include <algorithm>
 #include <cmath>

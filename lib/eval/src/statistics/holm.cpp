@@ -1,4 +1,4 @@
-#include <bdpt/eval/statistics/holm.h>
+#include <bdpt/eval/statistics.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "verify/compare_means.h"
 
-#include <bdpt/eval/statistics/student.h>
+#include <bdpt/eval/statistics.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <bdpt/eval/statistics/moments.h>
-#include <bdpt/eval/verify/verify_report.h>
+#include <bdpt/eval/statistics.h>
+#include <bdpt/eval/verify.h>
 
 #include <cstddef>
 

@@ -4,8 +4,8 @@
 #include "verify/path_sums.h"
 #include "verify/radiance_sums.h"
 
-#include <bdpt/eval/statistics/moments.h>
-#include <bdpt/eval/verify/verify_options.h>
+#include <bdpt/eval/statistics.h>
+#include <bdpt/eval/verify.h>
 #include <bdpt/film/film.h>
 
 #include <array>

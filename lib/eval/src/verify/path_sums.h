@@ -5,7 +5,7 @@
 #include "verify/second_moment.h"
 #include "verify/tile_grid.h"
 
-#include <bdpt/eval/verify/verify_report.h>
+#include <bdpt/eval/verify.h>
 #include <bdpt/path_contribution.h>
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 
 #include "verify/evidence.h"
 
-#include <bdpt/eval/verify/verify_options.h>
+#include <bdpt/eval/verify.h>
 #include <bdpt/scene.h>
 #include <bdpt/scene_desc.h>
 

@@ -2,8 +2,7 @@
 
 #include "verify/evidence.h"
 
-#include <bdpt/eval/verify/verify_options.h>
-#include <bdpt/eval/verify/verify_report.h>
+#include <bdpt/eval/verify.h>
 
 namespace bdpt::eval {
 

@@ -3,7 +3,7 @@
 #include "verify/compare_evidence.h"
 #include "verify/sharpness.h"
 
-#include <bdpt/eval/statistics/holm.h>
+#include <bdpt/eval/statistics.h>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <bdpt/eval/verify/verify.h>
+#include <bdpt/eval/verify.h>
 
 #include "verify/evidence.h"
 #include "verify/render_batch.h"

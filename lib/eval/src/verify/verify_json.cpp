@@ -1,4 +1,4 @@
-#include <bdpt/eval/verify/verify_json.h>
+#include <bdpt/eval/verify.h>
 #include <bdpt/options/option_fields.h>
 
 #include <nlohmann/json.hpp>

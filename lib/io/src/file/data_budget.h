@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 
 #include <cstdint>

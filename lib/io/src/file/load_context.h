@@ -4,7 +4,7 @@
 #include "file/uri.h"
 #include "file/warnings.h"
 
-#include <bdpt/io/image_cache.h>
+#include <bdpt/io/gltf.h>
 #include <bdpt/io/read_limits.h>
 
 #include <memory>

@@ -1,4 +1,4 @@
-#include <bdpt/io/memory_budget.h>
+#include <bdpt/io/read_limits.h>
 
 #include "file/read_file.h"
 

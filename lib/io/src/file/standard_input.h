@@ -2,7 +2,7 @@
 
 #include "file/bytes.h"
 
-#include <bdpt/io/memory_budget.h>
+#include <bdpt/io/read_limits.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include <bdpt/io/image_cache.h>
+#include <bdpt/io/gltf.h>
 
 namespace bdpt::io {
 

@@ -1,4 +1,4 @@
-#include <bdpt/io/exr.h>
+#include <bdpt/io/write_image.h>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

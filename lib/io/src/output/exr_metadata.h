@@ -1,7 +1,7 @@
 #pragma once
 
 #include <OpenEXR/ImfHeader.h>
-#include <bdpt/io/image_metadata.h>
+#include <bdpt/io/write_image.h>
 
 namespace bdpt::io {
 

@@ -1,4 +1,4 @@
-#include <bdpt/io/image_metadata.h>
+#include <bdpt/io/write_image.h>
 #include <fmt/chrono.h>
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include <bdpt/io/picture.h>
+#include <bdpt/io/write_image.h>
 
 #include <cstdio>  // required by the header of libjpeg
 

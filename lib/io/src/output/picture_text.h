@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/io/png.h>
+#include <bdpt/io/write_image.h>
 
 #include <string>
 #include <utility>

@@ -1,4 +1,4 @@
-#include <bdpt/io/tone_curve.h>
+#include <bdpt/io/display.h>
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>

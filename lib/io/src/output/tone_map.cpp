@@ -1,5 +1,4 @@
 #include <bdpt/io/display.h>
-#include <bdpt/io/tone_map.h>
 
 #include <algorithm>
 #include <cmath>

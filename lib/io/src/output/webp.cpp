@@ -1,4 +1,4 @@
-#include <bdpt/io/picture.h>
+#include <bdpt/io/write_image.h>
 
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>

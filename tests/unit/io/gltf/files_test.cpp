@@ -3,7 +3,7 @@
 #include "file/named_errors.h"
 #include "file/uri.h"
 
-#include <bdpt/io/file_contents.h>
+#include <bdpt/io/gltf.h>
 #include <sys/resource.h>
 
 #include <algorithm>

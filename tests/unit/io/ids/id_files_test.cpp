@@ -1,7 +1,7 @@
 #include <bdpt/error.h>
-#include <bdpt/io/exr.h>
 #include <bdpt/io/output_file.h>
 #include <bdpt/io/part_file.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/render.h>
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include "../gltf_fixture.h"
 #include "catch.hpp"
 
-#include <bdpt/io/environment.h>
+#include <bdpt/io/read_image.h>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

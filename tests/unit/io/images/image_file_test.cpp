@@ -1,6 +1,6 @@
 #include <bdpt/error.h>
-#include <bdpt/io/exr.h>
 #include <bdpt/io/read_image.h>
+#include <bdpt/io/write_image.h>
 
 #include <cmath>
 #include <limits>

@@ -5,9 +5,8 @@
 #include "scratch_folder.h"
 
 #include <bdpt/error.h>
-#include <bdpt/io/environment.h>
-#include <bdpt/io/picture.h>
 #include <bdpt/io/read_image.h>
+#include <bdpt/io/write_image.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "catch.hpp"
 
 #include <bdpt/error.h>
-#include <bdpt/io/environment.h>
+#include <bdpt/io/read_image.h>
 
 #include <optional>
 

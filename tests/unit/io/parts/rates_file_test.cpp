@@ -1,8 +1,7 @@
-#include <bdpt/io/rates_file.h>
+#include <bdpt/io/part_file.h>
 
 #include <bdpt/error.h>
-#include <bdpt/io/exr.h>
-#include <bdpt/io/part_file.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/render.h>
 
 #include <cstddef>

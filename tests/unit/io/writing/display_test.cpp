@@ -1,7 +1,6 @@
 #include <bdpt/error.h>
 #include <bdpt/io/display.h>
-#include <bdpt/io/png.h>
-#include <bdpt/io/tone_map.h>
+#include <bdpt/io/write_image.h>
 
 #include <cmath>
 #include <cstddef>

@@ -1,7 +1,6 @@
 #include <bdpt/error.h>
-#include <bdpt/io/exr.h>
 #include <bdpt/io/output_file.h>
-#include <bdpt/io/png.h>
+#include <bdpt/io/write_image.h>
 #include <sys/resource.h>
 
 #include <cmath>

@@ -1,5 +1,4 @@
-#include <bdpt/io/tone_curve.h>
-#include <bdpt/io/tone_map.h>
+#include <bdpt/io/display.h>
 
 #include <algorithm>
 #include <array>

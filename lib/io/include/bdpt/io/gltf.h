@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Reads glTF files.
+/// Reads glTF files, and tells whether the files of a scene have changed.
 ///
 /// @code{.cpp}
 /// bdpt::io::GltfOptions options;
@@ -13,24 +13,54 @@
 /// }
 /// const bdpt::Scene scene(std::move(file.scene));
 /// @endcode
+///
+/// @code{.cpp}
+/// for (const bdpt::io::FileContent& file : bdpt::io::gltf_file_contents("room.gltf")) {
+///     const std::string hash = file.hash ? bdpt::to_string(*file.hash) : "not readable";
+///     std::cout << file.name << ": " << hash << '\n';
+/// }
+/// @endcode
 
 #include <bdpt/export.h>
-#include <bdpt/io/image_cache.h>
-#include <bdpt/io/memory_budget.h>
+#include <bdpt/image.h>
 #include <bdpt/io/read_limits.h>
+#include <bdpt/part/content_hash.h>
 #include <bdpt/scene_desc.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace bdpt::io {
+
+/// Cache of decoded images, keyed by the hash of their encoded bytes, for callers that load a file
+/// repeatedly, as for the frames of an animation. Used by one load at a time.
+class BDPT_EXPORT ImageCache {
+public:
+    /// Keeps images of up to `max_bytes` in total: the first ones, as repeated loads of a file
+    /// request them in the same order.
+    explicit ImageCache(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
+
+    /// Returns the image decoded from bytes of this hash; null if it was not kept.
+    [[nodiscard]] const TexelImage* find(const ContentHash& encoded) const;
+    /// Keeps a copy of `image`, if there is room.
+    void keep(const ContentHash& encoded, const TexelImage& image);
+    /// Returns the memory of the images [bytes].
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+private:
+    std::uint64_t max_bytes_;
+    std::uint64_t bytes_ = 0;
+    std::map<std::pair<std::uint64_t, std::uint64_t>, TexelImage> images_;
+};
 
 /// Times at which the shutter opens and closes [s], relative to `GltfOptions::time`; `close` is not
 /// before `open`.
@@ -162,9 +192,30 @@ struct LoadedScene {
                                                     const ReadLimits& limits = {});
 
 /// Returns all files that a document names, used or not, as `LoadedScene::files`, from its JSON
-/// alone; `allowed` are `GltfOptions::allowed_folders`. Throws `Error` as `read_gltf_facts`, and for
-/// URIs that `load_gltf` refuses.
+/// alone; `allowed` are `GltfOptions::allowed_folders`. Throws `Error` as `read_gltf_facts`, and
+/// for URIs that `load_gltf` refuses.
 [[nodiscard]] BDPT_EXPORT std::vector<std::filesystem::path> read_gltf_files(
+    const std::filesystem::path& file, const ReadLimits& limits = {},
+    const std::vector<std::filesystem::path>& allowed = {});
+
+/// Content hash of a file that a scene is read from.
+struct FileContent {
+    std::string name;  ///< file name of the scene; of other files the URI in the scene
+    std::optional<ContentHash> hash;  ///< hash of all its bytes; none: it cannot be read
+    [[nodiscard]] bool operator==(const FileContent&) const = default;
+};
+
+/// Hashes all bytes of `file`. Throws `Error`, whose message starts with the file's path: not_found
+/// if it cannot be read, invalid_input if it is over a limit.
+[[nodiscard]] BDPT_EXPORT ContentHash hash_of_file(const std::filesystem::path& file,
+                                                   const ReadLimits& limits = {});
+
+/// Hashes a .gltf or .glb file and then all files that it refers to, used or not, by name: buffers,
+/// images and light profiles, also in the `allowed` folders (`GltfOptions::allowed_folders`). Equal
+/// contents load as equal scenes, at any time of their animations. Throws `Error`, whose message
+/// starts with the file's path: not_found, or invalid_input for a file that is no glTF document or
+/// over a limit.
+[[nodiscard]] BDPT_EXPORT std::vector<FileContent> gltf_file_contents(
     const std::filesystem::path& file, const ReadLimits& limits = {},
     const std::vector<std::filesystem::path>& allowed = {});
 

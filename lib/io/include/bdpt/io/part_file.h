@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// Keeps the samples of a render in files, to go on later or to merge those of several machines.
+/// Keeps the samples of a render in files, to go on later or to merge those of several machines;
+/// and the rates of an adaptive render, for all machines that take part.
 ///
 /// @code{.cpp}
 /// bdpt::RenderResult merged(const std::vector<std::filesystem::path>& files)
@@ -13,13 +14,23 @@
 ///     return sum;
 /// }
 /// @endcode
+///
+/// @code{.cpp}
+/// void write_rates_for_farm(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     bdpt::io::write_rates("rates.exr", bdpt::sample_rates(scene, camera, {}), {});
+///     const bdpt::SampleRates rates = bdpt::io::read_rates("rates.exr");  // on each machine
+///     std::cout << rates.mean() << " samples a round\n";
+/// }
+/// @endcode
 
 #include <bdpt/export.h>
-#include <bdpt/io/image_metadata.h>
-#include <bdpt/io/memory_budget.h>
+#include <bdpt/io/read_limits.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/part/content_hash.h>
 #include <bdpt/part/identity.h>
 #include <bdpt/part/render_result.h>
+#include <bdpt/part/sample_rates.h>
 #include <bdpt/part/sample_set.h>
 
 #include <cstdint>
@@ -79,5 +90,15 @@ BDPT_EXPORT PartWrite write_part(const std::filesystem::path& file, const Render
 /// taken from `memory`, if given.
 BDPT_EXPORT void merge_part(RenderResult& part, const PartInfo& info,
                             MemoryBudget* memory = nullptr);
+
+/// Writes rates as an OpenEXR image of halves, which hold them exactly: R, G and B are the samples
+/// that the pixel takes in a round, 0.25 to 4. Written atomically. Throws `Error` (output).
+BDPT_EXPORT void write_rates(const std::filesystem::path& file, const SampleRates& rates,
+                             const ImageMetadata& metadata);
+
+/// Reads a file in the format of `write_rates`, whoever made it. Throws `Error`, whose message
+/// starts with the file's path: those of `read_image`, and invalid_input for a cropped image and
+/// for pixels that are no power of two from 1/4 to 4.
+[[nodiscard]] BDPT_EXPORT SampleRates read_rates(const std::filesystem::path& file);
 
 }  // namespace bdpt::io

@@ -11,7 +11,6 @@
 /// @endcode
 
 #include <bdpt/export.h>
-#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 #include <bdpt/volume_desc.h>
 

@@ -1,4 +1,4 @@
-#include <bdpt/io/file_contents.h>
+#include <bdpt/io/gltf.h>
 
 #include "file/json.h"
 #include "file/load_context.h"

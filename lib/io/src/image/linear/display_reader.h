@@ -4,7 +4,6 @@
 #include "file/warnings.h"
 
 #include <bdpt/image.h>
-#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 
 namespace bdpt::io {

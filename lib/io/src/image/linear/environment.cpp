@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/io/environment.h>
+#include <bdpt/io/read_image.h>
 
 #include "file/file_kind.h"
 #include "file/memory_costs.h"

@@ -5,7 +5,6 @@
 #include "image/linear/row_sink.h"
 
 #include <bdpt/image.h>
-#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 #include <bdpt/pixel_rect.h>
 

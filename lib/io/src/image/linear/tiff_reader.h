@@ -3,7 +3,6 @@
 #include "file/bytes.h"
 
 #include <bdpt/image.h>
-#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 
 namespace bdpt::io {

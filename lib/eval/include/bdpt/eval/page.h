@@ -1,7 +1,14 @@
 #pragma once
 
 /// @file
-/// Packs images for pages of HTML.
+/// Fills pages of HTML with texts, numbers and images.
+///
+/// @code{.cpp}
+/// const std::string data = bdpt::eval::script_safe(R"({"scene": "room"})");
+/// const std::string page =
+///     bdpt::eval::fill_page("<script>show({{DATA}}, '{{HEAT}}')</script>",
+///                           {{"DATA", data}, {"HEAT", bdpt::eval::heat_text()}});
+/// @endcode
 ///
 /// @code{.cpp}
 /// std::string pixels_for_page(const bdpt::Image& image, double mean)
@@ -16,9 +23,25 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+// Building blocks of HTML pages. Their parts that show images, colours and numbers are shared:
+// lib/eval/src/report/page.
+
 namespace bdpt::eval {
+
+/// Returns the colours of the heat map from 0 to 1, six hexadecimal digits each.
+[[nodiscard]] BDPT_EXPORT std::string heat_text();
+
+/// Escapes JSON so that no HTML parser finds the end of a script in it.
+[[nodiscard]] BDPT_EXPORT std::string script_safe(std::string_view json);
+
+/// Replaces each word in double braces in `text` by its value.
+[[nodiscard]] BDPT_EXPORT std::string fill_page(
+    std::string_view text,
+    const std::vector<std::pair<std::string_view, std::string_view>>& values);
 
 /// Packs red, green and blue with 9 bits each and a shared exponent of 5 bits
 /// [EXT_texture_shared_exponent]: the greatest component keeps a relative error of 2^-9. `rgb` is

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Holds the findings of a verification.
+/// Tests whether all strategies and integrators agree on a scene.
 ///
 /// @code{.cpp}
 /// void print_failures(const bdpt::eval::VerifyReport& report)
@@ -13,17 +13,89 @@
 ///     }
 /// }
 /// @endcode
+///
+/// @code{.cpp}
+/// bool agree(const bdpt::Scene& scene, const bdpt::CameraDesc& camera)
+/// {
+///     const bdpt::eval::VerifyOptions options = {.max_depth = 4, .seconds = 30.0};
+///     const bdpt::eval::VerifyReport report = bdpt::eval::verify(scene, camera, options);
+///     return report.verdict == bdpt::eval::Verdict::pass;
+/// }
+/// @endcode
 
+#include <bdpt/export.h>
 #include <bdpt/film/film.h>
 #include <bdpt/pixel_rect.h>
 #include <bdpt/render_options.h>
+#include <bdpt/scene.h>
+#include <bdpt/scene_desc.h>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace bdpt::eval {
+
+/// Samples per pixel of a batch. bdpt and mis take most of the time, as the sharpness of the
+/// verdict depends on them: mis alone checks light that only one strategy of bdpt can find.
+constexpr int bdpt_samples = 32;
+constexpr int mis_samples = 64;    ///< samples of mis
+constexpr int other_samples = 16;  ///< samples of pt, nee, lt and vcm
+/// Samples of pt for paths of one edge: a single ray each, and visible area lights are often small.
+constexpr int direct_samples = 64;
+
+/// Options of `verify`: its paths, confidence and sharpness.
+struct VerifyOptions {
+    int width = 32;  ///< [pixels]
+    int height = 32;
+    /// Tiles along each side of the image; not more than pixels.
+    int grid = 4;
+    /// Maximum path length that is tested [edges], at least 1.
+    int max_depth = 5;
+    /// Light paths per camera path, the number of light paths that a camera path is connected to,
+    /// and the number of chosen connections, of bdpt; see `BidirectionalOptions`.
+    double light_paths = 1.0;
+    std::optional<double> connections{};
+    double connection_rays = 0.0;
+    /// If set, `vcm` with this `BidirectionalOptions::merge_radius` is compared with bdpt as well;
+    /// its image is unbiased in the limit of a radius of 0.
+    std::optional<double> merge_radius{};
+    /// A radius at which merging carries much of the light of 32 x 32 pixels but blurs little.
+    static constexpr double small_merge_radius = 0.02;
+    /// Light samples at each vertex of a camera path, of all integrators but lt and pt, in [1,
+    /// 1024].
+    int light_samples = 1;
+    /// Probability of `Verdict::fail` for a correct renderer.
+    double false_alarm = 1e-3;
+    /// Relative error of the image's mean that must be found with a probability of 90 % if a
+    /// strategy causes it; else the verdict is `inconclusive`.
+    double detectable_bias = 0.01;
+    double seconds = 120.0;  ///< time after which no more batches start [s]
+    std::int64_t max_batches = std::numeric_limits<std::int64_t>::max();
+    std::uint64_t seed = 0;
+    int threads = 0;  ///< 0: one per hardware thread; does not change a batch's result
+};
+
+/// Progress of `verify`.
+struct VerifyProgress {
+    std::int64_t batches = 0;
+    double seconds = 0.0;  ///< time since the start [s]
+    /// Current value of the error that `VerifyOptions::detectable_bias` limits.
+    double detectable = 1.0;
+};
+
+/// Hooks by which a caller watches and stops `verify`. All are optional.
+struct VerifyControl {
+    /// A request ends the renders; the verdict is based on the batches so far.
+    std::stop_token stop;
+    /// Called now and then on the thread that called verify().
+    std::function<void(const VerifyProgress&)> on_progress;
+};
 
 /// The verdict of `verify`.
 enum class Verdict : std::uint8_t {
@@ -149,5 +221,23 @@ constexpr double max_error_of_merging = 0.25;
 {
     return !(image.lost <= 1e-3);
 }
+
+/// Verifies the estimators on a scene: renders it by all integrators and compares each strategy of
+/// bdpt with all that find the same paths, and the other integrators with bdpt, for each path
+/// length, in the whole image and in tiles. docs/verify.md describes the method. Blocks until the
+/// result is sharp enough, the time is up or a stop is requested; at least eight batches are
+/// rendered. Results are bit-identical for equal options and numbers of batches. Throws `Error`:
+/// usage for options out of range, invalid_input for an unusable camera.
+[[nodiscard]] BDPT_EXPORT VerifyReport verify(const Scene& scene, const CameraDesc& camera,
+                                              const VerifyOptions& options,
+                                              const VerifyControl& control = {});
+
+/// Returns "pass", "fail" or "inconclusive".
+[[nodiscard]] BDPT_EXPORT std::string_view to_string(Verdict verdict);
+
+/// Returns the report as one line of JSON, as described in docs/verify.md, with a line break.
+/// Numbers that are not finite are null; bytes of `scene` that are not UTF-8 are replaced.
+[[nodiscard]] BDPT_EXPORT std::string verify_json(const VerifyReport& report,
+                                                  std::string_view scene);
 
 }  // namespace bdpt::eval

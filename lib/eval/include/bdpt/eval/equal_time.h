@@ -14,9 +14,8 @@
 /// }
 /// @endcode
 
-#include <bdpt/eval/bench/bench_scene.h>
-#include <bdpt/eval/bench/reference.h>
-#include <bdpt/eval/statistics/spread.h>
+#include <bdpt/eval/bench.h>
+#include <bdpt/eval/statistics.h>
 #include <bdpt/export.h>
 #include <bdpt/render_options.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Sums up the runs of a benchmark for each integrator.
+/// Sums up a benchmark for each integrator, and writes it as JSON, as CSV and as a page of HTML.
 ///
 /// @code{.cpp}
 /// void print_summary(const bdpt::eval::SceneResult& result, double seconds)
@@ -12,13 +12,25 @@
 ///     }
 /// }
 /// @endcode
+///
+/// @code{.cpp}
+/// void write_bench(const bdpt::eval::BenchRecord& record)
+/// {
+///     std::ofstream("out/bench/results.json") << bdpt::eval::bench_json(record);
+///     std::ofstream("out/bench/report.html") << bdpt::eval::bench_page(record, "out/bench");
+/// }
+/// @endcode
 
-#include <bdpt/eval/bench/bench.h>
-#include <bdpt/eval/statistics/spread.h>
+#include <bdpt/eval/bench.h>
+#include <bdpt/eval/statistics.h>
 #include <bdpt/export.h>
+#include <bdpt/image.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace bdpt::eval {
@@ -91,5 +103,33 @@ struct TimeToError {
 /// the inverse of the time. The curve has at least one point and increasing times.
 [[nodiscard]] BDPT_EXPORT TimeToError time_to_error(const std::vector<CurvePoint>& curve,
                                                     double error);
+
+/// Returns the part of the relMSE that is common to renders with different seeds. It remains
+/// however long one renders: it is the light that an integrator cannot find. It is estimated from
+/// products of the errors of two different renders, in which noise cancels; `noise` is that of the
+/// reference. Returns none if it is less than a tenth of the error, or less than three standard
+/// errors from 0. Takes at least two images of the reference's size.
+[[nodiscard]] BDPT_EXPORT std::optional<double> error_floor(std::span<const Image> images,
+                                                            const Image& reference, double noise);
+
+/// A benchmark with all data needed to repeat it.
+struct BenchRecord {
+    BenchOptions options;
+    MachineFacts machine;
+    std::string started;  ///< UTC, ISO 8601
+    std::string command;  ///< command line as typed
+    std::vector<SceneResult> scenes;
+};
+
+/// Returns the record as a JSON object, as described in docs/bench.md.
+[[nodiscard]] BDPT_EXPORT std::string bench_json(const BenchRecord& record);
+
+/// Returns the record as CSV: a line for each checkpoint of each run.
+[[nodiscard]] BDPT_EXPORT std::string bench_csv(const BenchRecord& record);
+
+/// Returns a self-contained HTML page of the record and the images in `folder`. Throws `Error` like
+/// `io::read_image`, or out_of_memory.
+[[nodiscard]] BDPT_EXPORT std::string bench_page(const BenchRecord& record,
+                                                 const std::filesystem::path& folder);
 
 }  // namespace bdpt::eval

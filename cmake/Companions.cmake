@@ -1,5 +1,5 @@
 # Companions of bdpt::io are files that it loads or starts only on demand: the module that reads TIFF images, and the
-# program that reads volumes. It looks for them next to itself (lib/io/src/file/companion.cpp).
+# program that reads volumes. It looks for them next to itself (lib/io/src/file/read_file.cpp).
 
 # Open Image Denoise is such a companion, too, in denoiser/lib.
 set(BDPT_DENOISER "" CACHE PATH

@@ -40,7 +40,7 @@ if(BDPT_BUILD_IO)
   set_property(TARGET bdpt_io APPEND PROPERTY INSTALL_RPATH "$ORIGIN")
   install(DIRECTORY lib/io/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
           COMPONENT bdpt_development FILES_MATCHING PATTERN "*.h")
-  # Installs the companions where bdpt_io looks for them (lib/io/src/file/companion.cpp). The TIFF module is a component
+  # Installs the companions where bdpt_io looks for them (lib/io/src/file/read_file.cpp). The TIFF module is a component
   # of its own, because it depends on OpenImageIO and its 260 libraries, and everything else works without it. So is the
   # reader of volumes.
   install(TARGETS bdpt_oiio LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"

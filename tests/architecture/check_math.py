@@ -18,22 +18,18 @@ INEXACT = re.compile(r"(?:a?(?:sin|cos|tan)h?|atan2|sincos|exp(?:2|10|m1)?|log(?
 # Lists source files that need them for results outside of the film.
 ALLOWED = {
     "inspect_report.cpp": "a picture for people",
-    "camera_matrices.cpp": "matrices among the metadata of files",
+    "image_metadata.cpp": "matrices among the metadata of files",
     "display.cpp": "the image for a screen",
     "light_meter.cpp": "the exposure for a screen",
     "view_camera.cpp": "the place of a camera that words then say",
-    "tone_curve.cpp": "the image for a screen",
     "filled_share.cpp": "a note for people",
     "layers.cpp": "false colours",
-    "tone_map.cpp": "the image for a screen",
 }
-
 
 def find_inexact_calls(symbols):
     """Returns the functions among lines about undefined symbols, which end with their names, whose results may differ."""
     names = [line.split()[-1].partition("@")[0] for line in symbols.splitlines() if line.strip()]
     return sorted({name for name in names if INEXACT.fullmatch(re.sub(r"^__", "", name))})
-
 
 def check(symbols_of):
     """Returns all findings. `symbols_of` maps each object to lines about its undefined symbols."""
@@ -48,19 +44,16 @@ def check(symbols_of):
     errors += [f"{source} is allowed to call what it does not call" for source in sorted(ALLOWED.keys() - used)]
     return errors
 
-
 def list_undefined(readelf, path):
     """Returns the lines about undefined symbols with names."""
     symbols = subprocess.run([readelf, "--wide", "--symbols", path], check=True, capture_output=True, text=True).stdout
     return "\n".join(re.sub(r" \(\d+\)$", "", line) for line in symbols.splitlines() if re.search(r" UND \S", line))
-
 
 def main():
     readelf, *objects = sys.argv[1:]
     errors = check({path: list_undefined(readelf, path) for path in objects})
     print("\n".join(errors) or f"{len(objects)} objects call exact functions only")
     sys.exit(bool(errors) or not objects)
-
 
 if __name__ == "__main__":
     main()

@@ -1,5 +1,5 @@
 #include "fuzz_target.h"
-#include "gltf/checks/glb.h"
+#include "gltf/checks/checks.h"
 #include "promises.h"
 
 using namespace bdpt;

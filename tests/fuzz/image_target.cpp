@@ -1,7 +1,6 @@
 #include "fuzz_target.h"
-#include "image/linear/exr_reader.h"
-#include "image/linear/hdr_reader.h"
-#include "image/texels.h"
+#include "image/encoded_image.h"
+#include "image/linear/image_readers.h"
 #include "promises.h"
 
 #include <optional>

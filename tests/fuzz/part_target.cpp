@@ -1,5 +1,5 @@
 #include "fuzz_target.h"
-#include "part/part_header.h"
+#include "part/part_contents.h"
 #include "promises.h"
 #include "sealed_part.h"
 

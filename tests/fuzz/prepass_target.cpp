@@ -1,6 +1,6 @@
 #include "fuzz_target.h"
-#include "gltf/checks/layout.h"
-#include "gltf/document/prepass.h"
+#include "gltf/checks/checks.h"
+#include "gltf/document/document.h"
 #include "input_file.h"
 #include "promises.h"
 

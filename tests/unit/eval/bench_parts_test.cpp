@@ -5,8 +5,7 @@
 #include <bdpt/options/integrators.h>
 #include <bdpt/options/option_fields.h>
 
-#include "bench/bench_files.h"
-#include "bench/trial.h"
+#include "bench/bench_parts.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "metrics/color_spaces.h"
+#include "metrics/metric_parts.h"
 
 #include <cmath>
 

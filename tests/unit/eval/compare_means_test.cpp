@@ -1,9 +1,8 @@
-#include "verify/compare_means.h"
+#include "verify/verdict.h"
 
 #include "catch.hpp"
 #include "statistics.h"
-#include "verify/second_moment.h"
-#include "verify/tile_grid.h"
+#include "verify/samples.h"
 
 #include <bdpt/eval/statistics.h>
 

@@ -1,4 +1,4 @@
-#include "metrics/convolution.h"
+#include "metrics/metric_parts.h"
 
 #include "catch.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 #include "image/glyphs.h"
-#include "metrics/color_spaces.h"
+#include "metrics/metric_parts.h"
 
 namespace bdpt::eval::false_color_test {
 namespace {

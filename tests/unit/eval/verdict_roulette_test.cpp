@@ -1,6 +1,6 @@
 // Verdicts about renderers whose walks are ended by roulette: a toy, and bdpt in a dark room.
 
-#include "verify/roulette.h"
+#include "verify/samples.h"
 #include "verify/verdict.h"
 
 #include <bdpt/eval/verify.h>

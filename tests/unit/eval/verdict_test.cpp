@@ -4,7 +4,6 @@
 
 #include "catch.hpp"
 #include "toy_light.h"
-#include "verify/sharpness.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "catch.hpp"
-#include "gltf/compression/draco_decoder.h"
-#include "gltf/compression/meshopt_decoder.h"
+#include "gltf/compression/compression.h"
 #include "gltf_fixture.h"
 
 #include <bdpt/framing.h>

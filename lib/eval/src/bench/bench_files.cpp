@@ -1,4 +1,4 @@
-#include "bench/bench_files.h"
+#include "bench/bench_parts.h"
 
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "bench/progress_meter.h"
-#include "bench/trial.h"
+#include "bench/bench_parts.h"
 
 namespace bdpt::eval {
 namespace {

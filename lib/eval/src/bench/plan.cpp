@@ -1,4 +1,4 @@
-#include "bench/plan.h"
+#include "bench/bench_parts.h"
 
 #include <bdpt/error.h>
 #include <bdpt/options/option_fields.h>
@@ -8,8 +8,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-
-#include "bench/trial.h"
 
 namespace bdpt::eval {
 namespace {

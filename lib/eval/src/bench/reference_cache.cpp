@@ -1,4 +1,4 @@
-#include "bench/reference_cache.h"
+#include "bench/bench_parts.h"
 
 #include <bdpt/error.h>
 #include <bdpt/io/read_image.h>
@@ -13,8 +13,7 @@
 #include <span>
 #include <utility>
 
-#include "bench/trial.h"
-#include "metrics/check_images.h"
+#include "metrics/metric_parts.h"
 
 namespace bdpt::eval {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/strategy_shares.h"
+#include "bench/bench_parts.h"
 
 #include <bdpt/eval/drawing.h>
 #include <bdpt/eval/page.h>
@@ -11,8 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
-
-#include "bench/trial.h"
 
 namespace bdpt::eval {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/trial.h"
+#include "bench/bench_parts.h"
 
 #include <bdpt/eval/bench.h>
 #include <bdpt/eval/metric.h>
@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <utility>
-
-#include "bench/resources.h"
 
 namespace bdpt::eval {
 namespace {

@@ -1,7 +1,3 @@
-#include "metrics/aces_curve.h"
-#include "metrics/color_spaces.h"
-#include "metrics/convolution.h"
-
 #include <bdpt/eval/metric.h>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -9,12 +5,162 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <numeric>
 #include <utility>
+#include <vector>
+
+#include "metrics/metric_parts.h"
 
 // Equations and symbols are those of [Andersson et al. 2020].
+
 namespace bdpt::eval {
+
+namespace {
+
+/// White point D65 as in [Andersson et al. 2020]; CIE XYZ with Y = 1.
+constexpr Vec3 white(0.950428545f, 1.0f, 1.088900371f);
+
+/// Converts to CIE XYZ relative to the white point, so that (1, 1, 1) is white: the primaries of
+/// sRGB, derived from their chromaticities (0.64, 0.33), (0.30, 0.60), (0.15, 0.06).
+Vec3 relative_xyz_from_linear(Rgb c)
+{
+    const Vec3 xyz(0.4123865627f * c.r + 0.3575914911f * c.g + 0.1804504912f * c.b,
+                   0.2126368214f * c.r + 0.7151829821f * c.g + 0.0721801965f * c.b,
+                   0.0193306201f * c.r + 0.1191971637f * c.g + 0.9503725872f * c.b);
+    return xyz / white;
+}
+
+/// Inverts `relative_xyz_from_linear`.
+Rgb linear_from_relative_xyz(Vec3 relative)
+{
+    const Vec3 c = relative * white;
+    return {3.2410032373f * c.x - 1.5373989715f * c.y - 0.4986158827f * c.z,
+            -0.9692242518f * c.x + 1.8759299830f * c.y + 0.0415542263f * c.z,
+            0.0556394198f * c.x - 0.2040112061f * c.y + 1.0571489770f * c.z};
+}
+
+// Knee of CIE 1976: below its cube the root is replaced by a line.
+constexpr float knee = 6.0f / 29.0f;
+
+float lab_curve(float t)
+{
+    return t > knee * knee * knee ? std::cbrt(t) : t / (3.0f * knee * knee) + 4.0f / 29.0f;
+}
+
+float inverse_lab_curve(float t)
+{
+    return t > knee ? t * t * t : 3.0f * knee * knee * (t - 4.0f / 29.0f);
+}
+
+}  // namespace
+
+Vec3 opponent_from_linear(Rgb linear)
+{
+    const Vec3 xyz = relative_xyz_from_linear(linear);
+    return {116.0f * xyz.y - 16.0f, 500.0f * (xyz.x - xyz.y), 200.0f * (xyz.y - xyz.z)};
+}
+
+Rgb linear_from_opponent(Vec3 opponent)
+{
+    const float y = (opponent.x + 16.0f) / 116.0f;
+    return linear_from_relative_xyz({y + opponent.y / 500.0f, y, y - opponent.z / 200.0f});
+}
+
+Vec3 lab_from_linear(Rgb linear)
+{
+    const Vec3 xyz = relative_xyz_from_linear(linear);
+    const Vec3 f(lab_curve(xyz.x), lab_curve(xyz.y), lab_curve(xyz.z));
+    return {116.0f * f.y - 16.0f, 500.0f * (f.x - f.y), 200.0f * (f.y - f.z)};
+}
+
+Rgb linear_from_lab(Vec3 lab)
+{
+    const float y = (lab.x + 16.0f) / 116.0f;
+    return linear_from_relative_xyz({inverse_lab_curve(y + lab.y / 500.0f), inverse_lab_curve(y),
+                                     inverse_lab_curve(y - lab.z / 200.0f)});
+}
+
+namespace {
+
+/// Returns the row with its first and last value repeated `radius` times.
+std::vector<float> padded(std::span<const float> row, std::size_t radius)
+{
+    std::vector<float> result;
+    result.reserve(row.size() + 2 * radius);
+    result.insert(result.end(), radius, row.front());
+    result.insert(result.end(), row.begin(), row.end());
+    result.insert(result.end(), radius, row.back());
+    return result;
+}
+
+void add_scaled(std::span<float> sums, std::span<const float> values, float factor)
+{
+    for (std::size_t x = 0; x < sums.size(); ++x) {
+        sums[x] += factor * values[x];
+    }
+}
+
+Plane convolve_rows(const Plane& plane, const Kernel& kernel)
+{
+    Plane result(plane.width, plane.height);
+    oneapi::tbb::parallel_for(0, plane.height, [&](int y) {
+        const std::vector<float> source = padded(plane.row(y), kernel.size() / 2);
+        const std::span<float> target = result.row(y);
+        for (std::size_t k = 0; k < kernel.size(); ++k) {
+            add_scaled(target, std::span(source).subspan(k, target.size()), kernel[k]);
+        }
+    });
+    return result;
+}
+
+Plane convolve_columns(const Plane& plane, const Kernel& kernel)
+{
+    Plane result(plane.width, plane.height);
+    const int radius = static_cast<int>(kernel.size() / 2);
+    oneapi::tbb::parallel_for(0, plane.height, [&](int y) {
+        for (int k = -radius; k <= radius; ++k) {
+            const int source = std::clamp(y + k, 0, plane.height - 1);
+            add_scaled(result.row(y), plane.row(source),
+                       kernel[static_cast<std::size_t>(k + radius)]);
+        }
+    });
+    return result;
+}
+
+}  // namespace
+
+Plane convolve(const Plane& plane, const Kernel& horizontal, const Kernel& vertical)
+{
+    return convolve_columns(convolve_rows(plane, horizontal), vertical);
+}
+
+FlipExposures flip_exposures(const Image& reference)
+{
+    constexpr double shown = 0.85;     // display value of the brightest and of the median luminance
+    constexpr double least = 0x1p-23;  // minimum median: a screen shows nothing darker
+    std::vector<double> luminances;
+    luminances.reserve(reference.pixels.size());
+    for (const Rgb& pixel : reference.pixels) {
+        luminances.push_back(0.2126 * static_cast<double>(pixel.r) +
+                             0.7152 * static_cast<double>(pixel.g) +
+                             0.0722 * static_cast<double>(pixel.b));
+    }
+    const double greatest = *std::max_element(luminances.begin(), luminances.end());
+    if (!(greatest > 0.0)) {
+        return {};
+    }
+    const auto middle = luminances.begin() + static_cast<std::ptrdiff_t>(luminances.size() / 2);
+    std::nth_element(luminances.begin(), middle, luminances.end());
+    const double bright = AcesCurve::inverse(shown);
+    FlipExposures result;
+    result.start = std::log2(bright / greatest);
+    result.stop = std::max(result.start, std::log2(bright / std::max(*middle, least)));
+    result.count = std::max(2, static_cast<int>(std::ceil(result.stop - result.start)));
+    return result;
+}
+
 namespace {
 
 constexpr double pi = std::numbers::pi;

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/bench_files.h"
+#include "bench/bench_parts.h"
+#include "report/json_values.h"
 #include "report/page_source.h"
-#include "report/record_json.h"
 
 namespace bdpt::eval {
 namespace {

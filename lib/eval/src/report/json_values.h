@@ -1,9 +1,11 @@
 #pragma once
 
+#include <bdpt/eval/bench_report.h>
 #include <bdpt/pixel_rect.h>
+#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 namespace bdpt::eval {
@@ -20,5 +22,11 @@ inline nlohmann::ordered_json rect_json(const PixelRect& rect)
 {
     return nlohmann::ordered_json::array({rect.x0, rect.y0, rect.x1, rect.y1});
 }
+
+/// Returns the part of the report that is common to all scenes.
+[[nodiscard]] nlohmann::ordered_json head_json(const BenchRecord& record);
+
+/// Returns a scene without its runs.
+[[nodiscard]] nlohmann::ordered_json scene_json(const SceneResult& scene, double seconds);
 
 }  // namespace bdpt::eval

@@ -1,4 +1,4 @@
-#include "report/record_json.h"
+#include "report/json_values.h"
 
 #include <bdpt/options/option_fields.h>
 #include <bdpt/version.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/bench_files.h"
+#include "bench/bench_parts.h"
 
 namespace bdpt::eval {
 namespace {

@@ -1,18 +1,18 @@
 #pragma once
 
-#include "verify/merge_sums.h"
-#include "verify/path_sums.h"
-#include "verify/radiance_sums.h"
-
 #include <bdpt/eval/statistics.h>
 #include <bdpt/eval/verify.h>
 #include <bdpt/film/film.h>
+#include <bdpt/scene.h>
+#include <bdpt/scene_desc.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
+
+#include "verify/path_sums.h"
 
 namespace bdpt::eval {
 
@@ -156,5 +156,10 @@ private:
     std::vector<MergeEvidence> merges_;  // by length
     std::vector<Evidence> channels_;
 };
+
+/// Renders batch `number` on the calling thread: a pure function of its arguments.
+[[nodiscard]] Batch render_batch(const Scene& scene, const CameraDesc& camera,
+                                 const VerifyOptions& options, const TileGrid& grid,
+                                 std::int64_t number);
 
 }  // namespace bdpt::eval

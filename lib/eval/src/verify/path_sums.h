@@ -1,17 +1,69 @@
 #pragma once
 
-#include "verify/measure.h"
-#include "verify/roulette.h"
-#include "verify/second_moment.h"
-#include "verify/tile_grid.h"
-
 #include <bdpt/eval/verify.h>
 #include <bdpt/path_contribution.h>
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "verify/samples.h"
+
 namespace bdpt::eval {
+
+/// Sums of a measure over the weighted paths that an integrator found in some samples, by tile and
+/// length [nit]. Not thread-safe.
+class RadianceSums {
+public:
+    RadianceSums(const TileGrid& grid, int max_depth, Measure measure = Measure::mean)
+        : grid_(grid),
+          max_depth_(max_depth),
+          measure_(measure),
+          sums_(grid.size() * static_cast<std::size_t>(max_depth)),
+          seen_(sums_.size())
+    {}
+
+    /// Adds a path. Paths with more than `max_depth` edges and values that are not finite are
+    /// ignored.
+    void add(const PathContribution& path)
+    {
+        const int edges = count_edges(path);
+        const double value = static_cast<double>(path.weight) * measured(measure_, path.unweighted);
+        if (edges <= max_depth_ && std::isfinite(value)) {
+            const std::size_t place = index(grid_.tile_at(path.raster), edges);
+            sums_[place] += value;
+            seen_[place].add(value, value * value);
+        }
+    }
+
+    [[nodiscard]] double at(std::size_t tile, int edges) const { return sums_[index(tile, edges)]; }
+    /// Returns the second moment of single paths.
+    [[nodiscard]] const SecondMoment& seen(std::size_t tile, int edges) const
+    {
+        return seen_[index(tile, edges)];
+    }
+    /// Returns the sum over lengths from `shortest` to `longest`.
+    [[nodiscard]] double between(std::size_t tile, int shortest, int longest) const
+    {
+        double sum = 0.0;
+        for (int edges = shortest; edges <= longest; ++edges) {
+            sum += at(tile, edges);
+        }
+        return sum;
+    }
+
+private:
+    [[nodiscard]] std::size_t index(std::size_t tile, int edges) const
+    {
+        return tile * static_cast<std::size_t>(max_depth_) + static_cast<std::size_t>(edges - 1);
+    }
+
+    TileGrid grid_;
+    int max_depth_;
+    Measure measure_;
+    std::vector<double> sums_;
+    std::vector<SecondMoment> seen_;
+};
 
 /// Layout of the strategies of paths of 1 to `max_depth` edges in an array: by length, then by s.
 class StrategyRow {
@@ -162,6 +214,44 @@ private:
     std::vector<LengthSums> lengths_;       // by tile, then by length
     std::vector<double> finders_;           // by length, tested strategy, finder
     WeightFinding weights_;
+};
+
+/// Sums over the paths of vcm of one length that test merging, as `StrategySums` test a strategy: g
+/// = min(1, share / `full_share`) with the total share of all merges of a path. Sums over samples
+/// of a measure [nit].
+struct MergeSumsOfLength {
+    double brought = 0.0;    ///< weighted merged paths
+    double tested = 0.0;     ///< g times merged paths, weighted among merges alone
+    double expected = 0.0;   ///< g times the weighted paths of all techniques
+    double by_merges = 0.0;  ///< part of `expected` that was merged
+    /// Second moment of a sample of `tested`, estimated from all paths.
+    SecondMoment second_moment;
+    SecondMoment seen;
+
+    MergeSumsOfLength& operator+=(const MergeSumsOfLength& other);
+};
+
+/// Sums over the paths that vcm found in some samples, weighted by the balance heuristic. Not
+/// thread-safe.
+class MergeSums {
+public:
+    MergeSums(int max_depth, Measure measure)
+        : measure_(measure), roulette_(max_depth), lengths_(static_cast<std::size_t>(max_depth))
+    {}
+
+    /// Adds a path, which has its shares. Paths with more than `max_depth` edges and values that
+    /// are not finite are ignored.
+    void add(const PathContribution& path);
+
+    [[nodiscard]] const MergeSumsOfLength& length(int edges) const
+    {
+        return lengths_[static_cast<std::size_t>(edges - 1)];
+    }
+
+private:
+    Measure measure_;
+    Roulette roulette_;
+    std::vector<MergeSumsOfLength> lengths_;
 };
 
 }  // namespace bdpt::eval

@@ -1,6 +1,6 @@
-#include "verify/render_batch.h"
+#include "verify/evidence.h"
 
-#include "verify/roulette.h"
+#include "verify/samples.h"
 
 #include <bdpt/render.h>
 

@@ -1,4 +1,4 @@
-#include "verify/sharpness.h"
+#include "verify/verdict.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,5 @@
 #include "verify/verdict.h"
 
-#include "verify/compare_evidence.h"
-#include "verify/sharpness.h"
-
 #include <bdpt/eval/statistics.h>
 
 #include <algorithm>

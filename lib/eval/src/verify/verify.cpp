@@ -1,7 +1,6 @@
 #include <bdpt/eval/verify.h>
 
 #include "verify/evidence.h"
-#include "verify/render_batch.h"
 #include "verify/verdict.h"
 
 #include <bdpt/error.h>

@@ -1,15 +1,132 @@
-#include "denoise/oidn_functions.h"
-
-#include <bdpt/error.h>
 #include <bdpt/io/denoise.h>
 
+#include <bdpt/error.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
+
+#include "file/read_file.h"
 
 namespace bdpt::io {
 namespace {
+
+/// The used part of the C interface of Open Image Denoise 2, by the names of its documentation.
+/// Handles are opaque pointers, enumerators plain numbers.
+struct OidnFunctions {
+    using Handle = void*;
+    Handle (*oidnNewDevice)(int type);
+    void (*oidnSetDeviceInt)(Handle device, const char* name, int value);
+    int (*oidnGetDeviceInt)(Handle device, const char* name);
+    void (*oidnCommitDevice)(Handle device);
+    int (*oidnGetDeviceError)(Handle device, const char** message);
+    void (*oidnReleaseDevice)(Handle device);
+    Handle (*oidnNewFilter)(Handle device, const char* type);
+    void (*oidnSetSharedFilterImage)(Handle filter, const char* name, void* pointer, int format,
+                                     std::size_t width, std::size_t height, std::size_t byte_offset,
+                                     std::size_t pixel_stride, std::size_t row_stride);
+    void (*oidnSetFilterBool)(Handle filter, const char* name, bool value);
+    void (*oidnCommitFilter)(Handle filter);
+    void (*oidnExecuteFilter)(Handle filter);
+    void (*oidnReleaseFilter)(Handle filter);
+
+    static constexpr int device_type_cpu = 1;
+    static constexpr int format_float3 = 3;
+    static constexpr int no_error = 0;
+};
+
+namespace fs = std::filesystem;
+
+constexpr const char* library_name = "libOpenImageDenoise.so.2";
+
+/// Returns the library of the Python package pyoidn, if this code is in a package beside it.
+std::optional<fs::path> library_of_package()
+{
+#ifdef BDPT_IN_PYTHON_PACKAGE
+    std::error_code error;
+    const fs::path file = own_folder().parent_path() / "pyoidn" / "oidn" / "lib" / library_name;
+    if (file.is_absolute() && fs::exists(file, error)) {
+        return file;
+    }
+#endif
+    return std::nullopt;
+}
+
+/// Returns the library that comes with this code, without symbolic links: it finds its parts
+/// relative to itself.
+std::optional<fs::path> library_beside()
+{
+    std::error_code error;
+    const std::optional<fs::path> file =
+        find_companion(std::string("denoiser/lib/") + library_name);
+    return file ? std::optional(fs::canonical(*file, error)) : library_of_package();
+}
+
+std::string file_to_open(std::optional<fs::path> library)
+{
+    std::error_code error;
+    const char* const chosen = std::getenv("BDPT_DENOISER");
+    if (!library && chosen != nullptr) {
+        library = chosen;
+        if (library->empty()) {
+            throw Error(ErrorCode::unsupported,
+                        "no denoiser is looked for: BDPT_DENOISER is empty");
+        }
+    }
+    if (!library) {
+        return library_beside().value_or(library_name).string();
+    }
+    const fs::path file = fs::is_directory(*library, error) ? *library / library_name : *library;
+    // A name without a slash would be searched in the system's folders.
+    return fs::absolute(file, error).string();
+}
+
+template <typename Function>
+void find(void* module, const std::string& file, const char* name, Function*& function)
+{
+    void* const address = dlsym(module, name);
+    if (address == nullptr) {
+        throw Error(ErrorCode::unsupported,
+                    fmt::format("{} is not Open Image Denoise 2: it has no {}", file, name));
+    }
+    function = reinterpret_cast<Function*>(address);
+}
+
+/// Opens the library and resolves its functions; it stays open. Throws `Error` (unsupported) as
+/// `Denoiser` does.
+OidnFunctions open_oidn(const std::optional<fs::path>& library)
+{
+    const std::string file = file_to_open(library);
+    // The library stays open: its threads may outlive our objects.
+    void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    if (module == nullptr) {
+        throw Error(
+            ErrorCode::unsupported,
+            fmt::format("no denoiser was found: {}. Open Image Denoise 2 is at "
+                        "https://www.openimagedenoise.org, and in the Python package pyoidn",
+                        dlerror()));
+    }
+    OidnFunctions functions{};
+    find(module, file, "oidnNewDevice", functions.oidnNewDevice);
+    find(module, file, "oidnSetDeviceInt", functions.oidnSetDeviceInt);
+    find(module, file, "oidnGetDeviceInt", functions.oidnGetDeviceInt);
+    find(module, file, "oidnCommitDevice", functions.oidnCommitDevice);
+    find(module, file, "oidnGetDeviceError", functions.oidnGetDeviceError);
+    find(module, file, "oidnReleaseDevice", functions.oidnReleaseDevice);
+    find(module, file, "oidnNewFilter", functions.oidnNewFilter);
+    find(module, file, "oidnSetSharedFilterImage", functions.oidnSetSharedFilterImage);
+    find(module, file, "oidnSetFilterBool", functions.oidnSetFilterBool);
+    find(module, file, "oidnCommitFilter", functions.oidnCommitFilter);
+    find(module, file, "oidnExecuteFilter", functions.oidnExecuteFilter);
+    find(module, file, "oidnReleaseFilter", functions.oidnReleaseFilter);
+    return functions;
+}
 
 static_assert(sizeof(Rgb) == 3 * sizeof(float), "the library reads pixels as three floats");
 

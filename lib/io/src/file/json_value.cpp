@@ -1,9 +1,8 @@
 #include <bdpt/io/json_value.h>
 
-#include "file/named_errors.h"
-#include "file/ordered_json.h"
+#include "file/json.h"
+#include "file/messages.h"
 #include "file/read_file.h"
-#include "file/uri.h"
 
 #include <bdpt/error.h>
 #include <fmt/format.h>

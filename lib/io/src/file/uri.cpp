@@ -1,4 +1,4 @@
-#include "file/uri.h"
+#include "file/read_file.h"
 
 #include <bdpt/error.h>
 

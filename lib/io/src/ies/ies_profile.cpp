@@ -1,4 +1,4 @@
-#include "ies/ies_profile.h"
+#include "ies/ies.h"
 
 #include <bdpt/error.h>
 

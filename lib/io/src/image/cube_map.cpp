@@ -1,7 +1,5 @@
 #include "image/cube_map.h"
 
-#include "image/unit_circle.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "image/jpeg_image.h"
+#include "image/encoded_image.h"
 
 #include <cstdio>  // required by the header of libjpeg
 

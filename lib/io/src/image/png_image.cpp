@@ -1,4 +1,4 @@
-#include "image/png_image.h"
+#include "image/encoded_image.h"
 
 #include <png.h>
 

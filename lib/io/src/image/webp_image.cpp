@@ -1,4 +1,4 @@
-#include "image/webp_image.h"
+#include "image/encoded_image.h"
 
 #include <webp/decode.h>
 #include <webp/demux.h>

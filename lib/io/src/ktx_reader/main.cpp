@@ -1,28 +1,116 @@
-// bdpt-read-ktx: decodes a KTX2 image for the library, which starts it (see image/ktx_reply.h).
-// libktx may crash or request all memory on broken files, which ends only this process.
+// bdpt-read-ktx: decodes a KTX2 image for the library, which starts it (see
+// process/reader_program.h). libktx may crash or request all memory on broken files, which ends
+// only this process.
 
 #include <bdpt/error.h>
-
-#include "image/ktx_reply.h"
-#include "ktx_reader/ktx_functions.h"
-#include "process/limited_process.h"
-
+#include <dlfcn.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <span>
 #include <string>
+#include <system_error>
 #include <vector>
+
+#include "process/reader_program.h"
 
 namespace bdpt::ktx {
 namespace {
+
+struct Texture;
+
+/// The start of the table of functions that each texture points to (ktxTexture_vtbl).
+struct TextureFunctions {
+    void (*Destroy)(Texture* texture);
+    int (*GetImageOffset)(Texture* texture, std::uint32_t level, std::uint32_t layer,
+                          std::uint32_t face, std::size_t* offset);
+};
+
+/// The start of a texture of libktx (ktxTexture), which macros of its header read.
+struct Texture {
+    int class_id;
+    TextureFunctions* functions;
+};
+
+/// The used part of the C interface of libktx 4, by the names of its documentation. Errors and
+/// formats are plain numbers.
+struct KtxFunctions {
+    int (*ktxTexture2_CreateFromMemory)(const std::uint8_t* bytes, std::size_t size,
+                                        std::uint32_t flags, Texture** texture);
+    bool (*ktxTexture2_NeedsTranscoding)(Texture* texture);
+    int (*ktxTexture2_TranscodeBasis)(Texture* texture, int format, std::uint32_t flags);
+    std::uint8_t* (*ktxTexture_GetData)(Texture* texture);
+    std::size_t (*ktxTexture_GetDataSize)(Texture* texture);
+    const char* (*ktxErrorString)(int error);
+
+    static constexpr std::uint32_t create_load_image_data = 1;
+    static constexpr int format_rgba32 = 13;
+    static constexpr int success = 0;
+    static constexpr int out_of_memory = 13;
+};
+
+namespace fs = std::filesystem;
+
+/// Names of the library in packages, and in builds without a version.
+constexpr const char* library_names[] = {"libktx.so.4", "libktx.so"};
+
+std::vector<std::string> files_to_try(const std::string& library)
+{
+    if (library.empty()) {
+        return {library_names[0], library_names[1]};
+    }
+    std::error_code error;
+    // A name without a slash would be searched in the system's folders.
+    const fs::path path = fs::absolute(library, error);
+    if (!fs::is_directory(path, error)) {
+        return {path.string()};
+    }
+    return {(path / library_names[0]).string(), (path / library_names[1]).string()};
+}
+
+template <typename Function>
+void find(void* module, const std::string& file, const char* name, Function*& function)
+{
+    void* const address = dlsym(module, name);
+    if (address == nullptr) {
+        throw Error(ErrorCode::unsupported, file + " is not libktx 4: it has no " + name);
+    }
+    function = reinterpret_cast<Function*>(address);
+}
+
+/// Opens the library, a file or a folder with libktx.so.4 or libktx.so, and resolves its functions;
+/// an empty name: the library that the system finds. Throws `Error` (unsupported).
+KtxFunctions open_ktx(const std::string& library)
+{
+    std::string reason;
+    for (const std::string& file : files_to_try(library)) {
+        void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+        if (module == nullptr) {
+            reason = reason.empty() ? dlerror() : reason;  // the error of the likelier name
+            continue;
+        }
+        KtxFunctions functions{};
+        find(module, file, "ktxTexture2_CreateFromMemory", functions.ktxTexture2_CreateFromMemory);
+        find(module, file, "ktxTexture2_NeedsTranscoding", functions.ktxTexture2_NeedsTranscoding);
+        find(module, file, "ktxTexture2_TranscodeBasis", functions.ktxTexture2_TranscodeBasis);
+        find(module, file, "ktxTexture_GetData", functions.ktxTexture_GetData);
+        find(module, file, "ktxTexture_GetDataSize", functions.ktxTexture_GetDataSize);
+        find(module, file, "ktxErrorString", functions.ktxErrorString);
+        return functions;
+    }
+    throw Error(ErrorCode::unsupported,
+                "libktx was not found: " + reason +
+                    ". libktx 4 is part of https://github.com/KhronosGroup/KTX-Software");
+}
 
 /// Size according to the header of the image.
 struct Size {
@@ -141,6 +229,7 @@ int run(std::span<char*> words)
 }
 
 }  // namespace
+
 }  // namespace bdpt::ktx
 
 int main(int count, char** words)

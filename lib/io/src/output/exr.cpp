@@ -1,29 +1,121 @@
 #include <bdpt/io/write_image.h>
 
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfFramesPerSecond.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTileDescription.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
+#include <fmt/chrono.h>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <ctime>
+#include <limits>
 #include <list>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "output/check_pixels.h"
-#include "output/cryptomatte.h"
-#include "output/exr_metadata.h"
-#include "output/exr_stream.h"
-#include "output/write_errors.h"
+#include "output/exr_output.h"
+#include "output/image_output.h"
 
 namespace bdpt::io {
+
+namespace {
+
+/// Returns {"lamp":"4090f8a4",...}
+std::string manifest_text(const IdManifest& manifest)
+{
+    using Json = nlohmann::json;
+    Json names = Json::object();
+    for (const NamedId& name : manifest.names) {
+        names[name.name] = hex_text(name.id);
+    }
+    return names.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+void add_cryptomatte_metadata(Imf::Header& header, std::span<const IdManifest> manifests)
+{
+    for (const IdManifest& manifest : manifests) {
+        if (header.channels().findChannel(manifest.layer + "00.r") == nullptr) {
+            continue;
+        }
+        constexpr std::size_t key_length = 7;
+        const std::string key =
+            "cryptomatte/" + hex_text(name_id(manifest.layer)).substr(0, key_length) + "/";
+        const auto insert = [&](const char* name, const std::string& text) {
+            header.insert(key + name, Imf::StringAttribute(text));
+        };
+        insert("name", manifest.layer);
+        insert("hash", "MurmurHash3_32");
+        insert("conversion", "uint32_to_float32");
+        insert("manifest", manifest_text(manifest));
+    }
+}
+
+namespace {
+
+/// GLM has v' = M v in columns, Imath v' = v M in rows: the same numbers in the same places.
+Imath::M44f to_imath(const Mat4& matrix)
+{
+    Imath::M44f result;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            result[i][j] = matrix[i][j];
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+void add_exr_metadata(Imf::Header& header, const ImageMetadata& metadata, float aspect)
+{
+    const float seconds = static_cast<float>(metadata.render_seconds);
+    const int samples = static_cast<int>(
+        std::min<std::int64_t>(metadata.samples_per_pixel, std::numeric_limits<int>::max()));
+
+    Imf::addChromaticities(header, Imf::Chromaticities{});  // default is Rec. 709
+    Imf::addWhiteLuminance(header, 1.0f);                   // pixels are in nit
+    const std::time_t created = std::chrono::system_clock::to_time_t(metadata.created);
+    Imf::addCapDate(header, fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::gmtime(created)));
+    Imf::addUtcOffset(header, 0.0f);
+    Imf::addWorldToCamera(header, to_imath(camera_from_file(metadata.camera, metadata.origin)));
+    Imf::addWorldToNDC(header, to_imath(ndc_from_file(metadata.camera, metadata.origin, aspect)));
+
+    header.insert("software", Imf::StringAttribute(software_name(metadata)));
+    for (const auto& [name, text] : text_entries(metadata)) {
+        header.insert(name.c_str(), Imf::StringAttribute(text));
+    }
+    if (metadata.frame) {
+        // Standard attributes: an image's number in the order of play, and its rate.
+        header.insert("imageCounter", Imf::IntAttribute(metadata.frame->number));
+        if (metadata.frame->per_second > 0.0) {
+            Imf::addFramesPerSecond(header, Imf::guessExactFps(metadata.frame->per_second));
+        }
+    }
+    header.insert("bdpt.spp", Imf::IntAttribute(samples));
+    header.insert("bdpt.renderTimeSeconds", Imf::FloatAttribute(seconds));
+    header.insert("samplesPerPixel", Imf::IntAttribute(samples));
+    header.insert("renderTimeSeconds", Imf::FloatAttribute(seconds));
+}
+
 namespace {
 
 constexpr float max_half = 65504.0f;

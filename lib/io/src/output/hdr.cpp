@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "output/check_pixels.h"
+#include "output/image_output.h"
 
 namespace bdpt::io {
 namespace {

@@ -18,8 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "output/check_pixels.h"
-#include "output/picture_text.h"
+#include "output/image_output.h"
 
 namespace bdpt::io {
 namespace {

@@ -1,8 +1,6 @@
 #include <bdpt/io/output_file.h>
 
 #include "output/output_target.h"
-#include "output/size_signal_block.h"
-#include "output/temporary_file.h"
 
 #include <bdpt/error.h>
 #include <fcntl.h>

@@ -19,8 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "output/check_pixels.h"
-#include "output/picture_text.h"
+#include "output/image_output.h"
 
 namespace bdpt::io {
 namespace {

@@ -11,8 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "output/check_pixels.h"
-#include "output/picture_text.h"
+#include "output/image_output.h"
 
 namespace bdpt::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "part/part_planes.h"
+#include "part/part_contents.h"
 
 #include <bit>
 #include <cstdint>

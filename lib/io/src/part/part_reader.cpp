@@ -24,12 +24,10 @@
 #include <string>
 #include <vector>
 
-#include "file/bytes.h"
-#include "file/named_errors.h"
-#include "image/linear/exr_header.h"
-#include "part/part_header.h"
-#include "part/part_planes.h"
-#include "part/part_seal.h"
+#include "file/messages.h"
+#include "file/read_file.h"
+#include "image/linear/image_readers.h"
+#include "part/part_contents.h"
 
 namespace bdpt::io {
 namespace {

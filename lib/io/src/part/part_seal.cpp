@@ -1,4 +1,4 @@
-#include "part/part_seal.h"
+#include "part/part_contents.h"
 
 #include <bdpt/error.h>
 #include <fcntl.h>

@@ -15,12 +15,9 @@
 #include <cstddef>
 #include <string>
 
-#include "output/exr_metadata.h"
-#include "output/exr_stream.h"
-#include "output/write_errors.h"
-#include "part/part_header.h"
-#include "part/part_planes.h"
-#include "part/part_seal.h"
+#include "output/exr_output.h"
+#include "output/image_output.h"
+#include "part/part_contents.h"
 
 namespace bdpt::io {
 namespace {

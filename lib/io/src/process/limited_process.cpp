@@ -1,4 +1,4 @@
-#include "process/limited_process.h"
+#include "process/reader_program.h"
 
 #include "process/child_process.h"
 

@@ -1,6 +1,6 @@
+#include "gltf/animation/animation.h"
 #include "../gltf_fixture.h"
 #include "catch.hpp"
-#include "gltf/animation/keyframes.h"
 
 #include <bdpt/scene_desc.h>
 

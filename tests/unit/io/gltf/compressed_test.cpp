@@ -1,7 +1,6 @@
 #include "../gltf_fixture.h"
 #include "catch.hpp"
-#include "gltf/compression/draco_decoder.h"
-#include "gltf/compression/meshopt_decoder.h"
+#include "gltf/compression/compression.h"
 
 #include <bdpt/scene_desc.h>
 

@@ -1,7 +1,7 @@
 #include "../gltf_fixture.h"
 #include "catch.hpp"
-#include "file/named_errors.h"
-#include "file/uri.h"
+#include "file/messages.h"
+#include "file/read_file.h"
 
 #include <bdpt/io/gltf.h>
 #include <sys/resource.h>

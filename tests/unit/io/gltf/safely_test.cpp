@@ -3,9 +3,9 @@
 #include "../gltf_fixture.h"
 #include "catch.hpp"
 #include "file/read_file.h"
-#include "gltf/compression/draco_decoder.h"
-#include "gltf/document/prepass.h"
-#include "image/linear/exr_header.h"
+#include "gltf/compression/compression.h"
+#include "gltf/document/document.h"
+#include "image/linear/image_readers.h"
 
 #include <algorithm>
 #include <string>

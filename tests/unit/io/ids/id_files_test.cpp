@@ -15,7 +15,7 @@
 
 #include "catch.hpp"
 #include "image_files.h"
-#include "part/part_seal.h"
+#include "part/part_contents.h"
 #include "scene_builder.h"
 #include "scratch_folder.h"
 

@@ -2,9 +2,8 @@
 #include "catch.hpp"
 #include "encoders.h"
 #include "hdr_encoder.h"
-#include "image/linear/hdr_reader.h"
-#include "image/linear/oiio_library.h"
-#include "image/texels.h"
+#include "image/encoded_image.h"
+#include "image/linear/image_readers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "../image_fixture.h"
 #include "catch.hpp"
 #include "encoders.h"
-#include "image/texels.h"
+#include "image/encoded_image.h"
 
 #include <bdpt/error.h>
 

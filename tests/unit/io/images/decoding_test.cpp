@@ -1,6 +1,6 @@
 #include "catch.hpp"
 #include "encoders.h"
-#include "image/texels.h"
+#include "image/encoded_image.h"
 
 #include <tbb/parallel_for.h>
 

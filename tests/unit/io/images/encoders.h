@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/bytes.h"
+#include "file/read_file.h"
 
 #include <cstdint>
 #include <string>

@@ -2,7 +2,7 @@
 #include "catch.hpp"
 #include "encoders.h"
 #include "hdr_encoder.h"
-#include "image/linear/hdr_reader.h"
+#include "image/linear/image_readers.h"
 
 #include <bdpt/error.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "image/linear/hdr_scanlines.h"
+#include "image/linear/image_readers.h"
 
 #include <string>
 #include <vector>

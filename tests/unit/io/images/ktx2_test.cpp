@@ -25,9 +25,8 @@
 #include "../image_fixture.h"
 #include "catch.hpp"
 #include "encoders.h"
-#include "file/companion.h"
-#include "image/ktx2_header.h"
-#include "image/texels.h"
+#include "file/read_file.h"
+#include "image/encoded_image.h"
 #include "ktx2_file.h"
 
 namespace bdpt::test::ktx2_test {

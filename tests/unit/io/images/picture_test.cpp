@@ -1,7 +1,7 @@
 #include "../gltf_fixture.h"
 #include "catch.hpp"
 #include "encoders.h"
-#include "image/texels.h"
+#include "image/encoded_image.h"
 #include "scratch_folder.h"
 
 #include <bdpt/error.h>

@@ -1,4 +1,4 @@
-#include "part/part_header.h"
+#include "part/part_contents.h"
 
 #include <bdpt/error.h>
 #include <bdpt/render.h>

@@ -1,4 +1,4 @@
-// Tone-maps radiance for the screen, like lib/io/src/output/tone_curve.cpp. bdpt view and the report of bdpt bench
+// Tone-maps radiance for the screen, like lib/io/src/output/display.cpp. bdpt view and the report of bdpt bench
 // share it.
 
 const SRGB_STEPS = 65535;

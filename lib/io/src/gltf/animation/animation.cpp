@@ -1,8 +1,6 @@
 #include "gltf/animation/animation.h"
 
-#include "gltf/animation/keyframes.h"
-#include "gltf/document/accessor.h"
-#include "gltf/document/selection.h"
+#include "gltf/document/document.h"
 
 #include <bdpt/error.h>
 
@@ -150,9 +148,8 @@ void check_shutter(const Shutter& shutter)
 {
     if (!std::isfinite(shutter.open) || !std::isfinite(shutter.close) ||
         shutter.close < shutter.open) {
-        throw Error(ErrorCode::usage,
-                    fmt::format("invalid shutter: opens at {} s, closes at {} s",
-                                shutter.open, shutter.close));
+        throw Error(ErrorCode::usage, fmt::format("invalid shutter: opens at {} s, closes at {} s",
+                                                  shutter.open, shutter.close));
     }
 }
 

@@ -1,6 +1,6 @@
-#include "gltf/animation/instancing.h"
+#include "gltf/animation/node_transforms.h"
 
-#include "gltf/document/accessor.h"
+#include "gltf/document/document.h"
 
 #include <bdpt/error.h>
 

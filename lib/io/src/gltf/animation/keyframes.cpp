@@ -1,4 +1,4 @@
-#include "gltf/animation/keyframes.h"
+#include "gltf/animation/animation.h"
 
 #include <glm/gtc/quaternion.hpp>
 

@@ -1,6 +1,5 @@
-#include "gltf/animation/node_motion.h"
-
 #include "gltf/animation/node_transforms.h"
+
 #include "gltf/animation/steps.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "gltf/checks/animations.h"
+#include "gltf/checks/checks.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "gltf/checks/glb.h"
+#include "gltf/checks/checks.h"
 
 #include <bdpt/error.h>
 

@@ -1,4 +1,4 @@
-#include "gltf/checks/schema.h"
+#include "gltf/checks/checks.h"
 
 #include "gltf/checks/extension_table.h"
 #include "gltf/checks/schema_rules.h"

@@ -1,13 +1,10 @@
-#include "gltf/compression/draco_decoder.h"
+#include "gltf/compression/compression.h"
 
-#include "file/uri.h"
-#include "gltf/checks/layout.h"
+#include "file/read_file.h"
+#include "gltf/checks/checks.h"
 
 #include <bdpt/error.h>
 
-#include <draco/compression/decode.h>
-#include <draco/core/varint_decoding.h>
-#include <draco/metadata/metadata_decoder.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +14,15 @@
 #include <memory>
 #include <string>
 
+#ifdef BDPT_HAS_DRACO
+#include <draco/compression/decode.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
+#endif
+
 namespace bdpt::io {
+
+#ifdef BDPT_HAS_DRACO
 
 namespace {
 
@@ -188,5 +193,30 @@ DracoMesh decode_draco_mesh(ByteView data, std::span<const DracoAttribute> attri
         fail("the data cannot be decoded: " + quote(error.what()));
     }
 }
+
+#else
+
+namespace {
+
+constexpr const char* message = "this build of bdpt has no Draco";
+
+}  // namespace
+
+bool has_draco()
+{
+    return false;
+}
+
+DracoSize draco_size(ByteView)
+{
+    throw Error(ErrorCode::unsupported, message);
+}
+
+DracoMesh decode_draco_mesh(ByteView, std::span<const DracoAttribute>, std::uint64_t)
+{
+    throw Error(ErrorCode::unsupported, message);
+}
+
+#endif
 
 }  // namespace bdpt::io

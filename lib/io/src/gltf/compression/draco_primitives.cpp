@@ -1,8 +1,6 @@
-#include "gltf/compression/draco_primitives.h"
+#include "gltf/compression/compression.h"
 
-#include "gltf/checks/layout.h"
-#include "gltf/compression/decoded_size.h"
-#include "gltf/compression/draco_decoder.h"
+#include "gltf/checks/checks.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,14 @@
-#include "gltf/compression/meshopt_decoder.h"
+#include "gltf/compression/compression.h"
 
 #include <bdpt/error.h>
 
+#ifdef BDPT_HAS_MESHOPT
 #include <meshoptimizer.h>
+#endif
 
 namespace bdpt::io {
+
+#ifdef BDPT_HAS_MESHOPT
 
 namespace {
 
@@ -65,5 +69,19 @@ Bytes decode_meshopt(const MeshoptStream& stream, ByteView data)
     apply_filter(stream, decoded);
     return decoded;
 }
+
+#else
+
+bool has_meshopt()
+{
+    return false;
+}
+
+Bytes decode_meshopt(const MeshoptStream&, ByteView)
+{
+    throw Error(ErrorCode::unsupported, "this build of bdpt has no meshoptimizer");
+}
+
+#endif
 
 }  // namespace bdpt::io

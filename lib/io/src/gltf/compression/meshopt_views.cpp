@@ -1,9 +1,3 @@
-#include "gltf/compression/meshopt_views.h"
-
-#include "file/uri.h"
-#include "gltf/compression/decoded_size.h"
-#include "gltf/compression/meshopt_decoder.h"
-
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -11,7 +5,31 @@
 #include <string_view>
 #include <utility>
 
+#include "file/read_file.h"
+#include "gltf/compression/compression.h"
+
 namespace bdpt::io {
+
+void DecodedSize::add(const JsonPlace& place, std::uint64_t count, std::uint64_t size,
+                      std::uint64_t encoded)
+{
+    // Small meshes of few different values legitimately have a very high compression ratio.
+    constexpr std::uint64_t harmless = std::uint64_t{64} << 20;
+    if (size != 0 && count > left() / size) {
+        const long double need = static_cast<long double>(count) * static_cast<long double>(size);
+        place.fail(fmt::format("{} elements become {}, but the limit for all buffers is {}", count,
+                               human_bytes(need),
+                               human_bytes(static_cast<long double>(limits_.buffer_bytes))));
+    }
+    const std::uint64_t bytes = count * size;
+    if (bytes > harmless && bytes / limits_.compression_ratio > encoded) {
+        place.fail(fmt::format("{} in {} bytes: more than {} times packed",
+                               human_bytes(static_cast<long double>(bytes)), encoded,
+                               limits_.compression_ratio));
+    }
+    memory_.spend(place.pointer(), bytes);
+    total_ += bytes;
+}
 
 namespace {
 

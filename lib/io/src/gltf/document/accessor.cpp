@@ -1,6 +1,6 @@
-#include "gltf/document/accessor.h"
+#include "gltf/document/document.h"
 
-#include "gltf/checks/layout.h"
+#include "gltf/checks/checks.h"
 
 #include <bdpt/error.h>
 

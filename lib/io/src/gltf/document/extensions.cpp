@@ -1,10 +1,9 @@
-#include "gltf/document/extensions.h"
+#include "gltf/document/document.h"
 
-#include "file/uri.h"
+#include "file/read_file.h"
 #include "gltf/checks/extension_table.h"
-#include "gltf/compression/draco_decoder.h"
-#include "gltf/compression/meshopt_decoder.h"
-#include "image/ktx2_decoder.h"
+#include "gltf/compression/compression.h"
+#include "image/encoded_image.h"
 
 #include <fmt/format.h>
 

@@ -1,14 +1,22 @@
-#include "gltf/document/facts.h"
+#include <bdpt/error.h>
+#include <bdpt/io/gltf.h>
+#include <fmt/format.h>
 
-#include "file/named_errors.h"
-#include "file/read_file.h"
-#include "gltf/checks/glb.h"
-#include "gltf/document/extensions.h"
-#include "gltf/document/selection.h"
-
+#include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <set>
 #include <string>
+#include <system_error>
+
+#include "file/json.h"
+#include "file/load_context.h"
+#include "file/messages.h"
+#include "file/read_file.h"
+#include "gltf/checks/checks.h"
+#include "gltf/document/document.h"
 
 namespace bdpt::io {
 
@@ -119,15 +127,170 @@ GltfFacts read_gltf_facts(const std::filesystem::path& file, const ReadLimits& l
     });
 }
 
-std::vector<std::filesystem::path> read_gltf_files(const std::filesystem::path& file,
-                                                   const ReadLimits& limits,
-                                                   const std::vector<std::filesystem::path>& allowed)
+std::vector<std::filesystem::path> read_gltf_files(
+    const std::filesystem::path& file, const ReadLimits& limits,
+    const std::vector<std::filesystem::path>& allowed)
 {
     return with_named_errors(file, [&] {
         LoadContext context{.folders = {.own = file.parent_path(), .allowed = allowed},
                             .limits = limits};
         const Json document = read_document(file, limits);
         return checked_uris(JsonPlace(document), context);
+    });
+}
+
+namespace {
+
+/// Returns a list such as "the file has 2 scenes: 0 "day", 1 "night"".
+std::string list(std::string_view what, const std::vector<std::string>& names)
+{
+    constexpr std::size_t max_listed = 20;
+    if (names.empty()) {
+        return fmt::format("the file has no {}s", what);
+    }
+    std::string text = names.size() == 1 ? fmt::format("the file has one {}:", what)
+                                         : fmt::format("the file has {} {}s:", names.size(), what);
+    for (std::size_t i = 0; i < std::min(names.size(), max_listed); ++i) {
+        text += fmt::format("{} {}", i == 0 ? "" : ",", i);
+        if (!names[i].empty()) {
+            text += fmt::format(" {}", quote(names[i]));
+        }
+    }
+    return names.size() > max_listed ? text + fmt::format(" and {} more", names.size() - max_listed)
+                                     : text;
+}
+
+std::optional<std::size_t> to_index(std::string_view text)
+{
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+    if (error != std::errc() || end != text.data() + text.size()) {
+        return std::nullopt;
+    }
+    return index;
+}
+
+}  // namespace
+
+std::vector<std::string> names_in(const Json& array)
+{
+    std::vector<std::string> names;
+    if (!array.is_array()) {
+        return names;
+    }
+    for (const Json& element : array) {
+        const auto name = element.find("name");
+        names.push_back(name != element.end() && name->is_string() ? name->get<std::string>()
+                                                                   : std::string());
+    }
+    return names;
+}
+
+const Json& array_at(const Json& document, const Json::json_pointer& path)
+{
+    static const Json none;
+    return document.contains(path) ? document.at(path) : none;
+}
+
+std::size_t select(std::string_view what, const std::vector<std::string>& names,
+                   const std::string& wanted)
+{
+    const auto named = std::find(names.begin(), names.end(), wanted);
+    if (named != names.end() && !wanted.empty()) {
+        return static_cast<std::size_t>(named - names.begin());
+    }
+    const std::optional<std::size_t> index = to_index(wanted);
+    if (!index || *index >= names.size()) {
+        throw Error(ErrorCode::not_found,
+                    fmt::format("no {} {}; {}", what, quote(wanted), list(what, names)));
+    }
+    return *index;
+}
+
+namespace {
+
+ContentHash hash_bytes(ByteView bytes)
+{
+    ContentHasher hasher;
+    hasher.add(bytes.data(), bytes.size());
+    return hasher.hash();
+}
+
+/// Hashes a file in blocks, as it may be large while the scene is in memory already.
+ContentHash hash_by_blocks(const std::filesystem::path& file, std::uint64_t limit)
+{
+    ContentHasher hasher;
+    for_each_block(file, limit, [&](ByteView block) { hasher.add(block.data(), block.size()); });
+    return hasher.hash();
+}
+
+/// Adds the files named by the elements of the list at `pointer`.
+void add_uris(std::set<std::string>& uris, const Json& document, const char* pointer)
+{
+    const Json::json_pointer place(pointer);
+    if (!document.contains(place) || !document[place].is_array()) {
+        return;
+    }
+    for (const Json& element : document[place]) {
+        if (!element.is_object() || !element.contains("uri") || !element["uri"].is_string()) {
+            continue;
+        }
+        const auto& uri = element["uri"].get_ref<const std::string&>();
+        if (!is_data_uri(uri)) {
+            uris.insert(uri);
+        }
+    }
+}
+
+std::set<std::string> read_uris(ByteView file, LoadContext& context)
+{
+    ByteView text = file;
+    if (is_glb(file)) {
+        const GlbChunks::Range json = find_glb_chunks(file, context).json;
+        text = text.subspan(json.offset, json.size);
+    }
+    const Json document = parse_json(text, context.limits);
+    std::set<std::string> uris;
+    for (const char* list : {"/buffers", "/images", "/extensions/EXT_lights_ies/lights"}) {
+        add_uris(uris, document, list);
+    }
+    return uris;
+}
+
+/// Hashes a file; none if the loader will refuse or ignore it.
+std::optional<ContentHash> hash_if_readable(const std::string& uri, const LoadContext& context)
+{
+    try {
+        return hash_by_blocks(resolve_uri(context.folders, uri), context.limits.file_bytes);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+ContentHash hash_of_file(const std::filesystem::path& file, const ReadLimits& limits)
+{
+    return with_named_errors(file, [&] {
+        return file == "-" ? hash_bytes(read_named(file, limits.file_bytes))
+                           : hash_by_blocks(file, limits.file_bytes);
+    });
+}
+
+std::vector<FileContent> gltf_file_contents(const std::filesystem::path& file,
+                                            const ReadLimits& limits,
+                                            const std::vector<std::filesystem::path>& allowed)
+{
+    return with_named_errors(file, [&] {
+        LoadContext context{.folders = {.own = file.parent_path(), .allowed = allowed},
+                            .limits = limits};
+        const Bytes bytes = read_named(file, limits.file_bytes);
+        std::vector<FileContent> result{
+            {.name = file.filename().string(), .hash = hash_bytes(bytes)}};
+        for (const std::string& uri : read_uris(bytes, context)) {
+            result.push_back({.name = uri, .hash = hash_if_readable(uri, context)});
+        }
+        return result;
     });
 }
 

@@ -1,7 +1,6 @@
-#include "gltf/document/model.h"
+#include "gltf/document/document.h"
 
 #include "file/read_file.h"
-#include "file/uri.h"
 
 #include <bdpt/error.h>
 

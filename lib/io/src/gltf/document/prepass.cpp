@@ -1,17 +1,9 @@
-#include "gltf/document/prepass.h"
+#include "gltf/document/document.h"
 
-#include "file/file_kind.h"
-#include "file/memory_costs.h"
+#include "file/load_context.h"
 #include "file/read_file.h"
-#include "file/standard_input.h"
-#include "file/uri.h"
-#include "gltf/checks/glb.h"
-#include "gltf/checks/layout.h"
-#include "gltf/checks/node_graph.h"
-#include "gltf/checks/schema.h"
-#include "gltf/compression/draco_primitives.h"
-#include "gltf/compression/meshopt_views.h"
-#include "gltf/document/extensions.h"
+#include "gltf/checks/checks.h"
+#include "gltf/compression/compression.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,7 @@
 #include "gltf/geometry/mesh_table.h"
 
-#include "file/memory_costs.h"
-#include "gltf/geometry/placement.h"
-#include "gltf/geometry/primitive_reader.h"
-#include "gltf/geometry/skin.h"
+#include "file/load_context.h"
+#include "gltf/geometry/mesh.h"
 
 #include <bdpt/error.h>
 

@@ -1,13 +1,6 @@
 #pragma once
 
-#include "file/load_context.h"
-#include "gltf/animation/node_motion.h"
-#include "gltf/animation/node_transforms.h"
-#include "gltf/document/model.h"
-#include "gltf/geometry/mesh.h"
-
 #include <bdpt/scene_desc.h>
-
 #include <glm/mat4x4.hpp>
 
 #include <cstddef>
@@ -18,7 +11,28 @@
 #include <tuple>
 #include <vector>
 
+#include "file/load_context.h"
+#include "gltf/animation/node_transforms.h"
+#include "gltf/document/document.h"
+#include "gltf/geometry/mesh.h"
+
 namespace bdpt::io {
+
+/// Applies a transform without an inverse, which no instance can have, to the positions of a mesh;
+/// or several, one per time, which makes the mesh deform: as many as the steps of a mesh that
+/// already deforms. The result has face normals. Returns none if no triangle ever has an area.
+[[nodiscard]] std::optional<MeshDesc> place_mesh(const MeshDesc& mesh,
+                                                 std::span<const glm::dmat4> world_from_object);
+
+/// Returns the origin that a world needs whose coordinates are far larger than it, as on a map: its
+/// centre, along those axes where it lies far away. All bits of the coordinates remain when it is
+/// subtracted. None: an ordinary scene. It is zero if only the meshes have such coordinates, which
+/// their instances undo.
+[[nodiscard]] std::optional<DVec3> distant_origin(const SceneDesc& scene);
+
+/// Subtracts the centre of a mesh from its positions, along those axes where it lies far away;
+/// returns what was subtracted, which its instances must add.
+[[nodiscard]] DVec3 recenter(MeshDesc& mesh);
 
 /// A mesh of a node.
 struct ShownMesh {

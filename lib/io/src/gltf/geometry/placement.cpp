@@ -1,4 +1,4 @@
-#include "gltf/geometry/placement.h"
+#include "gltf/geometry/mesh_table.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

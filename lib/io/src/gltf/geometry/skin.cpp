@@ -1,6 +1,6 @@
-#include "gltf/geometry/skin.h"
+#include "gltf/geometry/mesh.h"
 
-#include "gltf/document/accessor.h"
+#include "gltf/document/document.h"
 
 #include <bdpt/error.h>
 

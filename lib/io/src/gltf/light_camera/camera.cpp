@@ -1,6 +1,4 @@
-#include "gltf/light_camera/camera.h"
-
-#include "gltf/light_camera/lens.h"
+#include "gltf/light_camera/light_camera.h"
 
 #include <fmt/format.h>
 #include <glm/matrix.hpp>

@@ -1,10 +1,10 @@
-#include "gltf/light_camera/image_based_light.h"
+#include "gltf/light_camera/light_camera.h"
 
-#include "file/memory_costs.h"
+#include "file/load_context.h"
 #include "file/read_file.h"
-#include "gltf/animation/transform.h"
+#include "gltf/animation/node_transforms.h"
 #include "image/cube_map.h"
-#include "image/texels.h"
+#include "image/encoded_image.h"
 
 #include <bdpt/error.h>
 

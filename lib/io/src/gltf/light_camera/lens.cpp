@@ -1,4 +1,4 @@
-#include "gltf/light_camera/lens.h"
+#include "gltf/light_camera/light_camera.h"
 
 #include <bdpt/thin_lens.h>
 

@@ -1,7 +1,7 @@
-#include "gltf/light_camera/light.h"
+#include "gltf/light_camera/light_camera.h"
 
-#include "file/uri.h"
-#include "gltf/animation/transform.h"
+#include "file/read_file.h"
+#include "gltf/animation/node_transforms.h"
 
 #include <bdpt/error.h>
 

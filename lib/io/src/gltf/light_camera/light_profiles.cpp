@@ -1,8 +1,7 @@
-#include "gltf/light_camera/light_profiles.h"
+#include "gltf/light_camera/light_camera.h"
 
-#include "gltf/animation/transform.h"
-#include "ies/ies_file.h"
-#include "ies/ies_profile.h"
+#include "gltf/animation/node_transforms.h"
+#include "ies/ies.h"
 
 #include <bdpt/error.h>
 

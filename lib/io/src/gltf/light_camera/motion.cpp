@@ -1,7 +1,7 @@
-#include "gltf/light_camera/motion.h"
+#include "gltf/light_camera/light_camera.h"
 
+#include "gltf/animation/node_transforms.h"
 #include "gltf/animation/steps.h"
-#include "gltf/animation/transform.h"
 
 #include <bdpt/motion.h>
 

@@ -1,7 +1,6 @@
 #include "gltf/material/image_table.h"
 
 #include "file/read_file.h"
-#include "file/uri.h"
 
 #include <bdpt/error.h>
 

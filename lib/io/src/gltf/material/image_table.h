@@ -1,12 +1,8 @@
 #pragma once
 
-#include "file/bytes.h"
-#include "file/load_context.h"
-#include "gltf/document/model.h"
-#include "image/texels.h"
-
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene_desc.h>
+#include <tiny_gltf.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +11,11 @@
 #include <map>
 #include <optional>
 #include <vector>
+
+#include "file/load_context.h"
+#include "file/read_file.h"
+#include "gltf/document/document.h"
+#include "image/encoded_image.h"
 
 namespace bdpt::io {
 
@@ -62,5 +63,11 @@ private:
     std::uint64_t packed_bytes_ = 0;      // size of the current batch
     std::uint64_t max_packed_bytes_ = 0;  // maximum over batches so far
 };
+
+/// Reads the materials of these indices; a negative one is the default material [glTF 2.0, sec.
+/// 3.7.2.1]. All images that they need are decoded together.
+[[nodiscard]] std::vector<MaterialDesc> read_materials(
+    const tinygltf::Model& model, const std::vector<int>& indices, ImageTable& images,
+    const std::function<void(const LoadProgress&)>& on_progress, LoadContext& context);
 
 }  // namespace bdpt::io

@@ -1,14 +1,105 @@
 #include "gltf/material/material.h"
 
-#include "gltf/material/material_layers.h"
-#include "gltf/material/material_values.h"
-#include "gltf/material/specular_glossiness.h"
-
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 
 namespace bdpt::io {
+
+float MaterialValues::in_range(double value, double low, double high, std::string_view key) const
+{
+    if (value >= low && value <= high) {
+        return static_cast<float>(value);
+    }
+    const double nearest = std::clamp(value, low, high);
+    context_.warn("an out-of-range material value is clamped",
+                  fmt::format("{}/{}: {} becomes {}", place_, key, value, nearest));
+    return static_cast<float>(nearest);
+}
+
+const tinygltf::Value* MaterialValues::extension(const std::string& name) const
+{
+    const auto found = source_.extensions.find(name);
+    return found == source_.extensions.end() ? nullptr : &found->second;
+}
+
+Rgb MaterialValues::color(const tinygltf::Value& object, const std::string& key, double high,
+                          Rgb fallback) const
+{
+    if (!object.Has(key)) {
+        return fallback;
+    }
+    const auto& values = object.Get(key).Get<tinygltf::Value::Array>();
+    Rgb rgb;
+    for (int c = 0; c < 3; ++c) {
+        rgb[c] = in_range(values[static_cast<std::size_t>(c)].GetNumberAsDouble(), 0.0, high, key);
+    }
+    return rgb;
+}
+
+std::optional<TextureRef> MaterialValues::texture(const tinygltf::Value& object,
+                                                  const std::string& name,
+                                                  const std::string& key) const
+{
+    return textures_.resolve(texture_info(object, key),
+                             fmt::format("{}/extensions/{}/{}", place_, name, key));
+}
+
+void read_specular_glossiness(const MaterialValues& values, MaterialDesc& desc)
+{
+    const std::string name = "KHR_materials_pbrSpecularGlossiness";
+    const auto* object = values.extension(name);
+    if (object == nullptr) {
+        return;
+    }
+    const std::string place = "extensions/" + name + "/";
+    desc.base_color = Vec4(1.0f);
+    if (object->Has("diffuseFactor")) {
+        const auto& factor = object->Get("diffuseFactor").Get<tinygltf::Value::Array>();
+        for (int c = 0; c < 4; ++c) {
+            desc.base_color[c] =
+                values.in_range(factor[static_cast<std::size_t>(c)].GetNumberAsDouble(), 0.0, 1.0,
+                                place + "diffuseFactor");
+        }
+    }
+    desc.base_color_texture = values.texture(*object, name, "diffuseTexture");
+    desc.metallic = 0.0f;
+    desc.metallic_roughness_texture.reset();
+    const double glossiness = number_or(*object, "glossinessFactor", 1.0);
+    desc.roughness = 1.0f - values.in_range(glossiness, 0.0, 1.0, place + "glossinessFactor");
+    // Reflectance of index 1.5, which the specular colour multiplies.
+    constexpr float reflectance = 0.04f;
+    const Rgb specular = values.color(*object, "specularFactor", 1.0);
+    desc.ior = 1.5f;
+    desc.specular = 1.0f;
+    desc.specular_color = specular / reflectance;
+    const auto texture = values.texture(*object, name, "specularGlossinessTexture");
+    if (specular != Rgb(0.0f)) {
+        desc.specular_color_texture = texture;
+    }
+    if (desc.roughness < 1.0f) {
+        desc.glossiness_texture = texture;
+    }
+}
+
+int variant_material(const tinygltf::Primitive& primitive, std::size_t variant)
+{
+    const auto found = primitive.extensions.find("KHR_materials_variants");
+    if (found == primitive.extensions.end() || !found->second.Has("mappings")) {
+        return primitive.material;
+    }
+    using Array = tinygltf::Value::Array;
+    for (const tinygltf::Value& mapping : found->second.Get("mappings").Get<Array>()) {
+        for (const tinygltf::Value& index : mapping.Get("variants").Get<Array>()) {
+            if (static_cast<std::size_t>(index.GetNumberAsInt()) == variant) {
+                return mapping.Get("material").GetNumberAsInt();
+            }
+        }
+    }
+    return primitive.material;
+}
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "gltf/material/material_layers.h"
+#include "gltf/material/material.h"
 
 #include <string>
 

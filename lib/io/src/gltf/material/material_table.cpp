@@ -1,7 +1,6 @@
-#include "gltf/material/material_table.h"
+#include "gltf/material/image_table.h"
 
 #include "gltf/material/material.h"
-#include "gltf/material/texture.h"
 
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
-#include "gltf/material/texture.h"
+#include "gltf/material/material.h"
 
-#include "image/ktx2_decoder.h"
+#include "image/encoded_image.h"
 
 #include <fmt/format.h>
 

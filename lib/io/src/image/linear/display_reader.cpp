@@ -1,7 +1,6 @@
-#include "image/linear/display_reader.h"
+#include "image/linear/image_readers.h"
 
-#include "image/image_size.h"
-#include "image/texels.h"
+#include "image/encoded_image.h"
 
 #include <bdpt/error.h>
 #include <bdpt/srgb.h>

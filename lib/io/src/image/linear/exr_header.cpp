@@ -1,6 +1,6 @@
-#include "image/linear/exr_header.h"
+#include "image/linear/image_readers.h"
 
-#include "file/uri.h"
+#include "file/read_file.h"
 
 #include <bdpt/error.h>
 

@@ -2,6 +2,7 @@
 
 #include <bdpt/error.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -77,6 +78,24 @@ private:
 /// Returns, for the message about a failed allocation, the peak memory of this process, and its
 /// limit (ulimit -v) or else the memory of the machine.
 [[nodiscard]] std::string memory_figures();
+
+/// Returns what `work()` returns. Exceptions of libraries become an `Error` with this code, whose
+/// message is one line that begins with `prefix`; an `Error` and std::bad_alloc are passed on.
+template <typename Work>
+auto with_library_errors(ErrorCode code, const std::string& prefix, const Work& work)
+{
+    try {
+        return work();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        std::string what = error.what();
+        std::replace(what.begin(), what.end(), '\n', ' ');
+        throw Error(code, prefix + what);
+    }
+}
 
 /// Returns what `read()` returns. All exceptions become an `Error` whose message begins with the
 /// name of the file: an `Error` keeps its code, std::bad_alloc is out_of_memory with figures, all

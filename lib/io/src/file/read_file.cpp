@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -77,6 +78,12 @@ private:
 };
 
 }  // namespace
+
+bool begins_with(ByteView bytes, std::string_view magic, std::size_t offset)
+{
+    return bytes.size() >= offset + magic.size() &&
+           std::memcmp(bytes.data() + offset, magic.data(), magic.size()) == 0;
+}
 
 Bytes read_file(const std::filesystem::path& file, std::uint64_t limit, std::uint64_t most,
                 const MemoryBudget* memory)

@@ -17,6 +17,9 @@ namespace bdpt::io {
 using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
 
+/// Tests whether the bytes from `offset` on begin with `magic`.
+[[nodiscard]] bool begins_with(ByteView bytes, std::string_view magic, std::size_t offset = 0);
+
 /// Reads a regular file, or its first `most` bytes. Throws `Error`: not_found if it is missing, not
 /// a regular file or unreadable, invalid_input if it is larger than `limit` bytes. Messages do not
 /// name the file. Throws as `memory` does if that does not have the bytes.

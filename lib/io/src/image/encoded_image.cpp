@@ -3,10 +3,10 @@
 #include <bdpt/memory/huge_pages.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <stdexcept>
-#include <string_view>
+#include <utility>
 
 #include "file/read_file.h"
 #include "image/encoded_image.h"
@@ -36,79 +36,65 @@ void check_image_size(int width, int height, std::uint64_t bytes_per_pixel,
 
 namespace {
 
-bool has(ByteView bytes, std::string_view magic, std::size_t offset = 0)
+bool is_png(ByteView bytes)
 {
-    return bytes.size() >= offset + magic.size() &&
-           std::equal(magic.begin(), magic.end(), bytes.subspan(offset).begin(),
-                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+    return begins_with(bytes, "\x89PNG\r\n\x1a\n");
 }
 
-using ImageFile = std::variant<PngImage, JpegImage, WebpImage, Ktx2Image>;
-
-ImageFile open(ByteView bytes, Ktx2Decoder* ktx2)
+bool is_jpeg(ByteView bytes)
 {
-    if (has(bytes, "\x89PNG\r\n\x1a\n")) {
-        return PngImage(bytes);
+    return begins_with(bytes, "\xff\xd8\xff");
+}
+
+bool is_webp(ByteView bytes)
+{
+    return begins_with(bytes, "RIFF") && begins_with(bytes, "WEBP", 8);
+}
+
+std::unique_ptr<ImageFile> open(ByteView bytes, Ktx2Decoder* ktx2)
+{
+    if (is_png(bytes)) {
+        return open_png(bytes);
     }
-    if (has(bytes, "\xff\xd8\xff")) {
-        return JpegImage(bytes);
+    if (is_jpeg(bytes)) {
+        return open_jpeg(bytes);
     }
-    if (has(bytes, "RIFF") && has(bytes, "WEBP", 8)) {
-        return WebpImage(bytes);
+    if (is_webp(bytes)) {
+        return open_webp(bytes);
     }
     if (is_ktx(bytes)) {
-        return Ktx2Image(bytes, ktx2);
+        return open_ktx2(bytes, ktx2);
     }
     throw std::runtime_error("neither PNG, JPEG, WebP nor KTX2");
 }
 
-/// Returns the image without its texels.
-TexelImage read_layout(const ImageFile& file)
-{
-    return std::visit(
-        [](const auto& image) {
-            TexelImage layout{.width = image.width(),
-                              .height = image.height(),
-                              .bytes = {},
-                              .channels = image.channels()};
-            layout.type = image.value_bytes() == 2 ? TexelType::unorm16 : TexelType::unorm8;
-            return layout;
-        },
-        file);
-}
-
 }  // namespace
+
+bool is_display_image(ByteView file)
+{
+    return is_png(file) || is_jpeg(file) || is_webp(file);
+}
 
 EncodedImage::EncodedImage(ByteView bytes, const ReadLimits& limits, Ktx2Decoder* ktx2)
     : file_(open(bytes, ktx2))
 {
-    const TexelImage layout = read_layout(file_);
+    const TexelImage& layout = file_->layout();
     const std::uint64_t texel_bytes =
         static_cast<std::uint64_t>(layout.channels) * count_value_bytes(layout.type);
     check_image_size(layout.width, layout.height, texel_bytes, limits);
-    width_ = layout.width;
-    height_ = layout.height;
     decoded_bytes_ = static_cast<std::uint64_t>(layout.width) *
                      static_cast<std::uint64_t>(layout.height) * texel_bytes;
 }
 
-std::uint64_t EncodedImage::process_memory() const
-{
-    const auto* const ktx2 = std::get_if<Ktx2Image>(&file_);
-    return ktx2 != nullptr ? ktx2->process_memory() : 0;
-}
-
 DecodedImage EncodedImage::decode() &&
 {
-    DecodedImage decoded{.image = read_layout(file_)};
+    DecodedImage decoded{.image = file_->layout()};
     resize_in_huge_pages(decoded.image.bytes, decoded_bytes_);
-    std::visit([&](auto& image) { image.read(decoded.image.bytes.data()); }, file_);
-    if (const auto* const jpeg = std::get_if<JpegImage>(&file_)) {
-        decoded.damage = jpeg->damage();
-    }
-    if (const auto* const ktx2 = std::get_if<Ktx2Image>(&file_)) {
-        decoded.remarks = ktx2->header().remarks;
-        decoded.encoding = ktx2->header().encoding;
+    file_->read(decoded.image.bytes.data());
+    decoded.damage = file_->damage();
+    if (const Ktx2Header* const header = file_->ktx2_header()) {
+        decoded.remarks = header->remarks;
+        decoded.encoding = header->encoding;
     }
     return decoded;
 }

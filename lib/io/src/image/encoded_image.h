@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "file/read_file.h"
@@ -22,103 +21,6 @@ namespace bdpt::io {
 /// (invalid_input).
 void check_image_size(int width, int height, std::uint64_t bytes_per_pixel,
                       const ReadLimits& limits, const MemoryBudget* memory = nullptr);
-
-/// A JPEG file in memory whose header has been read: baseline or progressive, 8 bits a channel,
-/// grey, RGB, YCbCr, CMYK or YCCK. Decoded by libjpeg.
-class JpegImage {
-public:
-    /// `bytes` must outlive the image. Throws std::runtime_error if the header is broken, or
-    /// describes another kind of image.
-    explicit JpegImage(ByteView bytes);
-
-    [[nodiscard]] int width() const { return width_; }
-    [[nodiscard]] int height() const { return height_; }
-    /// Returns 1: grey, or 3: RGB, to which all other kinds are converted.
-    [[nodiscard]] int channels() const { return channels_; }
-    [[nodiscard]] static constexpr int value_bytes() { return 1; }
-
-    /// Decodes all pixels, top row first, into room for width * height * channels values; called
-    /// once. Throws std::runtime_error if nothing can be decoded, or not with reasonable work.
-    void read(std::uint8_t* values);
-
-    /// Returns the first damage that libjpeg reports for data that could be decoded anyway, as far
-    /// as it has been read. Empty: none. Where data is missing, pixels are guessed or grey.
-    [[nodiscard]] std::string damage() const;
-
-private:
-    struct State;
-    struct Close {
-        void operator()(State* state) const;
-    };
-
-    std::unique_ptr<State, Close> state_;
-    int width_ = 0;
-    int height_ = 0;
-    int channels_ = 0;
-};
-
-/// A PNG file in memory whose header has been read. Decoded by libpng.
-class PngImage {
-public:
-    /// `bytes` must outlive the image. Throws std::runtime_error if the header is broken.
-    explicit PngImage(ByteView bytes);
-
-    [[nodiscard]] int width() const { return width_; }
-    [[nodiscard]] int height() const { return height_; }
-    /// Returns 1: grey, 2: grey and alpha, 3: RGB, 4: RGBA. Palettes and a transparent colour are
-    /// resolved.
-    [[nodiscard]] int channels() const { return channels_; }
-    /// Returns 1 or 2; fewer bits are scaled to 8.
-    [[nodiscard]] int value_bytes() const { return value_bytes_; }
-
-    /// Decodes all pixels, top row first, into room for width * height * channels values, integers
-    /// in native byte order; called once. Colours are not converted, alpha is not premultiplied.
-    /// Throws std::runtime_error if the file is broken.
-    void read(std::uint8_t* values);
-
-private:
-    struct State;
-    struct Close {
-        void operator()(State* state) const;
-    };
-
-    std::unique_ptr<State, Close> state_;
-    int width_ = 0;
-    int height_ = 0;
-    int channels_ = 0;
-    int value_bytes_ = 0;
-};
-
-/// A WebP file in memory whose header has been read [RFC 9649]: lossy or lossless, with or without
-/// alpha. Of an animation only the first frame is read. Decoded by libwebp.
-class WebpImage {
-public:
-    /// `bytes` must outlive the image. Throws std::runtime_error if the header is broken, or the
-    /// file is truncated.
-    explicit WebpImage(ByteView bytes);
-
-    [[nodiscard]] int width() const { return width_; }
-    [[nodiscard]] int height() const { return height_; }
-    /// Returns 3: RGB, or 4: RGBA.
-    [[nodiscard]] int channels() const { return channels_; }
-    [[nodiscard]] static constexpr int value_bytes() { return 1; }
-
-    /// Decodes all pixels, top row first, into room for width * height * channels values, which are
-    /// all 0; called once. Alpha is not premultiplied. Pixels outside the frame of an animation
-    /// stay 0. Throws std::runtime_error if the file is broken.
-    void read(std::uint8_t* values);
-
-private:
-    struct State;
-    struct Close {
-        void operator()(State* state) const;
-    };
-
-    std::unique_ptr<State, Close> state_;
-    int width_ = 0;
-    int height_ = 0;
-    int channels_ = 0;
-};
 
 /// Colour encoding that the image states; glTF uses the encoding of the texture's purpose.
 enum class ColorEncoding : std::uint8_t { unknown, linear, srgb };
@@ -141,9 +43,6 @@ struct Ktx2Header {
 /// Checks all offsets and sizes before a library sees the file. Throws std::runtime_error if the
 /// file is broken, or is no image that a texture may have.
 [[nodiscard]] Ktx2Header read_ktx2_header(ByteView bytes);
-
-/// Returns the memory that a process may take to decode the image in `file` [bytes].
-[[nodiscard]] std::uint64_t decoding_memory(ByteView file, const Ktx2Header& header);
 
 /// libktx of Khronos, opened by the program bdpt-read-ktx in a separate process for each image: a
 /// file that crashes it costs only one image.
@@ -168,32 +67,51 @@ private:
     std::optional<std::string> obstacle_;
 };
 
-/// A KTX2 file in memory whose header has been checked.
-class Ktx2Image {
+/// An image file in memory whose header has been read. The bytes must outlive it.
+class ImageFile {
 public:
-    /// `bytes` and `decoder` must outlive the image; null: there is no decoder. Throws
-    /// std::runtime_error if the header is broken, or nothing decodes the image.
-    Ktx2Image(ByteView bytes, Ktx2Decoder* decoder);
+    virtual ~ImageFile() = default;
+    ImageFile(const ImageFile&) = delete;
+    ImageFile& operator=(const ImageFile&) = delete;
 
-    [[nodiscard]] const Ktx2Header& header() const { return header_; }
-    [[nodiscard]] int width() const { return header_.width; }
-    [[nodiscard]] int height() const { return header_.height; }
-    /// Returns 3: RGB, or 4: RGBA.
-    [[nodiscard]] int channels() const { return header_.channels; }
-    [[nodiscard]] static constexpr int value_bytes() { return 1; }
+    /// Returns size, channels and type of the texels, without their bytes.
+    [[nodiscard]] const TexelImage& layout() const { return layout_; }
 
-    /// Returns the memory that another process may take to decode it [bytes].
-    [[nodiscard]] std::uint64_t process_memory() const { return decoding_memory(bytes_, header_); }
+    /// Decodes all pixels, top row first, into room for all values, which are 0: integers in native
+    /// byte order. Called once. Colours are not converted, alpha is not premultiplied. Throws
+    /// std::runtime_error if the file is broken, or takes more than reasonable work.
+    virtual void read(std::uint8_t* values) = 0;
 
-    /// Decodes all pixels, top row first, into room for width * height * channels values. Throws as
-    /// `Ktx2Decoder::decode`.
-    void read(std::uint8_t* values);
+    /// Returns the first damage of data that could be decoded anyway, as far as it has been read.
+    /// Empty: none. Where data is missing, pixels are guessed or grey.
+    [[nodiscard]] virtual std::string damage() const { return {}; }
+    /// Returns the header of a KTX2 file; null for others.
+    [[nodiscard]] virtual const Ktx2Header* ktx2_header() const { return nullptr; }
+    /// Returns the memory that another process may take to decode it [bytes]; 0: there is none.
+    [[nodiscard]] virtual std::uint64_t process_memory() const { return 0; }
 
-private:
-    ByteView bytes_;
-    Ktx2Decoder* decoder_;
-    Ktx2Header header_;
+protected:
+    ImageFile() = default;
+
+    TexelImage layout_;
 };
+
+// Each throws std::runtime_error if the header is broken, or describes another kind of image.
+
+/// Opens a JPEG file with libjpeg: baseline or progressive, 8 bits a channel, grey, RGB, YCbCr,
+/// CMYK or YCCK. Texels are grey or RGB, to which all other kinds are converted.
+[[nodiscard]] std::unique_ptr<ImageFile> open_jpeg(ByteView bytes);
+/// Opens a PNG file with libpng. Palettes and a transparent colour are resolved, fewer bits than 8
+/// are scaled to 8.
+[[nodiscard]] std::unique_ptr<ImageFile> open_png(ByteView bytes);
+/// Opens a WebP file with libwebp [RFC 9649]: lossy or lossless, with or without alpha. Of an
+/// animation only the first frame is read; pixels outside of it stay 0.
+[[nodiscard]] std::unique_ptr<ImageFile> open_webp(ByteView bytes);
+/// Opens a KTX2 file. `decoder` must outlive it; null: there is none, which is an error.
+[[nodiscard]] std::unique_ptr<ImageFile> open_ktx2(ByteView bytes, Ktx2Decoder* decoder);
+
+/// Tests whether a file is PNG, JPEG or WebP, by its first bytes.
+[[nodiscard]] bool is_display_image(ByteView file);
 
 /// A decoded image.
 struct DecodedImage {
@@ -213,13 +131,13 @@ public:
     /// that the caller may go on without it.
     EncodedImage(ByteView bytes, const ReadLimits& limits, Ktx2Decoder* ktx2 = nullptr);
 
-    [[nodiscard]] int width() const { return width_; }
-    [[nodiscard]] int height() const { return height_; }
+    [[nodiscard]] int width() const { return file_->layout().width; }
+    [[nodiscard]] int height() const { return file_->layout().height; }
     /// Returns the size of the texels. Decoding takes up to three times as much.
     [[nodiscard]] std::uint64_t decoded_bytes() const { return decoded_bytes_; }
 
     /// Returns the memory that another process may take to decode it [bytes]; 0: there is none.
-    [[nodiscard]] std::uint64_t process_memory() const;
+    [[nodiscard]] std::uint64_t process_memory() const { return file_->process_memory(); }
 
     /// Decodes texels as stored: 8 or 16 bits, one to four channels. Colours are not converted and
     /// alpha is not premultiplied. Throws std::runtime_error if the image is broken. May be called
@@ -227,9 +145,7 @@ public:
     [[nodiscard]] DecodedImage decode() &&;
 
 private:
-    std::variant<PngImage, JpegImage, WebpImage, Ktx2Image> file_;
-    int width_ = 0;
-    int height_ = 0;
+    std::unique_ptr<ImageFile> file_;
     std::uint64_t decoded_bytes_ = 0;
 };
 

@@ -32,24 +32,25 @@ void cmyk_to_rgb(const std::uint8_t* cmyk, std::size_t pixels, std::uint8_t* rgb
     }
 }
 
-}  // namespace
-
-/// State and callbacks of libjpeg. It is C, so no exception may leave them.
-struct JpegImage::State {
+/// A file with the state and callbacks of libjpeg. It is C, so no exception may leave them.
+struct JpegFile final : ImageFile {
     jpeg_decompress_struct codec{};
     jpeg_error_mgr errors{};
     jpeg_progress_mgr progress{};
     std::jmp_buf jump{};
     Message error{};
-    Message damage{};  // empty: none
+    Message first_damage{};  // empty: none
 
-    static State& of(j_common_ptr codec) { return *static_cast<State*>(codec->client_data); }
+    JpegFile() = default;
+    ~JpegFile() override { jpeg_destroy_decompress(&codec); }
+
+    static JpegFile& of(j_common_ptr codec) { return *static_cast<JpegFile*>(codec->client_data); }
 
     [[noreturn]] static void fail(j_common_ptr codec)
     {
-        State& state = of(codec);
-        codec->err->format_message(codec, state.error.data());
-        std::longjmp(state.jump, 1);
+        JpegFile& file = of(codec);
+        codec->err->format_message(codec, file.error.data());
+        std::longjmp(file.jump, 1);
     }
 
     [[noreturn]] void fail(const char* message)
@@ -61,9 +62,9 @@ struct JpegImage::State {
     /// Levels below 0 are damage, all others messages for developers.
     static void note(j_common_ptr codec, int level)
     {
-        State& state = of(codec);
-        if (level < 0 && state.damage.front() == '\0') {
-            codec->err->format_message(codec, state.damage.data());
+        JpegFile& file = of(codec);
+        if (level < 0 && file.first_damage.front() == '\0') {
+            codec->err->format_message(codec, file.first_damage.data());
         }
     }
 
@@ -71,9 +72,9 @@ struct JpegImage::State {
 
     static void limit_scans(j_common_ptr codec)
     {
-        State& state = of(codec);
-        if (state.codec.input_scan_number > max_scans) {
-            state.fail("too many scans");
+        JpegFile& file = of(codec);
+        if (file.codec.input_scan_number > max_scans) {
+            file.fail("too many scans");
         }
     }
 
@@ -84,10 +85,10 @@ struct JpegImage::State {
     {
         codec.client_data = this;
         codec.err = jpeg_std_error(&errors);
-        errors.error_exit = &State::fail;
-        errors.emit_message = &State::note;
-        errors.output_message = &State::ignore;
-        progress.progress_monitor = &State::limit_scans;
+        errors.error_exit = &JpegFile::fail;
+        errors.emit_message = &JpegFile::note;
+        errors.output_message = &JpegFile::ignore;
+        progress.progress_monitor = &JpegFile::limit_scans;
         if (setjmp(jump) != 0) {
             return false;
         }
@@ -149,38 +150,38 @@ struct JpegImage::State {
     {
         throw std::runtime_error(std::string("JPEG: ") + error.data());
     }
+
+    void read(std::uint8_t* values) override
+    {
+        std::vector<std::uint8_t> inks(is_cmyk() ? 4 * std::size_t{codec.image_width} : 0);
+        if (!read_rows(values, inks.data())) {
+            raise();
+        }
+    }
+
+    [[nodiscard]] std::string damage() const override
+    {
+        return first_damage.front() == '\0' ? "" : std::string("JPEG: ") + first_damage.data();
+    }
+
+    void set_layout()
+    {
+        layout_.width = static_cast<int>(codec.image_width);
+        layout_.height = static_cast<int>(codec.image_height);
+        layout_.channels = is_grey() ? 1 : 3;
+    }
 };
 
-void JpegImage::Close::operator()(State* state) const
-{
-    const std::unique_ptr<State> owned(state);
-    jpeg_destroy_decompress(&owned->codec);
-}
+}  // namespace
 
-JpegImage::JpegImage(ByteView bytes) : state_(new State)
+std::unique_ptr<ImageFile> open_jpeg(ByteView bytes)
 {
-    State& state = *state_;
-    if (!state.read_header(bytes)) {
-        state.raise();
+    auto file = std::make_unique<JpegFile>();
+    if (!file->read_header(bytes)) {
+        file->raise();
     }
-    width_ = static_cast<int>(state.codec.image_width);
-    height_ = static_cast<int>(state.codec.image_height);
-    channels_ = state.is_grey() ? 1 : 3;
-}
-
-void JpegImage::read(std::uint8_t* values)
-{
-    std::vector<std::uint8_t> inks(state_->is_cmyk() ? 4 * std::size_t{state_->codec.image_width}
-                                                     : 0);
-    if (!state_->read_rows(values, inks.data())) {
-        state_->raise();
-    }
-}
-
-std::string JpegImage::damage() const
-{
-    const char* const what = state_->damage.data();
-    return *what == '\0' ? "" : std::string("JPEG: ") + what;
+    file->set_layout();
+    return file;
 }
 
 }  // namespace bdpt::io

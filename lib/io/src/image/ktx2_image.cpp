@@ -331,23 +331,16 @@ ColorEncoding to_encoding(std::uint8_t transfer)
                                          : ColorEncoding::unknown;
 }
 
-bool begins_with_magic(ByteView bytes, std::string_view magic)
-{
-    return bytes.size() >= magic.size() &&
-           std::equal(magic.begin(), magic.end(), bytes.begin(),
-                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
-}
-
 }  // namespace
 
 bool is_ktx(ByteView bytes)
 {
-    return begins_with_magic(bytes, "\xabKTX "sv);
+    return begins_with(bytes, "\xabKTX "sv);
 }
 
 Ktx2Header read_ktx2_header(ByteView bytes)
 {
-    if (!begins_with_magic(bytes, "\xabKTX 20\xbb\r\n\x1a\n"sv)) {
+    if (!begins_with(bytes, "\xabKTX 20\xbb\r\n\x1a\n"sv)) {
         throw std::runtime_error("a KTX image, but not of version 2");
     }
     const Ktx2Reader file(bytes);
@@ -374,6 +367,14 @@ struct DecodingLimits {
     std::uint64_t memory;   // [bytes]
     std::uint64_t seconds;  // CPU time [s]
 };
+
+/// Returns the memory that a process may take to decode the image in `file` [bytes].
+std::uint64_t decoding_memory(ByteView file, const Ktx2Header& header)
+{
+    // The file, its levels without supercompression, as RGBA, and the output.
+    constexpr std::uint64_t bytes_per_pixel = 16;
+    return 2 * file.size() + bytes_per_pixel * header.pixels;
+}
 
 DecodingLimits decoding_limits(ByteView file, const Ktx2Header& header)
 {
@@ -450,13 +451,6 @@ std::optional<std::string> find_obstacle(const std::string& library)
 
 }  // namespace
 
-std::uint64_t decoding_memory(ByteView file, const Ktx2Header& header)
-{
-    // The file, its levels without supercompression, as RGBA, and the output.
-    constexpr std::uint64_t bytes_per_pixel = 16;
-    return 2 * file.size() + bytes_per_pixel * header.pixels;
-}
-
 Ktx2Decoder::Ktx2Decoder(const std::optional<std::filesystem::path>& library)
     : library_(library ? library->string() : std::string())
 {}
@@ -487,20 +481,44 @@ void Ktx2Decoder::decode(ByteView file, const Ktx2Header& header, std::uint8_t* 
     static_cast<void>(reader.wait());
 }
 
-Ktx2Image::Ktx2Image(ByteView bytes, Ktx2Decoder* decoder)
-    : bytes_(bytes), decoder_(decoder), header_(read_ktx2_header(bytes))
+namespace {
+
+/// A file whose header has been checked.
+class Ktx2File final : public ImageFile {
+public:
+    Ktx2File(ByteView bytes, const Ktx2Decoder& decoder, Ktx2Header header)
+        : bytes_(bytes), decoder_(decoder), header_(std::move(header))
+    {
+        layout_.width = header_.width;
+        layout_.height = header_.height;
+        layout_.channels = header_.channels;
+    }
+
+    void read(std::uint8_t* values) override { decoder_.decode(bytes_, header_, values); }
+    [[nodiscard]] const Ktx2Header* ktx2_header() const override { return &header_; }
+    [[nodiscard]] std::uint64_t process_memory() const override
+    {
+        return decoding_memory(bytes_, header_);
+    }
+
+private:
+    ByteView bytes_;
+    const Ktx2Decoder& decoder_;
+    Ktx2Header header_;
+};
+
+}  // namespace
+
+std::unique_ptr<ImageFile> open_ktx2(ByteView bytes, Ktx2Decoder* decoder)
 {
+    Ktx2Header header = read_ktx2_header(bytes);
     if (decoder == nullptr) {
         throw std::runtime_error("KTX2 images are read as textures of materials only");
     }
     if (const std::string* const obstacle = decoder->obstacle()) {
         throw std::runtime_error(*obstacle);
     }
-}
-
-void Ktx2Image::read(std::uint8_t* values)
-{
-    decoder_->decode(bytes_, header_, values);
+    return std::make_unique<Ktx2File>(bytes, *decoder, std::move(header));
 }
 
 }  // namespace bdpt::io

@@ -12,31 +12,39 @@
 #include <string>
 
 namespace bdpt::io {
+namespace {
 
-/// State of libpng's callbacks. They are called from C, so no exception may leave them.
-struct PngImage::State {
+/// A file with the state of libpng's callbacks. They are called from C, so no exception may leave
+/// them.
+struct PngFile final : ImageFile {
     ByteView rest;  // rest of the file
     std::array<char, 200> message{};
     png_structp png = nullptr;
     png_infop info = nullptr;
 
-    /// Callbacks find the file by its state.
-    static void read(png_structp png, png_bytep target, png_size_t size)
+    explicit PngFile(ByteView bytes) : rest(bytes)
     {
-        auto& state = *static_cast<State*>(png_get_io_ptr(png));
-        if (size > state.rest.size()) {
+        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngFile::fail, &PngFile::ignore);
+        info = png != nullptr ? png_create_info_struct(png) : nullptr;
+    }
+    ~PngFile() override { png_destroy_read_struct(&png, &info, nullptr); }
+
+    static void read_bytes(png_structp png, png_bytep target, png_size_t size)
+    {
+        auto& file = *static_cast<PngFile*>(png_get_io_ptr(png));
+        if (size > file.rest.size()) {
             png_error(png, "the file ends too early");
         }
-        std::copy_n(state.rest.begin(), size, target);
-        state.rest = state.rest.subspan(size);
+        std::copy_n(file.rest.begin(), size, target);
+        file.rest = file.rest.subspan(size);
     }
 
     [[noreturn]] static void fail(png_structp png, png_const_charp message)
     {
-        auto& state = *static_cast<State*>(png_get_error_ptr(png));
-        const std::size_t length = std::min(std::strlen(message), state.message.size() - 1);
-        std::copy_n(message, length, state.message.begin());
-        state.message[length] = '\0';
+        auto& file = *static_cast<PngFile*>(png_get_error_ptr(png));
+        const std::size_t length = std::min(std::strlen(message), file.message.size() - 1);
+        std::copy_n(message, length, file.message.begin());
+        file.message[length] = '\0';
         png_longjmp(png, 1);
     }
 
@@ -80,37 +88,37 @@ struct PngImage::State {
     {
         throw std::runtime_error(std::string("PNG: ") + message.data());
     }
+
+    void read(std::uint8_t* values) override
+    {
+        if (!read_rows(values)) {
+            raise();
+        }
+    }
+
+    void set_layout()
+    {
+        layout_.width = static_cast<int>(png_get_image_width(png, info));
+        layout_.height = static_cast<int>(png_get_image_height(png, info));
+        layout_.channels = png_get_channels(png, info);
+        layout_.type = png_get_bit_depth(png, info) == 16 ? TexelType::unorm16 : TexelType::unorm8;
+    }
 };
 
-void PngImage::Close::operator()(State* state) const
-{
-    const std::unique_ptr<State> owned(state);
-    png_destroy_read_struct(&owned->png, &owned->info, nullptr);
-}
+}  // namespace
 
-PngImage::PngImage(ByteView bytes) : state_(new State{.rest = bytes})
+std::unique_ptr<ImageFile> open_png(ByteView bytes)
 {
-    State& state = *state_;
-    state.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &state, &State::fail, &State::ignore);
-    state.info = state.png != nullptr ? png_create_info_struct(state.png) : nullptr;
-    if (state.info == nullptr) {
+    auto file = std::make_unique<PngFile>(bytes);
+    if (file->info == nullptr) {
         throw std::bad_alloc();
     }
-    png_set_read_fn(state.png, &state, &State::read);
-    if (!state.read_header()) {
-        state.raise();
+    png_set_read_fn(file->png, file.get(), &PngFile::read_bytes);
+    if (!file->read_header()) {
+        file->raise();
     }
-    width_ = static_cast<int>(png_get_image_width(state.png, state.info));
-    height_ = static_cast<int>(png_get_image_height(state.png, state.info));
-    channels_ = png_get_channels(state.png, state.info);
-    value_bytes_ = png_get_bit_depth(state.png, state.info) == 16 ? 2 : 1;
-}
-
-void PngImage::read(std::uint8_t* values)
-{
-    if (!state_->read_rows(values)) {
-        state_->raise();
-    }
+    file->set_layout();
+    return file;
 }
 
 }  // namespace bdpt::io

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <exception>
 #include <filesystem>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "file/messages.h"
 
 namespace bdpt::io {
 
@@ -34,15 +34,7 @@ inline void check_pixels(const std::filesystem::path& file, int width, int heigh
 template <typename Write>
 void with_write_errors(const std::filesystem::path& file, const Write& write)
 {
-    try {
-        write();
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& failure) {
-        throw Error(ErrorCode::output, file.string() + ": cannot write: " + failure.what());
-    }
+    with_library_errors(ErrorCode::output, file.string() + ": cannot write: ", write);
 }
 
 /// Returns the text entries of image files for screens: names and values.

@@ -196,21 +196,13 @@ template <typename Read>
 auto with_part_file(const std::filesystem::path& path, const Read& read)
 {
     return with_named_errors(path, [&] {
-        try {
-            const SealedFile file(path);
+        const SealedFile file(path);
+        return with_library_errors(ErrorCode::invalid_input, "OpenEXR: ", [&] {
             check_file_header(file);
             SealedStream stream(file);
             Imf::MultiPartInputFile exr(stream);
             return read(exr, file);
-        } catch (const Error&) {
-            throw;
-        } catch (const std::bad_alloc&) {
-            throw;
-        } catch (const std::exception& error) {
-            std::string what = error.what();
-            std::replace(what.begin(), what.end(), '\n', ' ');
-            throw Error(ErrorCode::invalid_input, "OpenEXR: " + what);
-        }
+        });
     });
 }
 

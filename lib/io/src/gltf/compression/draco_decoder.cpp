@@ -26,13 +26,13 @@ namespace bdpt::io {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::invalid_input)
+[[noreturn]] void refuse(const std::string& what, ErrorCode code = ErrorCode::invalid_input)
 {
     throw Error(code, "Draco: " + what);
 }
 
 /// Size of the header of a Draco file: magic, version, kind of geometry, method, flags.
-constexpr std::size_t head_size = 11;
+constexpr std::size_t draco_head_size = 11;
 
 draco::DecoderBuffer to_buffer(ByteView data)
 {
@@ -52,7 +52,7 @@ void write_values(const draco::PointAttribute& attribute, const draco::Mesh& mes
         if (index.value() >= attribute.size() ||
             !attribute.ConvertValue<T>(index, static_cast<std::int8_t>(components),
                                        values.data())) {
-            fail(
+            refuse(
                 fmt::format("point {} has no value of attribute {}", point, attribute.unique_id()));
         }
         std::memcpy(bytes.data() + point * components * sizeof(T), values.data(),
@@ -64,7 +64,7 @@ Bytes read_attribute(const draco::Mesh& mesh, const DracoAttribute& wanted)
 {
     const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(wanted.id);
     if (attribute == nullptr) {
-        fail(fmt::format("there is no attribute {}", wanted.id));
+        refuse(fmt::format("there is no attribute {}", wanted.id));
     }
     Bytes bytes(mesh.num_points() * wanted.components *
                 static_cast<std::size_t>(component_size(wanted.component_type)));
@@ -97,8 +97,8 @@ std::vector<std::uint32_t> read_faces(const draco::Mesh& mesh)
     for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
         for (const draco::PointIndex& point : mesh.face(draco::FaceIndex(i))) {
             if (point.value() >= mesh.num_points()) {
-                fail(fmt::format("triangle {} has point {}, but the number of points is {}", i,
-                                 point.value(), mesh.num_points()));
+                refuse(fmt::format("triangle {} has point {}, but the number of points is {}", i,
+                                   point.value(), mesh.num_points()));
             }
             indices.push_back(point.value());
         }
@@ -116,8 +116,8 @@ void check_size(const draco::Mesh& mesh, std::span<const DracoAttribute> attribu
                  component_size(attribute.component_type);
     }
     if (bytes > most) {
-        fail(fmt::format("{} points become {} bytes, but {} are left of the limit",
-                         mesh.num_points(), bytes, most));
+        refuse(fmt::format("{} points become {} bytes, but {} are left of the limit",
+                           mesh.num_points(), bytes, most));
     }
 }
 
@@ -127,7 +127,7 @@ DracoMesh decode(ByteView data, std::span<const DracoAttribute> attributes, std:
     draco::StatusOr<std::unique_ptr<draco::Mesh>> decoded =
         draco::Decoder().DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok() || decoded.value() == nullptr) {
-        fail("the data cannot be decoded: " + quote(decoded.status().error_msg_string()));
+        refuse("the data cannot be decoded: " + quote(decoded.status().error_msg_string()));
     }
     const draco::Mesh& mesh = *decoded.value();
     check_size(mesh, attributes, most);
@@ -150,21 +150,21 @@ bool has_draco()
 DracoSize draco_size(ByteView data)
 {
     constexpr std::array<std::uint8_t, 5> magic{'D', 'R', 'A', 'C', 'O'};
-    if (data.size() < head_size || !std::equal(magic.begin(), magic.end(), data.begin())) {
-        fail(fmt::format("{} bytes that do not begin like Draco data", data.size()));
+    if (data.size() < draco_head_size || !std::equal(magic.begin(), magic.end(), data.begin())) {
+        refuse(fmt::format("{} bytes that do not begin like Draco data", data.size()));
     }
     const int major = data[5];
     const int minor = data[6];
     if (major != 2 || minor != 2) {
-        fail(fmt::format("bitstream {}.{}; only 2.2 is supported", major, minor),
-             ErrorCode::unsupported);
+        refuse(fmt::format("bitstream {}.{}; only 2.2 is supported", major, minor),
+               ErrorCode::unsupported);
     }
     if (data[7] != draco::TRIANGULAR_MESH) {
-        fail("the data is not a mesh");
+        refuse("the data is not a mesh");
     }
     const bool edgebreaker = data[8] == draco::MESH_EDGEBREAKER_ENCODING;
     const bool has_metadata = (data[10] & (METADATA_FLAG_MASK >> 8)) != 0;
-    draco::DecoderBuffer buffer = to_buffer(data.subspan(head_size));
+    draco::DecoderBuffer buffer = to_buffer(data.subspan(draco_head_size));
     buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(2, 2));
     draco::GeometryMetadata metadata;
     DracoSize size;
@@ -176,7 +176,7 @@ DracoSize draco_size(ByteView data)
                      : draco::DecodeVarint(&size.faces, &buffer) &&
                            draco::DecodeVarint(&size.vertices, &buffer));
     if (!read) {
-        fail("the data is truncated");
+        refuse("the data is truncated");
     }
     return size;
 }
@@ -190,7 +190,7 @@ DracoMesh decode_draco_mesh(ByteView data, std::span<const DracoAttribute> attri
         throw;
     } catch (const std::exception& error) {
         // Broken data makes the decoder request more memory than there is.
-        fail("the data cannot be decoded: " + quote(error.what()));
+        refuse("the data cannot be decoded: " + quote(error.what()));
     }
 }
 

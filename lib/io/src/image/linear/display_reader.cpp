@@ -1,7 +1,3 @@
-#include "image/linear/image_readers.h"
-
-#include "image/encoded_image.h"
-
 #include <bdpt/error.h>
 #include <bdpt/srgb.h>
 
@@ -10,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <stdexcept>
-#include <string_view>
+#include <utility>
 #include <vector>
+
+#include "image/encoded_image.h"
+#include "image/linear/image_readers.h"
 
 namespace bdpt::io {
 
@@ -60,20 +58,10 @@ Image linear_image(const TexelImage& texels)
 
 }  // namespace
 
-bool is_display_image(ByteView file)
-{
-    const auto has = [file](std::string_view magic, std::size_t offset) {
-        return file.size() >= offset + magic.size() &&
-               std::memcmp(file.data() + offset, magic.data(), magic.size()) == 0;
-    };
-    return has("\x89PNG\r\n\x1a\n", 0) || has("\xff\xd8\xff", 0) ||
-           (has("RIFF", 0) && has("WEBP", 8));
-}
-
 Image read_display_image(ByteView file, const ReadLimits& limits, Warnings& warnings,
                          const MemoryBudget* memory)
 {
-    try {
+    return with_library_errors(ErrorCode::invalid_input, "", [&] {
         EncodedImage encoded(file, limits);
         check_image_size(encoded.width(), encoded.height(), sizeof(Rgb), limits, memory);
         if (memory != nullptr) {
@@ -84,11 +72,7 @@ Image read_display_image(ByteView file, const ReadLimits& limits, Warnings& warn
             warnings.add(WarningKind::loss, "the image is damaged", decoded.damage);
         }
         return linear_image(decoded.image);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::runtime_error& error) {
-        throw Error(ErrorCode::invalid_input, error.what());
-    }
+    });
 }
 
 }  // namespace bdpt::io

@@ -10,7 +10,6 @@
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
 #include <ImfStringAttribute.h>
-#include <ImfVersion.h>
 #include <bdpt/error.h>
 #include <fmt/format.h>
 
@@ -28,7 +27,6 @@
 #include <utility>
 #include <vector>
 
-#include "image/encoded_image.h"
 #include "image/linear/image_readers.h"
 
 namespace bdpt::io {
@@ -384,38 +382,27 @@ ExrImage read(ByteView file, const std::optional<std::string>& layer, const Read
             .attributes = read_attributes(header)};
 }
 
-/// Calls `work`, and throws the exceptions of OpenEXR as errors.
-template <typename Work>
-auto with_own_errors(const Work& work)
-{
-    try {
-        return work();
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& error) {
-        std::string what = error.what();
-        std::replace(what.begin(), what.end(), '\n', ' ');
-        throw Error(ErrorCode::invalid_input, "OpenEXR: " + what);
-    }
-}
-
 }  // namespace
 
 bool is_exr(ByteView file)
 {
-    return file.size() >= 4 && Imf::isImfMagic(reinterpret_cast<const char*>(file.data()));
+    return begins_with(file, "\x76\x2f\x31\x01");
 }
 
 ExrImage read_exr(ByteView file, const std::optional<std::string>& layer, const ReadLimits& limits,
                   Warnings& warnings, const MemoryBudget* memory)
 {
-    return with_own_errors([&] { return read(file, layer, limits, warnings, memory); });
+    return with_library_errors(ErrorCode::invalid_input, "OpenEXR: ", [&] {
+        return read(file, layer, limits, warnings, memory);
+    });
 }
 
 bool read_half_exr_rows(ByteView file, const ReadLimits& limits, Warnings& warnings,
                         const RowSink& sink)
 {
-    return with_own_errors([&] { return read_half_rows(file, limits, warnings, sink); });
+    return with_library_errors(ErrorCode::invalid_input, "OpenEXR: ", [&] {
+        return read_half_rows(file, limits, warnings, sink);
+    });
 }
 
 }  // namespace bdpt::io

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "file/read_file.h"
-#include "image/encoded_image.h"
 #include "image/linear/image_readers.h"
 
 namespace bdpt::io {
@@ -319,10 +318,7 @@ void tell_exposure(const std::array<double, 3>& exposure, Warnings& warnings)
 
 bool is_hdr(ByteView file)
 {
-    const auto starts_with = [file](std::string_view magic) {
-        return file.size() >= magic.size() && std::equal(magic.begin(), magic.end(), file.begin());
-    };
-    return starts_with("#?RADIANCE") || starts_with("#?RGBE");
+    return begins_with(file, "#?RADIANCE") || begins_with(file, "#?RGBE");
 }
 
 Image read_hdr(ByteView file, const ReadLimits& limits, Warnings& warnings,

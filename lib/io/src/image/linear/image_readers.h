@@ -18,6 +18,7 @@
 
 #include "file/messages.h"
 #include "file/read_file.h"
+#include "image/encoded_image.h"
 #include "image/linear/oiio_interface.h"
 
 namespace bdpt::io {
@@ -28,9 +29,6 @@ struct RowSink {
     /// Takes the next row from the top and may change its values; returns false to stop.
     std::function<bool(std::span<Rgb> row)> add;
 };
-
-/// Tests whether a file is PNG, JPEG or WebP, by its first bytes.
-[[nodiscard]] bool is_display_image(ByteView file);
 
 /// Decodes a PNG, JPEG or WebP image, taken as sRGB-encoded [IEC 61966-2-1], to linear RGB in [0,
 /// 1]. Alpha and colour profiles are ignored. Throws `Error` (invalid_input): broken, or over a

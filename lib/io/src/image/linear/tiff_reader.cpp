@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "file/read_file.h"
-#include "image/encoded_image.h"
 #include "image/linear/image_readers.h"
 
 namespace bdpt::io {
@@ -139,15 +138,14 @@ bool is_tiff(ByteView file)
 {
     // Either byte order; the last two are BigTIFF.
     constexpr std::array starts{"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
-    return std::any_of(starts.begin(), starts.end(), [file](std::string_view start) {
-        return file.size() >= start.size() && std::equal(start.begin(), start.end(), file.begin());
-    });
+    return std::any_of(starts.begin(), starts.end(),
+                       [file](std::string_view start) { return begins_with(file, start); });
 }
 
 Image read_tiff(ByteView file, const ReadLimits& limits, const MemoryBudget* memory)
 {
     const OiioLibrary library = open_library();
-    try {
+    return with_library_errors(ErrorCode::invalid_input, "TIFF: ", [&] {
         const OiioImage tiff = library.open("tiff", file);
         const BdptImageHeader& header = tiff.header();
         check_header(header, limits, memory);
@@ -161,11 +159,7 @@ Image read_tiff(ByteView file, const ReadLimits& limits, const MemoryBudget* mem
             image.pixels.emplace_back(values[i], values[i + green], values[i + 2 * green]);
         }
         return image;
-    } catch (const Error&) {
-        throw;
-    } catch (const std::runtime_error& error) {
-        throw Error(ErrorCode::invalid_input, std::string("TIFF: ") + error.what());
-    }
+    });
 }
 
 }  // namespace bdpt::io

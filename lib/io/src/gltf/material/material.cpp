@@ -19,69 +19,49 @@ float MaterialValues::in_range(double value, double low, double high, std::strin
     return static_cast<float>(nearest);
 }
 
-const tinygltf::Value* MaterialValues::extension(const std::string& name) const
+std::optional<MaterialExtension> MaterialValues::extension(const std::string& name) const
 {
     const auto found = source_.extensions.find(name);
-    return found == source_.extensions.end() ? nullptr : &found->second;
+    if (found == source_.extensions.end()) {
+        return std::nullopt;
+    }
+    return MaterialExtension{*this, found->second, "extensions/" + name};
 }
 
-Rgb MaterialValues::color(const tinygltf::Value& object, const std::string& key, double high,
-                          Rgb fallback) const
+std::optional<TextureRef> MaterialValues::texture(const TextureInfo& info,
+                                                  std::string_view key) const
+{
+    return textures_.resolve(info, fmt::format("{}/{}", place_, key));
+}
+
+std::string MaterialExtension::at(std::string_view key) const
+{
+    return fmt::format("{}/{}", place, key);
+}
+
+float MaterialExtension::number(const std::string& key, double fallback, double low,
+                                double high) const
+{
+    return values.in_range(number_or(object, key, fallback), low, high, at(key));
+}
+
+Rgb MaterialExtension::color(const std::string& key, double high, Rgb fallback) const
 {
     if (!object.Has(key)) {
         return fallback;
     }
-    const auto& values = object.Get(key).Get<tinygltf::Value::Array>();
+    const auto& numbers = object.Get(key).Get<tinygltf::Value::Array>();
     Rgb rgb;
     for (int c = 0; c < 3; ++c) {
-        rgb[c] = in_range(values[static_cast<std::size_t>(c)].GetNumberAsDouble(), 0.0, high, key);
+        rgb[c] = values.in_range(numbers[static_cast<std::size_t>(c)].GetNumberAsDouble(), 0.0,
+                                 high, key);
     }
     return rgb;
 }
 
-std::optional<TextureRef> MaterialValues::texture(const tinygltf::Value& object,
-                                                  const std::string& name,
-                                                  const std::string& key) const
+std::optional<TextureRef> MaterialExtension::texture(const std::string& key) const
 {
-    return textures_.resolve(texture_info(object, key),
-                             fmt::format("{}/extensions/{}/{}", place_, name, key));
-}
-
-void read_specular_glossiness(const MaterialValues& values, MaterialDesc& desc)
-{
-    const std::string name = "KHR_materials_pbrSpecularGlossiness";
-    const auto* object = values.extension(name);
-    if (object == nullptr) {
-        return;
-    }
-    const std::string place = "extensions/" + name + "/";
-    desc.base_color = Vec4(1.0f);
-    if (object->Has("diffuseFactor")) {
-        const auto& factor = object->Get("diffuseFactor").Get<tinygltf::Value::Array>();
-        for (int c = 0; c < 4; ++c) {
-            desc.base_color[c] =
-                values.in_range(factor[static_cast<std::size_t>(c)].GetNumberAsDouble(), 0.0, 1.0,
-                                place + "diffuseFactor");
-        }
-    }
-    desc.base_color_texture = values.texture(*object, name, "diffuseTexture");
-    desc.metallic = 0.0f;
-    desc.metallic_roughness_texture.reset();
-    const double glossiness = number_or(*object, "glossinessFactor", 1.0);
-    desc.roughness = 1.0f - values.in_range(glossiness, 0.0, 1.0, place + "glossinessFactor");
-    // Reflectance of index 1.5, which the specular colour multiplies.
-    constexpr float reflectance = 0.04f;
-    const Rgb specular = values.color(*object, "specularFactor", 1.0);
-    desc.ior = 1.5f;
-    desc.specular = 1.0f;
-    desc.specular_color = specular / reflectance;
-    const auto texture = values.texture(*object, name, "specularGlossinessTexture");
-    if (specular != Rgb(0.0f)) {
-        desc.specular_color_texture = texture;
-    }
-    if (desc.roughness < 1.0f) {
-        desc.glossiness_texture = texture;
-    }
+    return values.texture(texture_info(object, key), at(key));
 }
 
 int variant_material(const tinygltf::Primitive& primitive, std::size_t variant)
@@ -110,7 +90,6 @@ public:
                    LoadContext& context)
         : source_(source),
           place_(fmt::format("/materials/{}", index)),
-          textures_(textures),
           context_(context),
           values_(source, place_, textures, context)
     {}
@@ -121,31 +100,41 @@ public:
         desc_.double_sided = source_.doubleSided;
         read_base_color();
         read_alpha();
-        read_specular_glossiness(values_, desc_);
-        if (values_.extension("KHR_materials_unlit") != nullptr) {
+        const auto specular_glossiness = values_.extension("KHR_materials_pbrSpecularGlossiness");
+        if (specular_glossiness) {
+            read_specular_glossiness(*specular_glossiness);
+        }
+        if (values_.extension("KHR_materials_unlit")) {
             desc_.unlit = true;  // the rest is for viewers that do not know the extension
             return std::move(desc_);
         }
         read_emission();
-        if (values_.extension("KHR_materials_pbrSpecularGlossiness") == nullptr) {
+        if (!specular_glossiness) {
             read_metallic_roughness();
-            read_ior();
-            read_specular();
+            read_extension("KHR_materials_ior", &MaterialReader::read_ior);
+            read_extension("KHR_materials_specular", &MaterialReader::read_specular);
         }
-        read_transmission();
-        read_volume();
-        read_volume_scatter();
-        read_scatter();
+        read_extension("KHR_materials_transmission", &MaterialReader::read_transmission);
+        read_extension("KHR_materials_volume", &MaterialReader::read_volume);
+        read_extension("KHR_materials_volume_scatter", &MaterialReader::read_volume_scatter);
+        read_extension("KHR_materials_scatter", &MaterialReader::read_scatter);
         read_layers(values_, desc_);
         if (source_.normalTexture.index >= 0) {
             desc_.normal_scale = static_cast<float>(source_.normalTexture.scale);
             desc_.normal_texture =
-                textures_.resolve(texture_info(source_.normalTexture), place_ + "/normalTexture");
+                values_.texture(texture_info(source_.normalTexture), "normalTexture");
         }
         return std::move(desc_);
     }
 
 private:
+    void read_extension(const char* name, void (MaterialReader::*read)(const MaterialExtension&))
+    {
+        if (const auto from = values_.extension(name)) {
+            (this->*read)(*from);
+        }
+    }
+
     void read_base_color()
     {
         const auto& pbr = source_.pbrMetallicRoughness;
@@ -154,8 +143,8 @@ private:
                 values_.in_range(pbr.baseColorFactor[static_cast<std::size_t>(c)], 0.0, 1.0,
                                  "pbrMetallicRoughness/baseColorFactor");
         }
-        desc_.base_color_texture = textures_.resolve(
-            texture_info(pbr.baseColorTexture), place_ + "/pbrMetallicRoughness/baseColorTexture");
+        desc_.base_color_texture = values_.texture(texture_info(pbr.baseColorTexture),
+                                                   "pbrMetallicRoughness/baseColorTexture");
     }
 
     void read_alpha()
@@ -182,18 +171,49 @@ private:
             values_.in_range(pbr.roughnessFactor, 0.0, 1.0, "pbrMetallicRoughness/roughnessFactor");
         if (desc_.metallic > 0.0f || desc_.roughness > 0.0f) {
             desc_.metallic_roughness_texture =
-                textures_.resolve(texture_info(pbr.metallicRoughnessTexture),
-                                  place_ + "/pbrMetallicRoughness/metallicRoughnessTexture");
+                values_.texture(texture_info(pbr.metallicRoughnessTexture),
+                                "pbrMetallicRoughness/metallicRoughnessTexture");
+        }
+    }
+
+    /// Converts KHR_materials_pbrSpecularGlossiness to metallic-roughness: a dielectric of index
+    /// 1.5 whose reflectance at normal incidence is the specular colour. It replaces base colour,
+    /// metallic and roughness.
+    void read_specular_glossiness(const MaterialExtension& from)
+    {
+        desc_.base_color = Vec4(1.0f);
+        if (from.object.Has("diffuseFactor")) {
+            const auto& factor = from.object.Get("diffuseFactor").Get<tinygltf::Value::Array>();
+            for (int c = 0; c < 4; ++c) {
+                desc_.base_color[c] =
+                    values_.in_range(factor[static_cast<std::size_t>(c)].GetNumberAsDouble(), 0.0,
+                                     1.0, from.at("diffuseFactor"));
+            }
+        }
+        desc_.base_color_texture = from.texture("diffuseTexture");
+        desc_.metallic = 0.0f;
+        desc_.metallic_roughness_texture.reset();
+        desc_.roughness = 1.0f - from.number("glossinessFactor", 1.0, 0.0, 1.0);
+        // Reflectance of index 1.5, which the specular colour multiplies.
+        constexpr float reflectance = 0.04f;
+        const Rgb specular = from.color("specularFactor", 1.0);
+        desc_.ior = 1.5f;
+        desc_.specular = 1.0f;
+        desc_.specular_color = specular / reflectance;
+        const auto texture = from.texture("specularGlossinessTexture");
+        if (specular != Rgb(0.0f)) {
+            desc_.specular_color_texture = texture;
+        }
+        if (desc_.roughness < 1.0f) {
+            desc_.glossiness_texture = texture;
         }
     }
 
     void read_emission()
     {
         double strength = 1.0;
-        if (const auto* value = values_.extension("KHR_materials_emissive_strength")) {
-            strength =
-                values_.in_range(number_or(*value, "emissiveStrength", 1.0), 0.0, no_limit,
-                                 "extensions/KHR_materials_emissive_strength/emissiveStrength");
+        if (const auto from = values_.extension("KHR_materials_emissive_strength")) {
+            strength = from->number("emissiveStrength", 1.0, 0.0, no_limit);
         }
         for (int c = 0; c < 3; ++c) {
             const double factor = source_.emissiveFactor[static_cast<std::size_t>(c)];
@@ -203,110 +223,75 @@ private:
                 "emissiveFactor");
         }
         if (desc_.emission != Rgb(0.0f)) {
-            desc_.emission_texture = textures_.resolve(texture_info(source_.emissiveTexture),
-                                                       place_ + "/emissiveTexture");
+            desc_.emission_texture =
+                values_.texture(texture_info(source_.emissiveTexture), "emissiveTexture");
         }
     }
 
-    void read_ior()
+    void read_ior(const MaterialExtension& from)
     {
-        const auto* value = values_.extension("KHR_materials_ior");
-        if (value == nullptr) {
-            return;
-        }
-        const double ior = number_or(*value, "ior", 1.5);
         // 0 stands for a Fresnel term of one, that of an infinite index [KHR_materials_ior].
-        constexpr double nearly_infinite = 1e4;
-        desc_.ior = ior == 0.0
-                        ? static_cast<float>(nearly_infinite)
-                        : values_.in_range(ior, 1.0, no_limit, "extensions/KHR_materials_ior/ior");
+        constexpr float nearly_infinite = 1e4f;
+        desc_.ior = number_or(from.object, "ior", 1.5) == 0.0
+                        ? nearly_infinite
+                        : from.number("ior", 1.5, 1.0, no_limit);
     }
 
-    void read_specular()
+    void read_specular(const MaterialExtension& from)
     {
-        const auto* value = values_.extension("KHR_materials_specular");
-        if (value == nullptr) {
-            return;
-        }
-        const std::string at = place_ + "/extensions/KHR_materials_specular/";
-        desc_.specular = values_.in_range(number_or(*value, "specularFactor", 1.0), 0.0, 1.0,
-                                          "extensions/KHR_materials_specular/specularFactor");
-        desc_.specular_color = values_.color(*value, "specularColorFactor", no_limit);
+        desc_.specular = from.number("specularFactor", 1.0, 0.0, 1.0);
+        desc_.specular_color = from.color("specularColorFactor", no_limit);
         if (desc_.specular > 0.0f) {
-            desc_.specular_texture =
-                textures_.resolve(texture_info(*value, "specularTexture"), at + "specularTexture");
-            desc_.specular_color_texture = textures_.resolve(
-                texture_info(*value, "specularColorTexture"), at + "specularColorTexture");
+            desc_.specular_texture = from.texture("specularTexture");
+            desc_.specular_color_texture = from.texture("specularColorTexture");
         }
     }
 
-    void read_transmission()
+    void read_transmission(const MaterialExtension& from)
     {
-        const auto* value = values_.extension("KHR_materials_transmission");
-        if (value == nullptr) {
-            return;
-        }
-        desc_.transmission =
-            values_.in_range(number_or(*value, "transmissionFactor", 0.0), 0.0, 1.0,
-                             "extensions/KHR_materials_transmission/transmissionFactor");
+        desc_.transmission = from.number("transmissionFactor", 0.0, 0.0, 1.0);
         if (desc_.transmission > 0.0f) {
-            desc_.transmission_texture =
-                textures_.resolve(texture_info(*value, "transmissionTexture"),
-                                  place_ +
-                                      "/extensions/KHR_materials_transmission/"
-                                      "transmissionTexture");
+            desc_.transmission_texture = from.texture("transmissionTexture");
         }
     }
 
-    void read_volume()
+    void read_volume(const MaterialExtension& from)
     {
-        const auto* value = values_.extension("KHR_materials_volume");
-        if (value == nullptr) {
+        desc_.thickness = from.number("thicknessFactor", 0.0, 0.0, no_limit);
+        desc_.attenuation_color = from.color("attenuationColor", 1.0);
+        if (!from.object.Has("attenuationDistance")) {
             return;
         }
-        desc_.thickness = values_.in_range(number_or(*value, "thicknessFactor", 0.0), 0.0, no_limit,
-                                           "extensions/KHR_materials_volume/thicknessFactor");
-        desc_.attenuation_color = values_.color(*value, "attenuationColor", 1.0);
-        if (!value->Has("attenuationDistance")) {
-            return;
-        }
-        const double distance = value->Get("attenuationDistance").GetNumberAsDouble();
+        const double distance = from.object.Get("attenuationDistance").GetNumberAsDouble();
         if (static_cast<float>(distance) > 0.0f) {
             desc_.attenuation_distance = static_cast<float>(distance);
         } else {
-            context_.warn("an attenuation distance must be above 0; there is no attenuation",
-                          fmt::format("{}/extensions/KHR_materials_volume/attenuationDistance: {}",
-                                      place_, distance));
+            context_.warn(
+                "an attenuation distance must be above 0; there is no attenuation",
+                fmt::format("{}/{}: {}", place_, from.at("attenuationDistance"), distance));
         }
     }
 
-    /// Reads the draft of September 2025; older files call the colour a factor.
-    void read_volume_scatter()
+    [[nodiscard]] static float scatter_anisotropy(const MaterialExtension& from)
     {
-        const auto* value = values_.extension("KHR_materials_volume_scatter");
-        if (value == nullptr) {
-            return;
-        }
-        const char* color =
-            value->Has("multiscatterColor") ? "multiscatterColor" : "multiscatterColorFactor";
-        desc_.volume_scatter.color = values_.color(*value, color, 1.0, Rgb(0.0f));
         constexpr auto most = static_cast<double>(max_anisotropy);
-        desc_.volume_scatter.anisotropy =
-            values_.in_range(number_or(*value, "scatterAnisotropy", 0.0), -most, most,
-                             "extensions/KHR_materials_volume_scatter/scatterAnisotropy");
+        return from.number("scatterAnisotropy", 0.0, -most, most);
+    }
+
+    /// Reads the draft of September 2025; older files call the colour a factor.
+    void read_volume_scatter(const MaterialExtension& from)
+    {
+        const char* color =
+            from.object.Has("multiscatterColor") ? "multiscatterColor" : "multiscatterColorFactor";
+        desc_.volume_scatter.color = from.color(color, 1.0, Rgb(0.0f));
+        desc_.volume_scatter.anisotropy = scatter_anisotropy(from);
     }
 
     /// Reads the draft of June 2026, the successor of KHR_materials_volume_scatter. Called after
     /// the volume is read.
-    void read_scatter()
+    void read_scatter(const MaterialExtension& from)
     {
-        const auto* value = values_.extension("KHR_materials_scatter");
-        if (value == nullptr) {
-            return;
-        }
-        const std::string at = "extensions/KHR_materials_scatter/";
-        const float strength = values_.in_range(number_or(*value, "scatterStrengthFactor", 0.0),
-                                                0.0, 1.0, at + "scatterStrengthFactor");
+        const float strength = from.number("scatterStrengthFactor", 0.0, 0.0, 1.0);
         if (strength == 0.0f) {
             desc_.volume_scatter = {};
             return;
@@ -315,25 +300,21 @@ private:
             context_.warn(WarningKind::loss,
                           "KHR_materials_scatter is supported in bodies with a thickness only; "
                           "this sheet does not scatter",
-                          fmt::format("{}/{}scatterStrengthFactor", place_, at));
+                          fmt::format("{}/{}", place_, from.at("scatterStrengthFactor")));
             return;
         }
         for (const char* texture : {"scatterStrengthTexture", "multiscatterColorTexture"}) {
-            if (value->Has(texture)) {
+            if (from.object.Has(texture)) {
                 context_.warn(WarningKind::loss, "textures of KHR_materials_scatter are ignored",
-                              fmt::format("{}/{}{}", place_, at, texture));
+                              fmt::format("{}/{}", place_, from.at(texture)));
             }
         }
-        constexpr auto most = static_cast<double>(max_anisotropy);
-        desc_.volume_scatter = {
-            .color = strength * values_.color(*value, "multiscatterColorFactor", 1.0),
-            .anisotropy = values_.in_range(number_or(*value, "scatterAnisotropy", 0.0), -most, most,
-                                           at + "scatterAnisotropy")};
+        desc_.volume_scatter = {.color = strength * from.color("multiscatterColorFactor", 1.0),
+                                .anisotropy = scatter_anisotropy(from)};
     }
 
     const tinygltf::Material& source_;
     std::string place_;
-    TextureResolver& textures_;
     LoadContext& context_;
     MaterialValues values_;
     MaterialDesc desc_;

@@ -66,6 +66,24 @@ private:
 /// The greatest value of a property without an upper bound.
 inline constexpr double no_limit = std::numeric_limits<float>::max();
 
+class MaterialValues;
+
+/// One extension of a material.
+struct MaterialExtension {
+    const MaterialValues& values;
+    const tinygltf::Value& object;
+    std::string place;  ///< its place within the material
+
+    /// Returns the place of `key` within the material.
+    [[nodiscard]] std::string at(std::string_view key) const;
+    /// Returns number `key`, clamped to its range; `fallback` if it is missing.
+    [[nodiscard]] float number(const std::string& key, double fallback, double low,
+                               double high) const;
+    /// Returns colour `key`, in [0, high]; `fallback` if it is missing.
+    [[nodiscard]] Rgb color(const std::string& key, double high, Rgb fallback = Rgb(1.0f)) const;
+    [[nodiscard]] std::optional<TextureRef> texture(const std::string& key) const;
+};
+
 /// The values of one material and its extensions, clamped to their ranges with a warning.
 class MaterialValues {
 public:
@@ -77,15 +95,11 @@ public:
 
     /// Clamps a value to its range; `key` is its place within the material, for the warning.
     [[nodiscard]] float in_range(double value, double low, double high, std::string_view key) const;
-    /// Returns an extension; null if the material does not have it.
-    [[nodiscard]] const tinygltf::Value* extension(const std::string& name) const;
-    /// Returns colour `key` of an extension, in [0, high]; `fallback` if it is missing.
-    [[nodiscard]] Rgb color(const tinygltf::Value& object, const std::string& key, double high,
-                            Rgb fallback = Rgb(1.0f)) const;
-    /// Returns texture `key` of the extension `name`.
-    [[nodiscard]] std::optional<TextureRef> texture(const tinygltf::Value& object,
-                                                    const std::string& name,
-                                                    const std::string& key) const;
+    /// Returns an extension; none if the material does not have it.
+    [[nodiscard]] std::optional<MaterialExtension> extension(const std::string& name) const;
+    /// Resolves a reference whose place within the material is `key`.
+    [[nodiscard]] std::optional<TextureRef> texture(const TextureInfo& info,
+                                                    std::string_view key) const;
 
 private:
     const tinygltf::Material& source_;
@@ -97,11 +111,6 @@ private:
 /// Reads the layers of KHR_materials_{anisotropy, clearcoat, diffuse_transmission, iridescence,
 /// sheen}. Images that have no influence are not decoded.
 void read_layers(const MaterialValues& values, MaterialDesc& desc);
-
-/// Converts KHR_materials_pbrSpecularGlossiness to metallic-roughness: a dielectric of index 1.5
-/// whose reflectance at normal incidence is the specular colour. It replaces base colour, metallic
-/// and roughness. Does nothing if the material does not have the extension.
-void read_specular_glossiness(const MaterialValues& values, MaterialDesc& desc);
 
 /// Returns the material of a primitive in a variant of KHR_materials_variants: the one mapped to it
 /// or, if there is none, that of the primitive; -1: the default material.

@@ -6,25 +6,7 @@ namespace bdpt::io {
 
 namespace {
 
-/// One extension of a material.
-struct Extension {
-    const MaterialValues& values;
-    const tinygltf::Value& object;
-    std::string name;
-
-    [[nodiscard]] float number(const std::string& key, double fallback, double low,
-                               double high) const
-    {
-        return values.in_range(number_or(object, key, fallback), low, high,
-                               "extensions/" + name + "/" + key);
-    }
-    [[nodiscard]] std::optional<TextureRef> texture(const std::string& key) const
-    {
-        return values.texture(object, name, key);
-    }
-};
-
-ClearcoatDesc read_clearcoat(const Extension& from)
+ClearcoatDesc read_clearcoat(const MaterialExtension& from)
 {
     ClearcoatDesc coat;
     coat.factor = from.number("clearcoatFactor", 0.0, 0.0, 1.0);
@@ -44,10 +26,10 @@ ClearcoatDesc read_clearcoat(const Extension& from)
     return coat;
 }
 
-SheenDesc read_sheen(const Extension& from)
+SheenDesc read_sheen(const MaterialExtension& from)
 {
     SheenDesc sheen;
-    sheen.color = from.values.color(from.object, "sheenColorFactor", 1.0, Rgb(0.0f));
+    sheen.color = from.color("sheenColorFactor", 1.0, Rgb(0.0f));
     if (sheen.color == Rgb(0.0f)) {
         return sheen;
     }
@@ -59,7 +41,7 @@ SheenDesc read_sheen(const Extension& from)
     return sheen;
 }
 
-AnisotropyDesc read_anisotropy(const Extension& from)
+AnisotropyDesc read_anisotropy(const MaterialExtension& from)
 {
     AnisotropyDesc anisotropy;
     anisotropy.strength = from.number("anisotropyStrength", 0.0, 0.0, 1.0);
@@ -71,7 +53,7 @@ AnisotropyDesc read_anisotropy(const Extension& from)
     return anisotropy;
 }
 
-IridescenceDesc read_iridescence(const Extension& from)
+IridescenceDesc read_iridescence(const MaterialExtension& from)
 {
     IridescenceDesc film;
     film.factor = from.number("iridescenceFactor", 0.0, 0.0, 1.0);
@@ -88,7 +70,7 @@ IridescenceDesc read_iridescence(const Extension& from)
     return film;
 }
 
-DiffuseTransmissionDesc read_diffuse_transmission(const Extension& from)
+DiffuseTransmissionDesc read_diffuse_transmission(const MaterialExtension& from)
 {
     DiffuseTransmissionDesc through;
     through.factor = from.number("diffuseTransmissionFactor", 0.0, 0.0, 1.0);
@@ -96,14 +78,14 @@ DiffuseTransmissionDesc read_diffuse_transmission(const Extension& from)
         return through;
     }
     through.texture = from.texture("diffuseTransmissionTexture");
-    through.color = from.values.color(from.object, "diffuseTransmissionColorFactor", 1.0);
+    through.color = from.color("diffuseTransmissionColorFactor", 1.0);
     if (through.color != Rgb(0.0f)) {
         through.color_texture = from.texture("diffuseTransmissionColorTexture");
     }
     return through;
 }
 
-float read_dispersion(const Extension& from)
+float read_dispersion(const MaterialExtension& from)
 {
     return from.number("dispersion", 0.0, 0.0, no_limit);
 }
@@ -111,10 +93,10 @@ float read_dispersion(const Extension& from)
 /// Returns the value that `read` makes of an extension, if the material has it.
 template <typename Desc>
 void read_extension(const MaterialValues& values, const std::string& name,
-                    Desc (*read)(const Extension&), Desc& desc)
+                    Desc (*read)(const MaterialExtension&), Desc& desc)
 {
-    if (const auto* object = values.extension(name)) {
-        desc = read({values, *object, name});
+    if (const auto from = values.extension(name)) {
+        desc = read(*from);
     }
 }
 

@@ -54,7 +54,7 @@ private:
     std::size_t position_;
 };
 
-[[noreturn]] void fail(const std::string& what)
+[[noreturn]] void refuse_header(const std::string& what)
 {
     throw Error(ErrorCode::invalid_input, "OpenEXR: " + what);
 }
@@ -152,8 +152,8 @@ void check_tiles(Cursor description, const ReadLimits& limits)
     const std::uint32_t height = description.read_u32();
     const auto most = static_cast<std::uint32_t>(limits.image_side);
     if (width > most || height > most) {
-        fail(fmt::format("tiles of {} x {} pixels, but the limit is {} a side", width, height,
-                         limits.image_side));
+        refuse_header(fmt::format("tiles of {} x {} pixels, but the limit is {} a side", width,
+                                  height, limits.image_side));
     }
 }
 
@@ -166,7 +166,8 @@ void check_window(Cursor box, const ReadLimits& limits)
     const std::int64_t height = read() - top + 1;
     const std::int64_t most = limits.image_side;
     if (width < 1 || height < 1 || width > most || height > most) {
-        fail(fmt::format("image of {} x {} pixels; 1 to {} a side are read", width, height, most));
+        refuse_header(
+            fmt::format("image of {} x {} pixels; 1 to {} a side are read", width, height, most));
     }
 }
 
@@ -180,12 +181,12 @@ bool check_attribute(Cursor& cursor, const ReadLimits& limits)
     const std::string_view type = cursor.read_text();
     const std::uint32_t size = cursor.read_u32();
     if (size > cursor.left()) {
-        fail(fmt::format("attribute {}: {} bytes, but {} are left", quote(name), size,
-                         cursor.left()));
+        refuse_header(fmt::format("attribute {}: {} bytes, but {} are left", quote(name), size,
+                                  cursor.left()));
     }
     if (!has_size(cursor, type, size)) {
-        fail(fmt::format("attribute {}: {} bytes are not the size of its {}", quote(name), size,
-                         quote(type)));
+        refuse_header(fmt::format("attribute {}: {} bytes are not the size of its {}", quote(name),
+                                  size, quote(type)));
     }
     if (name == "tiles") {
         check_tiles(cursor, limits);

@@ -22,7 +22,7 @@ SUMS = "lib/src/path/weight_sums.cpp"
 CAMERA = "lib/src/camera/camera.cpp"
 CACHE = "lib/src/integrator/bidirectional/light_path_cache.cpp"
 TRACER = "lib/src/integrator/path/path_integrator.cpp"
-DENSITIES = "lib/src/path/densities.cpp"
+LIGHT_SET = "lib/src/scene/light_set.cpp"
 LIGHTS = "lib/src/scene/light_set.h"
 
 # The lens is so wide, and so far inside the box, that light paths hit it.
@@ -52,8 +52,8 @@ BREAKAGES = (
     Breakage("splats begin at s = 3", JOINER,
              "for (int s = 2; s <= max_s; ++s) {\n        if (strategies_.uses(s, 1)",
              "for (int s = 3; s <= max_s; ++s) {\n        if (strategies_.uses(s, 1)"),
-    Breakage("survivors of roulette are not worth more", WALK, "    beta /= survival;\n", ""),
-    Breakage("area densities of walks lack the cosine", "lib/src/path/walk_step.h",
+    Breakage("survivors of roulette are not worth more", "lib/src/path/direct_light.cpp", "    beta /= survival;\n", ""),
+    Breakage("area densities of walks lack the cosine", "lib/src/path/random_walk.h",
              ": to_area(pdf, cosine, distance_squared);", ": to_area(pdf, 1.0f, distance_squared);"),
     Breakage("reverse densities of walks are halved", WALK,
              "scattered->pdf_rev.value * previous.area_per_solid_angle",
@@ -96,8 +96,8 @@ BREAKAGES = (
              "? -before_y.end.p", "room-sun.gltf", ("--integrator", "vcm", "--max-depth", "4")),
     Breakage("weights take points of fog for chosen on each segment", TRACER, "? fog_sampling_->samples() *", "? 1.0f *",
              "night-market.gltf", ("--fog", "0.05", "--max-depth", "3")),
-    Breakage("points of fog count light samples as one", TRACER, "(probability * light_samples_),\n        transmission.pdf_scatter",
-             "probability,\n        transmission.pdf_scatter", options=(*FOG, "--light-samples", "4")),
+    Breakage("points of fog count light samples as one", TRACER, "pdf * (probability * light_samples_),\n        transmission.pdf_scatter",
+             "pdf * probability,\n        transmission.pdf_scatter", options=(*FOG, "--light-samples", "4")),
     Breakage("weights count lenses that are hit twice", SUMS, "finite_lens_ ? splats_ :",
              "finite_lens_ ? 2.0 * splats_ :", options=WIDE_LENS),
     Breakage("weights take connections for as many as light paths", SUMS, "joins_(raise(strategies.connections()))",
@@ -117,9 +117,8 @@ BREAKAGES = (
              "    const Ray ray = ray_from(a, direction, segment);\n    Rgb passing(1.0f);\n    if (is_blocked(",
              "    const Ray ray = ray_from(a, direction, segment);\n    Rgb passing(1.0f);\n    if (false && is_blocked(",
              "room-environment.gltf", SKY),
-    Breakage("hits take the light of suns for uniform over the disk", DENSITIES,
-             ".to_next = to_area(window->pdf(x1.p, -to_light), cosine)",
-             ".to_next = to_area(sample.world.bounding_sphere().pdf_disk(), cosine)", "room-sun.gltf"),
+    Breakage("hits take the light of suns for uniform over the disk", LIGHT_SET,
+             "window != nullptr ? window->pdf(p, -to_light)", "false ? window->pdf(p, -to_light)", "room-sun.gltf"),
     Breakage("light of suns that enters as learned is worth that of the disk", "lib/src/light/directional_light.cpp",
              ".weight = illuminance_ / entry.pdf.value", ".weight = illuminance_ / bounds_.pdf_disk().value", "room-sun.gltf"),
     Breakage("numbers within learned windows are not stretched", "lib/src/light/learned/entry_window.cpp",
@@ -128,8 +127,8 @@ BREAKAGES = (
              "pdf_incident(receiver, x0,", "room-environment.gltf", SKY),
     Breakage("samples take tiles of the sky for unlearned", LIGHTS, "with_visibility(receiver, choice->id, sampling), choice->u,",
              "receiver, choice->u,", "room-environment.gltf", SKY),
-    Breakage("hits take the light of the sky for uniform over the disk", DENSITIES, ".to_next = to_area(pdf.entry, cosine)",
-             ".to_next = to_area(sample.world.bounding_sphere().pdf_disk(), cosine)", "room-environment.gltf", SKY),
+    Breakage("hits take the light of the sky for uniform over the disk", LIGHT_SET, ".direction = {}, .entry = pdf.entry",
+             ".direction = {}, .entry = bounds_.pdf_disk()", "room-environment.gltf", SKY),
     Breakage("light of the sky that enters as learned is worth that of the disk", "lib/src/light/environment_light.cpp",
              "(from.pdf.value * entry.pdf.value)", "(from.pdf.value * bounds_.pdf_disk().value)", "room-environment.gltf", SKY),
     Breakage("hits take shares of groups of lights for unlearned", LIGHTS,
@@ -137,8 +136,8 @@ BREAKAGES = (
              "cornell-box-hidden.gltf", SKY),
     Breakage("numbers within learned groups are not stretched", "lib/src/scene/next_event_lights.cpp",
              "std::min(u / static_cast<double>(shares[group]), below_one)", "std::min(u, below_one)", "cornell-box-hidden.gltf", SKY),
-    Breakage("hits take starts of light paths for unlearned", DENSITIES, "emission_probability(*x0.light, sampling.learned)",
-             "emission_probability(*x0.light)", "cornell-box-hidden.gltf", SKY),
+    Breakage("hits take starts of light paths for unlearned", LIGHT_SET, "chosen = emission_probability(id, learned)",
+             "chosen = emission_probability(id)", "cornell-box-hidden.gltf", SKY),
     Breakage("light paths start unlearned", WALK, "sampler.next_fine(); }, sampling.learned);", "sampler.next_fine(); });",
              "cornell-box-hidden.gltf", SKY),
     Breakage("shadow rays pass blended surfaces by what these block", "lib/src/geometry/ray_passage.cpp",

@@ -1,7 +1,6 @@
 #include "light/directional_light.h"
 
 #include "geometry/motion.h"
-#include "light/parallel_rays.h"
 
 #include <glm/geometric.hpp>
 
@@ -20,18 +19,6 @@ DirectionalLight::DirectionalLight(const DirectionalLightDesc& desc, const Bound
 Vec3 DirectionalLight::direction(float time) const
 {
     return turn_.empty() ? direction_ : normalize(at_time(axis_, turn_, time));
-}
-
-EmissionSample DirectionalLight::sample_emission(Vec2 u_position, Vec2 /*u_direction*/,
-                                                 float time) const
-{
-    const Vec3 direction = this->direction(time);
-    return {.end = {.p = sample_entry(bounds_, direction, u_position)},
-            .direction = direction,
-            .weight = illuminance_ / bounds_.pdf_disk().value,
-            .pdf_position = {1.0f},
-            .pdf_direction = {},
-            .pdf_entry = bounds_.pdf_disk()};
 }
 
 EmissionSample DirectionalLight::sample_emission(Vec2 u_position, float time,

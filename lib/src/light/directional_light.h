@@ -17,8 +17,11 @@ public:
     /// The motion of `desc` must outlive this.
     DirectionalLight(const DirectionalLightDesc& desc, const BoundingSphere& bounds);
 
-    [[nodiscard]] EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction,
-                                                 float time) const;
+    [[nodiscard]] EmissionSample sample_emission(Vec2 u_position, Vec2 /*u_direction*/,
+                                                 float time) const
+    {
+        return sample_emission(u_position, time, EntryWindow(bounds_));
+    }
     /// Starts light where it enters, as learned.
     [[nodiscard]] EmissionSample sample_emission(Vec2 u_position, float time,
                                                  const EntryWindow& window) const;

@@ -2,7 +2,6 @@
 
 #include "light/environment/cell_weights.h"
 #include "light/learned/environment_entries.h"
-#include "light/parallel_rays.h"
 #include "math/elementary.h"
 
 #include <glm/geometric.hpp>
@@ -166,19 +165,23 @@ EnvironmentLight::Direction EnvironmentLight::direction_of(
             .pdf = to_solid_angle(cell.pdf, cell.row)};
 }
 
+EmissionSample EnvironmentLight::emission(const Direction& from, const EntryWindow& window,
+                                          Vec2 u_position) const
+{
+    const EntryWindow::Entry entry = window.sample(-from.to_light, u_position);
+    return {.end = {.p = entry.p},
+            .direction = -from.to_light,
+            .weight = lookup(from.uv) / (from.pdf.value * entry.pdf.value),
+            .pdf_position = {from.pdf.value},
+            .pdf_direction = {},
+            .pdf_entry = entry.pdf};
+}
+
 std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float /*time*/) const
 {
     const auto from = sample_direction(u_direction, {}, EnvironmentSampling::plain);
-    if (!from) {
-        return std::nullopt;
-    }
-    return EmissionSample{.end = {.p = sample_entry(bounds_, -from->to_light, u_position)},
-                          .direction = -from->to_light,
-                          .weight = lookup(from->uv) / (from->pdf.value * bounds_.pdf_disk().value),
-                          .pdf_position = {from->pdf.value},
-                          .pdf_direction = {},
-                          .pdf_entry = bounds_.pdf_disk()};
+    return from ? std::optional(emission(*from, EntryWindow(bounds_), u_position)) : std::nullopt;
 }
 
 std::optional<EmissionSample> EnvironmentLight::sample_emission(
@@ -189,14 +192,7 @@ std::optional<EmissionSample> EnvironmentLight::sample_emission(
         return std::nullopt;
     }
     const Direction from = direction_of(*cell);
-    const EntryWindow::Entry entry =
-        entries.window(tile_to(from.to_light)).sample(-from.to_light, u_position);
-    return EmissionSample{.end = {.p = entry.p},
-                          .direction = -from.to_light,
-                          .weight = lookup(from.uv) / (from.pdf.value * entry.pdf.value),
-                          .pdf_position = {from.pdf.value},
-                          .pdf_direction = {},
-                          .pdf_entry = entry.pdf};
+    return emission(from, entries.window(tile_to(from.to_light)), u_position);
 }
 
 EnvironmentLight::EntryPdfs EnvironmentLight::pdf_emission(Vec3 to_light, Vec3 p,

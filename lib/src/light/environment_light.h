@@ -3,6 +3,7 @@
 #include "light/bounding_sphere.h"
 #include "light/environment/environment_texels.h"
 #include "light/environment/environment_tiles.h"
+#include "light/learned/entry_window.h"
 #include "light/light_model.h"
 #include "light/light_sample_context.h"
 #include "light/light_samples.h"
@@ -89,6 +90,8 @@ private:
                                                             EnvironmentSampling sampling) const;
     /// Returns the direction of a sampled cell.
     [[nodiscard]] Direction direction_of(const EnvironmentTiles::Sample& cell) const;
+    [[nodiscard]] EmissionSample emission(const Direction& from, const EntryWindow& window,
+                                          Vec2 u_position) const;
     [[nodiscard]] SolidAnglePdf pdf_direction_to(Vec3 to_light, const LightSampleContext& receiver,
                                                  EnvironmentSampling sampling) const;
     [[nodiscard]] Cell cell_to(Vec3 to_light) const;

@@ -3,6 +3,7 @@
 #include "math/low_level.h"
 #include "math/rgb.h"
 #include "path/densities.h"
+#include "path/direct_light.h"
 
 #include <glm/geometric.hpp>
 
@@ -56,50 +57,41 @@ std::optional<SegmentTransmission> joining_transmission(const SampleContext& sam
         sample.rays.shadow_to_lens += light.size() > 1 ? 1U : 0U;
         return sample.world.transmission(y.end, z.end, segment);
     }
-    sample.rays.shadow_interior += light.size() > 1 ? 1U : 0U;
-    return y.kind == VertexKind::infinite
-               ? sample.world.transmission_to_infinity(z.end, y.end.p, segment)
-               : sample.world.transmission(z.end, y.end, segment);
+    ++sample.rays.shadow_interior;
+    return sample.world.transmission(z.end, y.end, segment);
 }
 
-/// Connects the ends of a light and a camera subpath unless the segment is blocked:
-/// `compute_value()` is the unattenuated value, `densities()` are those of the connection,
-/// excluding the transmission between its ends.
-template <typename Value, typename Densities>
-std::optional<Contribution> join_if_open(const SampleContext& sample,
-                                         std::span<const PathVertex> light,
-                                         std::span<const PathVertex> camera,
-                                         const Value& compute_value, PathWeigher& weigher,
-                                         const Densities& densities)
+/// Returns the contribution of a connection between the ends of two subpaths. `join` are its
+/// densities, excluding the transmission between its ends.
+Contribution connection(std::span<const PathVertex> light, std::span<const PathVertex> camera,
+                        Rgb value, const SegmentTransmission& transmission, JoinDensities join,
+                        PathWeigher& weigher)
 {
-    const auto transmission = joining_transmission(sample, light, camera);
-    if (!transmission) {
-        return std::nullopt;
-    }
-    const Rgb value = compute_value() * transmission->transmittance;
-    if (is_black(value)) {
-        return std::nullopt;
-    }
     const PathVertex& y = light.back();
     const PathVertex& z = camera.back();
-    JoinDensities join = densities();
-    join.light_at_camera_end = join.light_at_camera_end * pdf_of_end(z, *transmission);
-    join.camera_at_light_end = join.camera_at_light_end * pdf_of_end(y, *transmission);
-    return Contribution{.unweighted = value,
-                        .weight = weigher.weight(light, camera, join),
-                        .dispersed = y.dispersed || z.dispersed};
+    join.light_at_camera_end = join.light_at_camera_end * pdf_of_end(z, transmission);
+    join.camera_at_light_end = join.camera_at_light_end * pdf_of_end(y, transmission);
+    return {.unweighted = value,
+            .weight = weigher.weight(light, camera, join),
+            .dispersed = y.dispersed || z.dispersed};
 }
 
-/// Connects the subpaths with a known value.
+/// Connects the ends of two subpaths unless the segment is blocked: `value` is the unattenuated
+/// value, `densities()` are those of `connection`.
 template <typename Densities>
 std::optional<Contribution> join(const SampleContext& sample, std::span<const PathVertex> light,
                                  std::span<const PathVertex> camera, Rgb value,
                                  PathWeigher& weigher, const Densities& densities)
 {
-    return is_black(value)
-               ? std::nullopt
-               : join_if_open(
-                     sample, light, camera, [value] { return value; }, weigher, densities);
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    const auto transmission = joining_transmission(sample, light, camera);
+    if (!transmission || is_black(value * transmission->transmittance)) {
+        return std::nullopt;
+    }
+    return connection(light, camera, value * transmission->transmittance, *transmission,
+                      densities(), weigher);
 }
 
 /// Returns the vertex at a new point on light `id`.
@@ -175,37 +167,33 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
     if (!scatters(z.kind) || !z.connectible) {
         return std::nullopt;
     }
-    const auto found = sample.world.lights().sample_next_event(
+    const auto next = sample.world.lights().sample_next_event(
         light_sample_context(z), u, [&sample] { return sample.sampler.next_fine(); },
         weigher.next_event_sampling(), sample.time);
-    if (!found.incident) {
+    if (!next.incident) {
         return std::nullopt;
     }
-    const IncidentSample& incident = *found.incident;
-    const BsdfEval f = z.bsdf->eval(incident.wi, TransportMode::radiance);
-    const Rgb scattered = z.beta * f.f_cos;
-    if (is_black(scattered * incident.weight / found.probability)) {
+    const IncidentSample& incident = *next.incident;
+    const DirectLight found = direct_light(sample, z.end, *z.bsdf, next,
+                                           sample.segment(1, static_cast<int>(camera.size())));
+    const Rgb value = z.beta * found.value;
+    if (is_black(value)) {
         return std::nullopt;
     }
-    const auto value = [&] {
-        const Light& light = sample.world.lights()[found.light];
-        return scattered * light.incident_weight(incident) / found.probability;
-    };
-    PathVertex x0 = light_vertex(sample.world, found.light, incident);
-    return join_if_open(sample, std::span(&x0, 1), camera, value, weigher, [&] {
-        const LightDensities densities =
-            light_densities(sample, x0, z.end, weigher.next_event_sampling());
-        x0.pdf_fwd = densities.emit;
-        return JoinDensities{
-            .light_at_camera_end = densities.to_next,
-            .light_at_camera_neighbor = at_neighbor(f.pdf_rev, camera),
-            .camera_at_light_end =
-                x0.kind == VertexKind::infinite
-                    ? AreaPdf{f.pdf_fwd.value}
-                    : at_end(f.pdf_fwd, x0.end, incident.wi, incident.distance * incident.distance),
-            .camera_at_light_neighbor = {},
-            .next_event = found.pdf()};
-    });
+    PathVertex x0 = light_vertex(sample.world, next.light, incident);
+    const LightDensities densities =
+        light_densities(sample, x0, z.end, weigher.next_event_sampling());
+    x0.pdf_fwd = densities.emit;
+    return connection(std::span(&x0, 1), camera, value, *found.transmission,
+                      {.light_at_camera_end = densities.to_next,
+                       .light_at_camera_neighbor = at_neighbor(found.f.pdf_rev, camera),
+                       .camera_at_light_end = x0.kind == VertexKind::infinite
+                                                  ? AreaPdf{found.f.pdf_fwd.value}
+                                                  : at_end(found.f.pdf_fwd, x0.end, incident.wi,
+                                                           incident.distance * incident.distance),
+                       .camera_at_light_neighbor = {},
+                       .next_event = next.pdf()},
+                      weigher);
 }
 
 std::optional<Contribution> connect_light_to_lens(SampleContext& sample, PathWeigher& weigher)

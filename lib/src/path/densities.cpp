@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
-#include <variant>
 
 namespace bdpt {
 namespace {
@@ -35,28 +34,16 @@ AreaPdf next_event_density(const SampleContext& sample, const PathVertex& x0, co
 LightDensities light_densities(const SampleContext& sample, const PathVertex& x0,
                                const SegmentEnd& x1, NextEventSampling sampling)
 {
-    const LightSet& lights = sample.world.lights();
-    const Light& light = lights[*x0.light];
     const bool infinite = x0.kind == VertexKind::infinite;
     const Vec3 offset = x0.end.p - x1.p;
     const float distance_squared = dot(offset, offset);
     const Vec3 to_light = infinite ? x0.end.p : offset * (1.0f / std::sqrt(distance_squared));
-    const LightPoint point = light_point(x0, sample.time);
+    const LightSet::EmissionPdfs pdfs = sample.world.lights().emission_pdfs(
+        *x0.light, light_point(x0, sample.time), x1.p, to_light, sampling.learned);
     const float cosine = abs_cosine(x1, to_light);
-    const float chosen = lights.emission_probability(*x0.light, sampling.learned);
-    if (const auto* entries = lights.learned_entries(*x0.light, sampling)) {
-        const auto& environment = std::get<EnvironmentLight>(light.model());
-        const auto pdf = environment.pdf_emission(to_light, x1.p, *entries);
-        return {.emit = pdf.direction * chosen, .to_next = to_area(pdf.entry, cosine)};
-    }
-    if (const EntryWindow* window = LightSet::learned_window(*x0.light, sampling)) {
-        return {.emit = light.pdf_position(point) * chosen,
-                .to_next = to_area(window->pdf(x1.p, -to_light), cosine)};
-    }
-    return {.emit = light.pdf_position(point) * chosen,
-            .to_next = infinite ? to_area(sample.world.bounding_sphere().pdf_disk(), cosine)
-                                : to_area(light.pdf_direction(x0.end.ng, -to_light, sample.time),
-                                          cosine, distance_squared)};
+    return {.emit = pdfs.position,
+            .to_next = infinite ? to_area(pdfs.entry, cosine)
+                                : to_area(pdfs.direction, cosine, distance_squared)};
 }
 
 }  // namespace bdpt

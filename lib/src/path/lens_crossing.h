@@ -1,7 +1,7 @@
 #pragma once
 
 #include "path/connect.h"
-#include "path/walk_step.h"
+#include "path/random_walk.h"
 
 namespace bdpt {
 

@@ -1,12 +1,34 @@
 #include "path/merge.h"
 
+#include "math/elementary.h"
 #include "math/rgb.h"
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace bdpt {
+
+Merging::Merging(const RenderOptions& options, const LightPathCounts& counts,
+                 const BoundingSphere& scene, std::int64_t index)
+{
+    if (!counts.merged) {
+        return;
+    }
+    // Below these values positions lose all digits, or squared distances underflow.
+    const float least = std::max(1e-7f * scene.radius, std::sqrt(coincident));
+    const float exponent = 0.5f * (static_cast<float>(options.bidirectional.merge_alpha) - 1.0f);
+    const float first = static_cast<float>(options.bidirectional.merge_radius) * scene.radius;
+    radius =
+        std::max(least, first * exp_exact(exponent * log_exact(static_cast<float>(index + 1))));
+    light_paths = static_cast<float>(counts.bundles * counts.bundle);
+}
+
+float Merging::disk() const
+{
+    return pi * radius * radius;
+}
 
 std::optional<Contribution> merge(std::span<const PathVertex> light,
                                   std::span<const PathVertex> camera, const Merging& merging,

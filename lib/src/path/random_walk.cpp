@@ -2,6 +2,7 @@
 
 #include "math/rgb.h"
 #include "path/densities.h"
+#include "path/direct_light.h"
 #include "path/lens_crossing.h"
 #include "path/segment_sample.h"
 
@@ -68,22 +69,6 @@ struct Walk {
     [[nodiscard]] bool from_camera() const { return mode == TransportMode::radiance; }
 };
 
-/// Applies Russian roulette: the survival probability is the throughput relative to `full`, at
-/// least `least`. Survivors are reweighted; the densities exclude it, so that all strategies are
-/// treated alike.
-bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
-{
-    const float survival = std::max(max_component(beta) / max_component(full), least);
-    if (survival >= 1.0f) {
-        return true;
-    }
-    if (sampler.next_1d() >= survival) {
-        return false;
-    }
-    beta /= survival;
-    return true;
-}
-
 /// Returns the interaction at the end of the segment, stored as the next vertex of `path`; null if
 /// there is none. `by_lens`: the segment begins at the lens.
 const SurfacePoint* shade(const SampleContext& sample, const WalkStep& step,
@@ -105,7 +90,7 @@ const SurfacePoint* shade(const SampleContext& sample, const WalkStep& step,
 /// Continues from the first vertex until the path is full, leaves the scene or is absorbed.
 void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path)
 {
-    Rgb full = step.beta;  // reference throughput of Russian roulette
+    float full = max_component(step.beta);  // reference throughput of Russian roulette
     const bool watches_lens = !rules.from_camera() && sample.camera.has_finite_lens();
     const int max_vertices = rules.limits.max_vertices;
     // A walk with the maximum number of vertices may still cross the lens.
@@ -165,30 +150,12 @@ void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path
         // Russian roulette compares with the throughput after the first hit, so that dark surfaces
         // are not starved.
         const bool seen_first = rules.from_camera() && path.size() == 2;
-        full = seen_first ? step.beta : full;
+        full = seen_first ? max_component(step.beta) : full;
         if (path.size() > rules.limits.rr_start &&
             !survives(step.beta, full, rules.limits.rr_survival, sampler)) {
             return;
         }
     }
-}
-
-/// Starts a light path of the chosen light.
-std::optional<EmissionSample> sample_emission(SampleContext& sample,
-                                              const LightSet::ChoiceAndNumbers& choice,
-                                              const NextEventSampling& sampling)
-{
-    const LightSet& lights = sample.world.lights();
-    const Light& light = lights[choice.id];
-    if (const EnvironmentEntries* entries = lights.learned_entries(choice.id, sampling)) {
-        return std::get<EnvironmentLight>(light.model())
-            .sample_emission(choice.u, sample.sampler.next_2d(), *entries);
-    }
-    if (const EntryWindow* window = LightSet::learned_window(choice.id, sampling)) {
-        return std::get<DirectionalLight>(light.model())
-            .sample_emission(choice.u, sample.time, *window);
-    }
-    return light.sample_emission(choice.u, sample.sampler.next_2d(), sample.time);
 }
 
 }  // namespace
@@ -232,7 +199,8 @@ void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
     }
     const Light& light = world.lights()[choice->id];
     sampler.start(SampleUse::light_start, 1);
-    const auto emitted = sample_emission(sample, *choice, sampling);
+    const auto emitted =
+        world.lights().sample_emission(*choice, sampler.next_2d(), sampling.learned, sample.time);
     if (!emitted || is_black(emitted->weight)) {
         return;
     }

@@ -5,6 +5,7 @@
 #include "integrator/sample_start.h"
 #include "math/rgb.h"
 #include "path/densities.h"
+#include "path/direct_light.h"
 #include "path/random_walk.h"
 #include "pilot/light_starts.h"
 
@@ -292,15 +293,18 @@ private:
     /// Records that light of a sun reaches the vertex.
     void note_sun(SampleContext& sample, const PathVertex& vertex, int t, std::size_t sun)
     {
-        const auto incident = world_.lights()[suns_[sun]].sample_incident(
-            light_sample_context(vertex), Vec2(0.5f), EnvironmentSampling::plain, sample.time);
-        const BsdfEval f = vertex.bsdf->eval(incident->wi, TransportMode::radiance);
-        const SegmentKey segment = sample.segment(1, t);
-        const float throughput = luminance(vertex.beta * f.f_cos);
-        if (throughput > 0.0f && std::isfinite(throughput) &&
-            world_.transmission_to_infinity(vertex.end, incident->wi, segment)) {
+        const LightId id = suns_[sun];
+        const LightSet::NextEvent next{
+            .light = id,
+            .probability = 1.0f,
+            .incident = world_.lights()[id].sample_incident(
+                light_sample_context(vertex), Vec2(0.5f), EnvironmentSampling::plain, sample.time)};
+        const DirectLight found =
+            direct_light(sample, vertex.end, *vertex.bsdf, next, sample.segment(1, t));
+        const float throughput = luminance(vertex.beta * found.f.f_cos);
+        if (found.transmission && throughput > 0.0f && std::isfinite(throughput)) {
             contributions_.to_suns.push_back({.p = vertex.end.p,
-                                              .direction = incident->wi,
+                                              .direction = next.incident->wi,
                                               .tile = sun,
                                               .throughput = throughput});
         }
@@ -332,38 +336,29 @@ private:
         const PathVertex& vertex = path_[t - 1];
         const auto group =
             static_cast<std::uint32_t>(world_.lights().next_event_lights().group(id));
-        const Light& light = world_.lights()[id];
-        const auto incident =
-            light.sample_incident(light_sample_context(vertex), sample.sampler.next_2d(),
-                                  EnvironmentSampling::compensated, sample.time);
-        const BsdfEval f =
-            incident ? vertex.bsdf->eval(incident->wi, TransportMode::radiance) : BsdfEval{};
-        if (is_black(f.f_cos)) {
-            note_finding(vertex, group, 0.0f);
-            return;
+        const LightSet::NextEvent next{.light = id,
+                                       .probability = probability,
+                                       .incident = world_.lights()[id].sample_incident(
+                                           light_sample_context(vertex), sample.sampler.next_2d(),
+                                           EnvironmentSampling::compensated, sample.time)};
+        DirectLight found;
+        if (next.incident) {
+            found = direct_light(sample, vertex.end, *vertex.bsdf, next, sample.segment(1, t));
         }
-        const SegmentKey segment = sample.segment(1, t);
-        const auto transmission =
-            light.is_infinite() ? world_.transmission_to_infinity(vertex.end, incident->wi, segment)
-                                : world_.transmission(vertex.end, incident->end, segment);
-        if (world_.lights().environment() == id) {
-            note(vertex, incident->wi, transmission.has_value());
+        if (world_.lights().environment() == id && !is_black(found.f.f_cos)) {
+            note(vertex, next.incident->wi, found.transmission.has_value());
         }
         float value = 0.0f;
-        if (transmission && learns_starts_) {
+        if (!is_black(found.value) && learns_starts_) {
             // A BSDF sample may find the same light, and takes its share of the weight.
-            const Rgb found =
-                f.f_cos * light.incident_weight(*incident) * transmission->transmittance;
-            const float by_light = incident->pdf_solid_angle.value * probability;
-            const float by_bsdf =
-                light.is_delta() ? 0.0f : f.pdf_fwd.value * transmission->p_unscattered;
-            value = luminance(found) / probability * (by_light / (by_light + by_bsdf));
+            const float density = next.incident->pdf_solid_angle.value;
+            const float by_light = density * probability;
+            value = luminance(found.value) * (by_light / (by_light + found.bsdf_pdf));
             if (has_connectible(t - 1)) {
-                const float by_any = incident->pdf_solid_angle.value *
-                                     world_.lights().next_event_probability(
-                                         id, light_sample_context(vertex), unlearned);
-                note_indirect(id, vertex.beta * found,
-                              groups / probability * (by_any / (by_any + by_bsdf)));
+                const float by_any = density * world_.lights().next_event_probability(
+                                                   id, light_sample_context(vertex), unlearned);
+                note_indirect(id, vertex.beta * found.value,
+                              groups * (by_any / (by_any + found.bsdf_pdf)));
             }
         }
         note_finding(vertex, group, value);

@@ -67,7 +67,7 @@ LightSet::LightSet(std::span<const MaterialId> material_ids, std::span<const Pla
                    std::span<const Material> materials, std::span<const LightDesc> lights,
                    std::span<const IntensityProfile> profiles, const BoundingSphere& bounds,
                    std::span<const MediumId> media)
-    : first_of_instance_(material_ids.size())
+    : bounds_(bounds), first_of_instance_(material_ids.size())
 {
     const MeasuredEmission emission(material_ids, placed, materials);
     lights_.reserve(lights.size() + emissive_triangles(material_ids, placed, materials));
@@ -112,24 +112,65 @@ std::optional<LightSet::Choice> LightSet::choose(const AliasTable& table, Vec2 u
     return Choice{.id = LightId{choice.index}, .probability = choice.probability};
 }
 
-const EnvironmentEntries* LightSet::learned_entries(LightId id,
-                                                    const NextEventSampling& sampling) const
-{
-    return environment_ == id && sampling.learned != nullptr && sampling.learned->entries
-               ? &*sampling.learned->entries
-               : nullptr;
-}
+namespace {
 
-const EntryWindow* LightSet::learned_window(LightId id, const NextEventSampling& sampling)
+/// Returns where light of a sun enters the scene, as learned; null if that is unknown.
+const EntryWindow* learned_window(LightId id, const LearnedLight* learned)
 {
-    if (sampling.learned != nullptr) {
-        for (const SunEntries& entries : sampling.learned->suns) {
+    if (learned != nullptr) {
+        for (const SunEntries& entries : learned->suns) {
             if (entries.sun == id) {
                 return &entries.window;
             }
         }
     }
     return nullptr;
+}
+
+}  // namespace
+
+const EnvironmentEntries* LightSet::learned_entries(LightId id, const LearnedLight* learned) const
+{
+    return environment_ == id && learned != nullptr && learned->entries ? &*learned->entries
+                                                                        : nullptr;
+}
+
+std::optional<EmissionSample> LightSet::sample_emission(const ChoiceAndNumbers& choice,
+                                                        Vec2 u_direction,
+                                                        const LearnedLight* learned,
+                                                        float time) const
+{
+    const Light& light = (*this)[choice.id];
+    if (const EnvironmentEntries* entries = learned_entries(choice.id, learned)) {
+        return std::get<EnvironmentLight>(light.model())
+            .sample_emission(choice.u, u_direction, *entries);
+    }
+    if (const EntryWindow* window = learned_window(choice.id, learned)) {
+        return std::get<DirectionalLight>(light.model()).sample_emission(choice.u, time, *window);
+    }
+    return light.sample_emission(choice.u, u_direction, time);
+}
+
+LightSet::EmissionPdfs LightSet::emission_pdfs(LightId id, const LightPoint& x0, Vec3 p,
+                                               Vec3 to_light, const LearnedLight* learned) const
+{
+    const Light& light = (*this)[id];
+    const float chosen = emission_probability(id, learned);
+    if (const EnvironmentEntries* entries = learned_entries(id, learned)) {
+        const auto pdf =
+            std::get<EnvironmentLight>(light.model()).pdf_emission(to_light, p, *entries);
+        return {.position = pdf.direction * chosen, .direction = {}, .entry = pdf.entry};
+    }
+    const AreaPdf position = light.pdf_position(x0) * chosen;
+    if (!light.is_infinite()) {
+        return {.position = position,
+                .direction = light.pdf_direction(x0.ng, -to_light, x0.time),
+                .entry = {}};
+    }
+    const EntryWindow* window = learned_window(id, learned);
+    return {.position = position,
+            .direction = {},
+            .entry = window != nullptr ? window->pdf(p, -to_light) : bounds_.pdf_disk()};
 }
 
 std::optional<LightId> LightSet::of_triangle(std::uint32_t instance, std::uint32_t triangle) const

@@ -75,12 +75,21 @@ public:
         const AliasTable& table = starts(learned);
         return table.empty() ? 0.0f : table.probability(static_cast<std::uint32_t>(id));
     }
-    /// Returns where light of an environment enters the scene, as learned; null if that is unknown.
-    [[nodiscard]] const EnvironmentEntries* learned_entries(
-        LightId id, const NextEventSampling& sampling) const;
-    /// Returns where light of a sun enters the scene, as learned; null if that is unknown.
-    [[nodiscard]] static const EntryWindow* learned_window(LightId id,
-                                                           const NextEventSampling& sampling);
+    /// Starts a light path at the light that `choose_for_emission` chose, where its light enters
+    /// the scene as learned, if it is at infinity.
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(const ChoiceAndNumbers& choice,
+                                                                Vec2 u_direction,
+                                                                const LearnedLight* learned,
+                                                                float time) const;
+    /// Densities with which a light path starts at a point on a light and goes to another point.
+    struct EmissionPdfs {
+        AreaPdf position;         ///< `Light::pdf_position`, times the probability of the light
+        SolidAnglePdf direction;  ///< of finite lights
+        PlanarPdf entry;          ///< of lights at infinity
+    };
+    /// Returns them for x_0 and a point `p`, from which light `id` is in direction `to_light`.
+    [[nodiscard]] EmissionPdfs emission_pdfs(LightId id, const LightPoint& x0, Vec3 p,
+                                             Vec3 to_light, const LearnedLight* learned) const;
 
     /// A point on a light sampled by next-event estimation.
     struct NextEvent {
@@ -196,6 +205,9 @@ private:
         return learned != nullptr && learned->starts ? *learned->starts : by_power_;
     }
     [[nodiscard]] static std::optional<Choice> choose(const AliasTable& table, Vec2 u);
+    /// Returns where light of an environment enters the scene, as learned; null if that is unknown.
+    [[nodiscard]] const EnvironmentEntries* learned_entries(LightId id,
+                                                            const LearnedLight* learned) const;
 
     /// Returns the learned shares of the groups of lights; null if none were learned.
     [[nodiscard]] static const GroupShares::Shares* learned_shares(
@@ -225,6 +237,7 @@ private:
         return receiver;
     }
 
+    BoundingSphere bounds_;
     std::vector<Light> lights_;
     std::vector<std::optional<std::uint32_t>> first_of_instance_;
     std::vector<LightId> spheres_;

@@ -3,7 +3,7 @@
 #include "catch.hpp"
 #include "math/rgb.h"
 #include "moving_scenes.h"
-#include "path/merging.h"
+#include "path/merge.h"
 #include "purity.h"
 #include "room.h"
 #include "scene_builder.h"

@@ -5,7 +5,7 @@
 #include "integrator/bidirectional/light_vertex_grid.h"
 #include "integrator/bidirectional/path_joiner.h"
 #include "integrator/integrator.h"
-#include "path/merging.h"
+#include "path/merge.h"
 #include "path/random_walk.h"
 
 namespace bdpt {

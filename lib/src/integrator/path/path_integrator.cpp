@@ -32,10 +32,12 @@ struct PathIntegrator::Ray {
     std::optional<FogArrival> arrival{};  ///< set if the origin is a scattering point in fog
 };
 
-struct PathIntegrator::LightConnection {
-    Rgb value{0.0f};         ///< divided by the density of the point, given the light
-    float light_pdf = 0.0f;  ///< that density, per solid angle; 1 for a delta light
-    float bsdf_pdf = 0.0f;   ///< in `mis`, density of a BSDF sample that hits the point
+/// A path that is about to trace its next ray.
+struct PathIntegrator::Walk {
+    Ray ray;
+    Rgb beta{1.0f};
+    float full = 1.0f;  ///< reference throughput of Russian roulette
+    bool dispersed = false;
 };
 
 namespace {
@@ -120,26 +122,46 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
     sampler.start(SampleUse::lens);
     const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
     const CameraRay first = camera.generate_ray(raster, u_lens);
-    Ray ray{.origin = first.lens, .direction = first.direction, .pdf = first.pdf_direction};
-    Rgb beta(1.0f);
-    float full = 1.0f;  // reference throughput of Russian roulette
-    bool dispersed = false;
-    const auto add = [&](Strategy strategy, Rgb found) {
-        if (strategy.s + strategy.t > options_.transport.min_depth && !is_black(found)) {
-            sink.add(sample, strategy, {.unweighted = found, .dispersed = dispersed}, 1.0f);
-        }
+    follow(
+        sample,
+        {.ray = {.origin = first.lens, .direction = first.direction, .pdf = first.pdf_direction}},
+        1, [&](Strategy strategy, const Contribution& found) {
+            sink.add(sample, strategy, found, 1.0f);
+        });
+}
+
+Rgb PathIntegrator::radiance_from(SampleContext& sample, const SurfacePoint& first) const
+{
+    Rgb sum(0.0f);
+    const auto add = [&](Strategy /*strategy*/, const Contribution& found) {
+        sum += found.dispersed ? found.unweighted * spectral_weight(sample.wavelength)
+                               : found.unweighted;
     };
-    for (int depth = 1; depth <= options_.transport.max_depth; ++depth) {
+    Walk walk;
+    if (scatter(sample, first, std::nullopt, 1, walk, add)) {
+        follow(sample, walk, 2, add);
+    }
+    return sum;
+}
+
+template <typename Add>
+void PathIntegrator::follow(SampleContext& sample, Walk walk, int depth, const Add& add) const
+{
+    const auto found = [&](int s, Rgb light) {
+        contribute({.s = s, .t = depth + 1}, light, walk, add);
+    };
+    for (; depth <= options_.transport.max_depth; ++depth) {
+        const Ray& ray = walk.ray;
         ++sample.rays.camera;
         const SegmentKey segment = sample.segment(0, depth);
         const SegmentSample event =
             sample_segment(sample, ray.origin, ray.direction, segment,
-                           {.from_camera = true, .vertices = depth, .beta = beta});
+                           {.from_camera = true, .vertices = depth, .beta = walk.beta});
         std::optional<FogArrival> arrival;
         if (event.fog && fog_sampling_) {
             const FogSegment fog{ray.origin.p, ray.direction, *event.fog};
             if (depth < options_.transport.max_depth && depth + 1 >= options_.transport.min_depth) {
-                add({.s = 1, .t = depth + 1}, beta * sample_fog(sample, ray, fog, depth));
+                found(1, walk.beta * sample_fog(sample, ray, fog, depth));
             }
             if (event.in_medium) {
                 arrival = {fog, event.in_medium->distance, event.transmission.pdf_scatter};
@@ -151,12 +173,11 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
                 depth > 1 || options_.transport.background == Background::environment;
             if (id && visible) {
                 const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
-                add({.s = 0, .t = depth + 1},
-                    beta * event.weight() *
-                        emission(ray, *id, {.p = ray.direction}, light.radiance(ray.direction),
-                                 event.probability()));
+                found(0, walk.beta * event.weight() *
+                             emission(ray, *id, {.p = ray.direction}, light.radiance(ray.direction),
+                                      event.probability()));
             }
-            break;
+            return;
         }
         SurfacePoint point = make_interaction(sample, event, ray.origin, ray.direction, segment);
         if (depth == 1) {
@@ -165,55 +186,64 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         const Vec3 along = point.end.p - ray.origin.p;
         const float distance_squared = dot(along, along);
         if (distance_squared < coincident) {
-            break;
+            return;
         }
-        beta *= event.weight();
+        walk.beta *= event.weight();
         if (point.light) {
             const LightPoint on_light{.p = point.end.p,
                                       .ng = point.end.ng,
                                       .barycentrics = point.barycentrics,
                                       .time = sample.time};
-            add({.s = 0, .t = depth + 1},
-                beta * emission(ray, *point.light, on_light, point.emission, event.probability()));
+            found(0, walk.beta * emission(ray, *point.light, on_light, point.emission,
+                                          event.probability()));
         }
-        if (depth == options_.transport.max_depth) {
-            break;
+        if (depth == options_.transport.max_depth ||
+            !scatter(sample, point, arrival, depth, walk, add)) {
+            return;
         }
-        dispersed = dispersed || point.disperses;
-        const auto vertex = static_cast<std::uint32_t>(depth + 1);
-        if (samples_lights_ && point.bsdf.connectible() &&
-            depth + 1 >= options_.transport.min_depth) {
-            add({.s = 1, .t = depth + 1}, beta * sample_lights(sample, point, arrival, depth));
-        }
-        sampler.start(SampleUse::camera_walk, vertex);
-        const Vec2 u_direction = sampler.next_2d();
-        const float u_lobe = point.bsdf.has_one_lobe() ? 0.0f : sampler.next_1d();
-        const auto scattered = point.bsdf.sample(u_lobe, u_direction, TransportMode::radiance);
-        beta = scattered ? beta * scattered->weight : Rgb(0.0f);
-        if (is_black(beta)) {
-            break;
-        }
-        ray.origin = point.end;
-        ray.arrival = arrival;
-        ray.direction = scattered->wi;
-        ray.pdf = scattered->pdf_fwd;
-        ray.competes = !scattered->delta && options_.integrator != IntegratorKind::pt;
-        if (ray.competes) {
-            ray.receiver = receiver_at(point);
-        }
-        // The reference is the throughput after the first hit, so that dark surfaces are not
-        // starved.
-        full = depth == 1 ? max_component(beta) : full;
-        if (depth >= options_.transport.rr_start) {
-            const float survival =
-                std::max(max_component(beta) / full, options_.transport.rr_survival);
-            if (survival < 1.0f) {
-                if (sampler.next_1d() >= survival) {
-                    break;
-                }
-                beta /= survival;
-            }
-        }
+    }
+}
+
+template <typename Add>
+bool PathIntegrator::scatter(SampleContext& sample, const SurfacePoint& point,
+                             const std::optional<FogArrival>& arrival, int depth, Walk& walk,
+                             const Add& add) const
+{
+    walk.dispersed = walk.dispersed || point.disperses;
+    if (samples_lights_ && point.bsdf.connectible() && depth + 1 >= options_.transport.min_depth) {
+        contribute({.s = 1, .t = depth + 1},
+                   walk.beta * sample_lights(sample, point, arrival, depth), walk, add);
+    }
+    Sampler& sampler = sample.sampler;
+    sampler.start(SampleUse::camera_walk, static_cast<std::uint32_t>(depth + 1));
+    const Vec2 u_direction = sampler.next_2d();
+    const float u_lobe = point.bsdf.has_one_lobe() ? 0.0f : sampler.next_1d();
+    const auto scattered = point.bsdf.sample(u_lobe, u_direction, TransportMode::radiance);
+    walk.beta = scattered ? walk.beta * scattered->weight : Rgb(0.0f);
+    if (is_black(walk.beta)) {
+        return false;
+    }
+    Ray& ray = walk.ray;
+    ray.origin = point.end;
+    ray.arrival = arrival;
+    ray.direction = scattered->wi;
+    ray.pdf = scattered->pdf_fwd;
+    ray.competes = !scattered->delta && options_.integrator != IntegratorKind::pt;
+    if (ray.competes) {
+        ray.receiver = receiver_at(point);
+    }
+    // The reference is the throughput after the first hit, so that dark surfaces are not starved.
+    walk.full = depth == 1 ? max_component(walk.beta) : walk.full;
+    return depth < options_.transport.rr_start ||
+           survives(walk.beta, walk.full, options_.transport.rr_survival, sampler);
+}
+
+template <typename Add>
+void PathIntegrator::contribute(Strategy strategy, Rgb light, const Walk& walk,
+                                const Add& add) const
+{
+    if (strategy.s + strategy.t > options_.transport.min_depth && !is_black(light)) {
+        add(strategy, {.unweighted = light, .dispersed = walk.dispersed});
     }
 }
 
@@ -271,20 +301,20 @@ Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& poin
 {
     Sampler& sampler = sample.sampler;
     const LightSet& lights = world_.lights();
-    const auto sampled = lights.sample_next_event(
+    const auto next = lights.sample_next_event(
         receiver_at(point), u, [&sampler] { return sampler.next_fine(); }, next_event_sampling_,
         sample.time);
-    if (!sampled.incident) {
+    if (!next.incident) {
         return Rgb(0.0f);
     }
-    const auto found = connect(sample, point, lights[sampled.light], *sampled.incident, depth);
-    if (!found) {
-        return Rgb(0.0f);
+    const DirectLight found = light_of(sample, point, next, depth);
+    if (is_black(found.value)) {
+        return found.value;
     }
-    const TechniqueDensities densities{
-        found->light_pdf * (sampled.probability * light_samples_), found->bsdf_pdf,
-        found->light_pdf * fog_density_ratio(arrival, sampled.light)};
-    return found->value / sampled.probability * weight(densities, LightTechnique::light_sample);
+    const float pdf = next.incident->pdf_solid_angle.value;
+    const TechniqueDensities densities{pdf * (next.probability * light_samples_), found.bsdf_pdf,
+                                       pdf * fog_density_ratio(arrival, next.light)};
+    return found.value * weight(densities, LightTechnique::light_sample);
 }
 
 Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogSegment& fog,
@@ -312,9 +342,10 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
     if (!incident) {
         return Rgb(0.0f);
     }
-    const auto found = connect(sample, point, light, *incident, depth);
-    if (!found) {
-        return Rgb(0.0f);
+    const DirectLight found = light_of(
+        sample, point, {.light = chosen->light, .probability = 1.0f, .incident = incident}, depth);
+    if (is_black(found.value)) {
+        return found.value;
     }
     const SegmentTransmission transmission =
         world_.media().transmission(ray.origin, point.end, ray.direction, chosen->distance);
@@ -326,37 +357,26 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
     }
     const float probability =
         world_.lights().context_probability(chosen->light, receiver, next_event_sampling_.lights);
+    const float pdf = incident->pdf_solid_angle.value;
     const TechniqueDensities densities{
-        transmission.pdf_scatter * found->light_pdf * (probability * light_samples_),
-        transmission.pdf_scatter * found->bsdf_pdf, samples * chosen->pdf * found->light_pdf};
-    return found->value * transmission.transmittance * through *
+        transmission.pdf_scatter * pdf * (probability * light_samples_),
+        transmission.pdf_scatter * found.bsdf_pdf, samples * chosen->pdf * pdf};
+    return found.value * transmission.transmittance * through *
            (weight(densities, LightTechnique::fog_sample) / (samples * chosen->pdf));
 }
 
-std::optional<PathIntegrator::LightConnection> PathIntegrator::connect(
-    SampleContext& sample, const SurfacePoint& point, const Light& light,
-    const IncidentSample& incident, int depth) const
+DirectLight PathIntegrator::light_of(const SampleContext& sample, const SurfacePoint& point,
+                                     const LightSet::NextEvent& light, int depth) const
 {
-    if (options_.integrator == IntegratorKind::pt && !light.is_delta()) {
-        return std::nullopt;
+    if (options_.integrator == IntegratorKind::pt && !world_.lights()[light.light].is_delta()) {
+        return {};
     }
-    const BsdfEval f = point.bsdf.eval(incident.wi, TransportMode::radiance);
-    if (is_black(f.f_cos * incident.weight)) {
-        return std::nullopt;
+    DirectLight found =
+        direct_light(sample, point.end, point.bsdf, light, sample.segment(1, depth + 1));
+    if (options_.integrator == IntegratorKind::nee) {
+        found.bsdf_pdf = 0.0f;
     }
-    ++sample.rays.shadow;
-    const SegmentKey segment = sample.segment(1, depth + 1);
-    const auto transmission = light.is_infinite()
-                                  ? world_.transmission_to_infinity(point.end, incident.wi, segment)
-                                  : world_.transmission(point.end, incident.end, segment);
-    if (!transmission) {
-        return std::nullopt;
-    }
-    const bool can_be_hit = options_.integrator == IntegratorKind::mis && !light.is_delta();
-    return LightConnection{
-        .value = f.f_cos * light.incident_weight(incident) * transmission->transmittance,
-        .light_pdf = incident.pdf_solid_angle.value,
-        .bsdf_pdf = can_be_hit ? f.pdf_fwd.value * transmission->p_unscattered : 0.0f};
+    return found;
 }
 
 }  // namespace bdpt

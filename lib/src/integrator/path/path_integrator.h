@@ -4,6 +4,7 @@
 #include "integrator/contribution_sink.h"
 #include "integrator/integrator.h"
 #include "integrator/path/light_techniques.h"
+#include "path/direct_light.h"
 #include "path/fog_sampling.h"
 
 #include <optional>
@@ -22,13 +23,30 @@ public:
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
 
+    /// Returns an estimate of the radiance that `first` scatters, by a path from there, as if it
+    /// were the first hit of a camera path [nit].
+    [[nodiscard]] Rgb radiance_from(SampleContext& sample, const SurfacePoint& first) const;
+
 private:
     struct Ray;
     struct FogArrival;
-    struct LightConnection;
+    struct Walk;
     void add_sample(int x, int y, const ScheduledSample& scheduled, ContributionSink& sink,
                     RenderStats& stats) const;
     void trace_path(SampleContext& sample, Vec2 raster, ContributionSink& sink) const;
+    /// Continues a path along its ray, which leads to vertex `depth` + 1, until it ends. Passes
+    /// each contribution to `add(Strategy, Contribution)`.
+    template <typename Add>
+    void follow(SampleContext& sample, Walk walk, int depth, const Add& add) const;
+    /// Scatters a path at `point`, its vertex `depth` + 1: adds the direct light there, and samples
+    /// the next ray. Returns false if the path ends.
+    template <typename Add>
+    [[nodiscard]] bool scatter(SampleContext& sample, const SurfacePoint& point,
+                               const std::optional<FogArrival>& arrival, int depth, Walk& walk,
+                               const Add& add) const;
+    /// Passes on light of the path, if paths of its length are asked for.
+    template <typename Add>
+    void contribute(Strategy strategy, Rgb light, const Walk& walk, const Add& add) const;
     /// Returns the radiance of a light that the ray hit, with its MIS weight against light
     /// sampling; `probability_of_flight` is the probability that no medium scatters the ray before.
     [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit, Rgb radiance,
@@ -44,12 +62,10 @@ private:
     /// Estimates direct light at a point in the fog on the ray, chosen by the light.
     [[nodiscard]] Rgb sample_fog(SampleContext& sample, const Ray& ray, const FogSegment& fog,
                                  int depth) const;
-    /// Connects the point to a sampled point on the light; nullopt if no light arrives.
-    [[nodiscard]] std::optional<LightConnection> connect(SampleContext& sample,
-                                                         const SurfacePoint& point,
-                                                         const Light& light,
-                                                         const IncidentSample& incident,
-                                                         int depth) const;
+    /// Returns the light of a sampled point on a light at vertex `depth` + 1; black if it is to be
+    /// found by other techniques alone.
+    [[nodiscard]] DirectLight light_of(const SampleContext& sample, const SurfacePoint& point,
+                                       const LightSet::NextEvent& light, int depth) const;
     /// Returns the ratio of the density with which `FogSampling` samples the point in the fog for
     /// the light to that of a walk.
     [[nodiscard]] float fog_density_ratio(const std::optional<FogArrival>& arrival,

@@ -1,7 +1,7 @@
 #include "light/learned/entry_window.h"
 
-#include "light/parallel_rays.h"
 #include "math/frame.h"
+#include "math/warp.h"
 
 #include <glm/geometric.hpp>
 
@@ -31,6 +31,15 @@ Cells blur_rows(const Cells& numbers, std::size_t step, std::size_t stride)
         }
     }
     return result;
+}
+
+/// Samples the entry point of a ray of direction `direction` into the scene: uniform on the disk in
+/// front of it.
+Vec3 sample_entry(const BoundingSphere& bounds, Vec3 direction, Vec2 u)
+{
+    const Vec2 on_disk = bounds.radius * square_to_disk(u);
+    const Frame frame = Frame::from_normal(direction);
+    return bounds.center + on_disk.x * frame.x + on_disk.y * frame.y - bounds.radius * direction;
 }
 
 /// Tests whether a point is in [0, 1)^2.
@@ -122,9 +131,8 @@ PlanarPdf EntryWindow::pdf(Vec3 p, Vec3 direction) const noexcept
     }
     const Vec2 at = project(p, direction);
     const float in_grid =
-        is_in_grid(at)
-            ? cells_->pdf(at) / (size_.x * size_.y * std::abs(dot(direction, normal_)))
-            : 0.0f;
+        is_in_grid(at) ? cells_->pdf(at) / (size_.x * size_.y * std::abs(dot(direction, normal_)))
+                       : 0.0f;
     return {uniform_part * uniform + (1.0f - uniform_part) * in_grid};
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 
 namespace bdpt {
@@ -15,10 +14,12 @@ namespace {
 // say is too uncertain for large rates.
 constexpr int min_exponent = -1;
 constexpr int max_exponent = 1;
-/// Cells are averaged with their neighbours, as each has two samples; and rare bright paths that
-/// are missed in one neighbourhood may be found in the next, so the maximum of nearby ones counts.
+/// Errors of cells are averaged with their neighbours, as each has two samples.
 constexpr int mean_radius = 3;  // 7 x 7 cells
-constexpr int max_radius = 1;   // 3 x 3 cells
+/// Rates change within about this distance: chance makes islands, whose borders would be seen.
+constexpr double smooth_pixels = 8.0;
+/// Islands of about half of this neighbourhood, and smaller ones, are taken for chance.
+constexpr int island_radius = 5;  // 11 x 11 cells: more than one bright path spreads to
 /// Error beside the pilot's estimate and dots, as a fraction of the mean error: rare bright paths
 /// also occur where the pilot has not found them.
 constexpr double unseen_share = 0.25;
@@ -74,38 +75,141 @@ Evidence evidence_for(std::size_t candidate, const PilotGrid& grid, const CellEr
             .splats = cells.splats[candidate]};
 }
 
-/// Returns the number of pixels of each cell, from the cells of all columns and rows of pixels.
-std::vector<std::int64_t> count_pixels(const PilotGrid& grid, const std::vector<int>& columns,
-                                       const std::vector<int>& rows)
+/// Exponents that have a mean rate of at most 1, and of more; they differ in few cells, or in many
+/// that want the same.
+struct WholeExponents {
+    Plane low;
+    Plane high;
+    double share_of_high;  ///< of the cells that differ, for a mean rate of 1
+};
+
+/// Returns the wanted exponents of the cells, as whole numbers: rates between powers of two are
+/// mixtures, which gain less.
+WholeExponents whole_exponents(const Evidence& evidence)
 {
-    std::vector<std::int64_t> widths(static_cast<std::size_t>(grid.columns()));
-    for (const int column : columns) {
-        ++widths[static_cast<std::size_t>(column)];
+    Plane octaves(evidence.errors.size());
+    for (std::size_t i = 0; i < octaves.size(); ++i) {
+        octaves[i] = 0.5 * octaves_of(evidence.errors[i] / evidence.costs[i]);
     }
-    std::vector<std::int64_t> pixels(grid.cells());
-    for (const int row : rows) {
-        for (int column = 0; column < grid.columns(); ++column) {
-            pixels[grid.index(column, row)] += widths[static_cast<std::size_t>(column)];
+    const auto moved = [&](double shift) {
+        Plane exponents(octaves.size());
+        for (std::size_t i = 0; i < octaves.size(); ++i) {
+            exponents[i] =
+                std::clamp(std::round(octaves[i] + shift), static_cast<double>(min_exponent),
+                           static_cast<double>(max_exponent));
         }
+        return exponents;
+    };
+    const auto mean_rate = [](const Plane& exponents) {
+        double sum = 0.0;
+        for (const double exponent : exponents) {
+            sum += static_cast<double>(SampleRates::to_rate(static_cast<int>(exponent)));
+        }
+        return sum / static_cast<double>(exponents.size());
+    };
+    double low = -200.0;
+    double high = 200.0;
+    for (int i = 0; i < 40; ++i) {
+        const double shift = 0.5 * (low + high);
+        (mean_rate(moved(shift)) <= 1.0 ? low : high) = shift;
     }
-    return pixels;
+    WholeExponents result{.low = moved(low), .high = moved(high), .share_of_high = 0.0};
+    const double least = mean_rate(result.low);
+    result.share_of_high = (1.0 - least) / (mean_rate(result.high) - least);
+    return result;
 }
 
-/// Returns error times cost with the exponents over that without.
-double product_of(const Evidence& evidence, const std::vector<std::int8_t>& exponents,
-                  const std::vector<std::int64_t>& pixels)
+/// Returns exponents without small islands, which are chance, and without steps: they change slowly
+/// but for the border of the background, which is known.
+Plane smooth_exponents(const Evidence& evidence, const PilotGrid& grid, const Plane& scattering)
 {
+    const PlaneSize size{.width = grid.columns(), .height = grid.rows()};
+    const double side = std::sqrt(grid.pixels() / static_cast<double>(grid.cells()));
+    const int radius = std::max(1, static_cast<int>(std::lround(smooth_pixels / side)));
+    const auto without_islands = [&](Plane exponents, const Plane& weights) {
+        for (int pass = 0; pass < 2; ++pass) {
+            exponents = local_mean(exponents, weights, size, island_radius);
+            for (double& exponent : exponents) {
+                exponent = std::round(exponent);
+            }
+        }
+        return exponents;
+    };
+    const WholeExponents wanted = whole_exponents(evidence);
+    const auto smooth = [&](const Plane& weights) {
+        Plane exponents = without_islands(wanted.low, weights);
+        const Plane high = without_islands(wanted.high, weights);
+        for (std::size_t i = 0; i < exponents.size(); ++i) {
+            exponents[i] = std::lerp(exponents[i], high[i], wanted.share_of_high);
+        }
+        for (int pass = 0; pass < 2; ++pass) {  // nearly a Gaussian
+            exponents = local_mean(exponents, weights, size, radius);
+        }
+        return exponents;
+    };
+    Plane background(scattering.size());
+    std::transform(scattering.begin(), scattering.end(), background.begin(),
+                   [](double share) { return 1.0 - share; });
+    Plane result = smooth(scattering);
+    const Plane of_background = smooth(background);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i] = scattering[i] > 0.0 ? result[i] : of_background[i];
+    }
+    return result;
+}
+
+/// Interpolates the values of cells between their centres.
+class Interpolation {
+public:
+    Interpolation(const PilotGrid& grid, const Plane& cells) : grid_(grid), cells_(cells) {}
+
+    [[nodiscard]] double operator()(int x, int y) const
+    {
+        const Place across = place(x, grid_.columns(), grid_.width());
+        const Place down = place(y, grid_.rows(), grid_.height());
+        const auto row = [&](int at) {
+            return std::lerp(cells_[grid_.index(across.first, at)],
+                             cells_[grid_.index(across.second, at)], across.fraction);
+        };
+        return std::lerp(row(down.first), row(down.second), down.fraction);
+    }
+
+private:
+    struct Place {
+        int first;
+        int second;
+        double fraction;
+    };
+    [[nodiscard]] static Place place(int pixel, int cells, int pixels)
+    {
+        const double at = std::clamp((pixel + 0.5) * cells / pixels - 0.5, 0.0, cells - 1.0);
+        const int first = std::min(static_cast<int>(at), cells - 1);
+        return {.first = first, .second = std::min(first + 1, cells - 1), .fraction = at - first};
+    }
+
+    const PilotGrid& grid_;
+    const Plane& cells_;
+};
+
+/// Returns error times cost with the rates over that without.
+double product_of(const Evidence& evidence, const SampleRates& rates, const PilotGrid& grid)
+{
+    const std::vector<int> columns = grid.columns_of_pixels();
+    const std::vector<int> rows = grid.rows_of_pixels();
     double error = 0.0;
     double error_of_equal = 0.0;
     double cost = 0.0;
     double cost_of_equal = 0.0;
-    for (std::size_t i = 0; i < exponents.size(); ++i) {
-        const auto rate = static_cast<double>(SampleRates::to_rate(exponents[i]));
-        const auto n = static_cast<double>(pixels[i]);
-        error += n * (evidence.errors[i] / rate + evidence.splats);
-        error_of_equal += n * (evidence.errors[i] + evidence.splats);
-        cost += n * evidence.costs[i] * rate;
-        cost_of_equal += n * evidence.costs[i];
+    for (int y = 0; y < grid.height(); ++y) {
+        for (int x = 0; x < grid.width(); ++x) {
+            const std::size_t cell =
+                grid.index(columns[static_cast<std::size_t>(x)], rows[static_cast<std::size_t>(y)]);
+            const auto rate = static_cast<double>(rates.rate(x, y));
+            error += evidence.errors[cell] / rate + evidence.splats;
+            error_of_equal += evidence.errors[cell] + evidence.splats;
+            cost += evidence.costs[cell] * rate;
+            cost_of_equal += evidence.costs[cell];
+        }
     }
     return error / error_of_equal * (cost / cost_of_equal);
 }
@@ -116,31 +220,15 @@ std::shared_ptr<const SampleRates> choose_rates(const PilotGrid& grid, const Cel
                                                 std::size_t candidate)
 {
     const Evidence evidence = evidence_for(candidate, grid, cells);
-    Plane wanted = local_greatest(evidence.errors, {.width = grid.columns(), .height = grid.rows()},
-                                  max_radius);
-    const double mean = mean_of(wanted);
+    const double mean = mean_of(evidence.errors);
     if (!(mean > 0.0) || !std::isfinite(mean)) {
         return nullptr;  // no noise, or noise that the candidate cannot reduce
     }
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        wanted[i] = std::sqrt(wanted[i] / evidence.costs[i]);
-    }
-    const std::vector<int> columns = grid.columns_of_pixels();
-    const std::vector<int> rows = grid.rows_of_pixels();
-    const std::vector<std::int64_t> pixels = count_pixels(grid, columns, rows);
-    const std::vector<std::int8_t> exponents =
-        fitting_exponents(wanted, pixels, {.min = min_exponent, .max = max_exponent});
-    if (product_of(evidence, exponents, pixels) > worthwhile) {
-        return nullptr;
-    }
-    std::vector<std::int8_t> of_pixels;
-    of_pixels.reserve(rows.size() * columns.size());
-    for (const int row : rows) {
-        for (const int column : columns) {
-            of_pixels.push_back(exponents[grid.index(column, row)]);
-        }
-    }
-    return std::make_shared<const SampleRates>(grid.width(), grid.height(), std::move(of_pixels));
+    const Plane exponents = smooth_exponents(evidence, grid, cells.scattering);
+    auto rates = std::make_shared<const SampleRates>(
+        dithered_rates({.width = grid.width(), .height = grid.height()},
+                       Interpolation(grid, exponents), {.min = min_exponent, .max = max_exponent}));
+    return product_of(evidence, *rates, grid) <= worthwhile ? rates : nullptr;
 }
 
 }  // namespace bdpt

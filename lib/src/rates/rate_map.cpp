@@ -1,10 +1,13 @@
 #include "rates/rate_map.h"
 
+#include "math/elementary.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <numeric>
+#include <utility>
 
 namespace bdpt {
 namespace {
@@ -62,122 +65,79 @@ double mean_of(const Plane& plane)
     return sum / static_cast<double>(plane.size());
 }
 
+Plane local_mean(const Plane& plane, const Plane& weights, PlaneSize size, int radius)
+{
+    Plane products(plane.size());
+    std::transform(plane.begin(), plane.end(), weights.begin(), products.begin(),
+                   std::multiplies());
+    Plane means = local_mean(products, size, radius);
+    const Plane sums = local_mean(weights, size, radius);
+    for (std::size_t i = 0; i < means.size(); ++i) {
+        means[i] = sums[i] > 0.0 ? means[i] / sums[i] : plane[i];
+    }
+    return means;
+}
+
+double octaves_of(double value)
+{
+    constexpr double per_log = 1.44269504088896340736;
+    constexpr double least = 1e-30;
+    constexpr double greatest = 1e30;
+    return per_log *
+           static_cast<double>(log_exact(static_cast<float>(std::clamp(value, least, greatest))));
+}
+
 namespace {
 
-/// Returns the exponent of the power of two nearest to `rate`, by its logarithm.
-std::int8_t find_exponent(double rate, ExponentRange range)
-{
-    constexpr double root = 1.4142135623730951;
-    constexpr std::array borders{0.25 * root, 0.5 * root, root, 2.0 * root};
-    int exponent = SampleRates::min_exponent;
-    for (const double border : borders) {
-        exponent += rate >= border ? 1 : 0;
-    }
-    return static_cast<std::int8_t>(std::clamp(exponent, range.min, range.max));
-}
-
-/// Returns 2^exponent [quarters].
-std::int64_t to_quarters(int exponent)
-{
-    return std::int64_t{1} << (exponent - SampleRates::min_exponent);
-}
-
-/// Chooses exponents of rates that are a scale times the wanted ones.
-class ScaledRates {
-public:
-    ScaledRates(const Plane& wanted, const std::vector<std::int64_t>& pixels, ExponentRange range)
-        : wanted_(wanted), pixels_(pixels), range_(range)
-    {}
-
-    [[nodiscard]] std::int64_t pixels(std::size_t i) const
-    {
-        return pixels_.empty() ? 1 : pixels_[i];
-    }
-    [[nodiscard]] std::int8_t exponent(std::size_t i, double scale) const
-    {
-        return find_exponent(scale * wanted_[i], range_);
-    }
-    /// Returns the sum of the rates of all pixels [quarters].
-    [[nodiscard]] std::int64_t sum(double scale) const
-    {
-        std::int64_t result = 0;
-        for (std::size_t i = 0; i < wanted_.size(); ++i) {
-            result += pixels(i) * to_quarters(exponent(i, scale));
-        }
-        return result;
-    }
-    /// Returns that sum for a mean rate of 1.
-    [[nodiscard]] std::int64_t most() const
-    {
-        const auto size = static_cast<std::int64_t>(wanted_.size());
-        return (pixels_.empty() ? size
-                                : std::accumulate(pixels_.begin(), pixels_.end(), std::int64_t{0}))
-               << -SampleRates::min_exponent;
-    }
-
-private:
-    const Plane& wanted_;
-    const std::vector<std::int64_t>& pixels_;
-    ExponentRange range_;
-};
-
-/// Adjacent scales for which the mean is at most 1, and above 1.
-struct BordersOfScale {
-    double low;
-    double high;
-};
-
-BordersOfScale borders_of_scale(const ScaledRates& rates, double mean)
-{
-    constexpr double widest = 0x1p40;
-    constexpr int halvings = 60;
-    const std::int64_t most = rates.most();
-    BordersOfScale borders{.low = 1.0 / (widest * mean), .high = widest / mean};
-    for (int i = 0; i < halvings; ++i) {
-        const double middle = std::sqrt(borders.low * borders.high);
-        (rates.sum(middle) <= most ? borders.low : borders.high) = middle;
-    }
-    return borders;
-}
-
-/// Returns a number that differs for all elements; those with the smallest ones are evenly
-/// distributed.
-std::uint64_t spread(std::size_t element)
-{
-    constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15U;
-    return element * golden_ratio;
-}
+constexpr double widest = 32.0;  // difference of two wishes that counts [octaves]
 
 }  // namespace
 
-std::vector<std::int8_t> fitting_exponents(const Plane& wanted,
-                                           const std::vector<std::int64_t>& pixels,
-                                           ExponentRange range)
+int dithered_step(double octaves, int x, int y)
 {
-    const ScaledRates rates(wanted, pixels, range);
-    const auto [low, high] = borders_of_scale(rates, mean_of(wanted));
-    std::vector<std::int8_t> exponents(wanted.size());
-    std::vector<std::size_t> ties;
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        exponents[i] = rates.exponent(i, low);
-        if (exponents[i] != rates.exponent(i, high)) {
-            ties.push_back(i);
-        }
+    // Thresholds by the additive recurrence R2, whose neighbours differ much [Roberts 2018, "The
+    // Unreasonable Effectiveness of Quasirandom Sequences"].
+    const std::uint32_t threshold = (static_cast<std::uint32_t>(x) * 0xc13fa9a9U +
+                                     static_cast<std::uint32_t>(y) * 0x91e10da6U) >>
+                                    (32U - log2_of_steps);
+    return static_cast<int>(std::lround(std::clamp(octaves, -widest, widest) * steps_of_octave)) +
+           static_cast<int>(threshold);
+}
+
+SampleRates rates_of_steps(PlaneSize size, const std::vector<int>& steps, ExponentRange range)
+{
+    // How many pixels have each step or a higher one.
+    constexpr int lowest = -static_cast<int>(widest) * steps_of_octave;
+    constexpr int count = 2 * -lowest + 2 * steps_of_octave;
+    std::vector<std::int64_t> at_least(count + 1);
+    for (const int step : steps) {
+        ++at_least[static_cast<std::size_t>(step - lowest)];
     }
-    // Of elements that want the same rate only some can have more: they are distributed over the
-    // image.
-    std::sort(ties.begin(), ties.end(),
-              [](std::size_t a, std::size_t b) { return spread(a) < spread(b); });
-    std::int64_t left = rates.most() - rates.sum(low);
-    for (const std::size_t i : ties) {
-        const std::int64_t more = rates.pixels(i) * to_quarters(exponents[i]);
-        if (more > left) {
-            break;
+    std::partial_sum(at_least.rbegin(), at_least.rend(), at_least.rbegin());
+    const auto pixels = static_cast<std::int64_t>(steps.size());
+    // The sum of the rates [quarters] if `shift` steps are added to all.
+    const auto sum = [&](int shift) {
+        std::int64_t result = pixels << (range.min - SampleRates::min_exponent);
+        for (int e = range.min + 1; e <= range.max; ++e) {
+            const int step = std::clamp(e * steps_of_octave - shift - lowest, 0, count);
+            result += at_least[static_cast<std::size_t>(step)]
+                      << (e - 1 - SampleRates::min_exponent);
         }
-        left -= more;
-        ++exponents[i];
+        return result;
+    };
+    int low = -2 * count;  // all have the least rate
+    int high = 2 * count;
+    while (low + 1 < high) {
+        const int middle = low + (high - low) / 2;
+        (sum(middle) <= pixels << -SampleRates::min_exponent ? low : high) = middle;
     }
-    return exponents;
+    std::vector<std::int8_t> exponents;
+    exponents.reserve(steps.size());
+    for (const int step : steps) {
+        const int octave = (step + low) >> log2_of_steps;  // rounds down
+        exponents.push_back(static_cast<std::int8_t>(std::clamp(octave, range.min, range.max)));
+    }
+    return {size.width, size.height, std::move(exponents)};
 }
 
 namespace {
@@ -193,8 +153,8 @@ constexpr double dark = 0.01;   // relative to the image's mean luminance, as in
 /// this makes rates uniform.
 constexpr double unseen_share = 0.25;
 
-/// Returns values to which the rates should be proportional.
-Plane wanted_rates(const RateEvidence& evidence)
+/// Returns the logarithms, to base 2, of values to which the rates should be proportional.
+Plane wanted_octaves(const RateEvidence& evidence)
 {
     const PlaneSize size{.width = evidence.width, .height = evidence.height};
     const Plane brightness = local_mean(evidence.brightness, size, mean_radius);
@@ -207,7 +167,7 @@ Plane wanted_rates(const RateEvidence& evidence)
     Plane wanted = local_greatest(local_mean(relative, size, mean_radius), size, max_radius);
     const double unseen = unseen_share * mean_of(relative);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        wanted[i] = std::sqrt((wanted[i] + unseen) / evidence.cost[i]);
+        wanted[i] = octaves_of((wanted[i] + unseen) / evidence.cost[i]) / 2.0;
     }
     return wanted;
 }
@@ -216,11 +176,11 @@ Plane wanted_rates(const RateEvidence& evidence)
 
 SampleRates rates_for(const RateEvidence& evidence)
 {
-    const Plane wanted = wanted_rates(evidence);
-    if (!(mean_of(wanted) > 0.0)) {
-        return {evidence.width, evidence.height, std::vector<std::int8_t>(wanted.size(), 0)};
-    }
-    return {evidence.width, evidence.height, fitting_exponents(wanted, {})};
+    const Plane wanted = wanted_octaves(evidence);
+    const auto width = static_cast<std::size_t>(evidence.width);
+    return dithered_rates({.width = evidence.width, .height = evidence.height}, [&](int x, int y) {
+        return wanted[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+    });
 }
 
 }  // namespace bdpt

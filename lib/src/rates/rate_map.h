@@ -18,6 +18,9 @@ struct PlaneSize {
 /// Returns the mean over a square of (2 radius + 1) x (2 radius + 1) values around each; squares
 /// end at the edges.
 [[nodiscard]] Plane local_mean(const Plane& plane, PlaneSize size, int radius);
+/// Returns that mean with weights, which are not negative; where all are zero, the value itself.
+[[nodiscard]] Plane local_mean(const Plane& plane, const Plane& weights, PlaneSize size,
+                               int radius);
 /// Returns the greatest value of each of those squares.
 [[nodiscard]] Plane local_greatest(const Plane& plane, PlaneSize size, int radius);
 [[nodiscard]] double mean_of(const Plane& plane);
@@ -28,12 +31,34 @@ struct ExponentRange {
     int max = SampleRates::max_exponent;
 };
 
-/// Returns exponents of rates that are in proportion to `wanted`, whose values must be positive.
-/// Element i counts `pixels[i]` times, or once if `pixels` is empty. The mean rate is at most 1,
-/// and raising one more element would exceed that, unless all have the greatest in `range`.
-[[nodiscard]] std::vector<std::int8_t> fitting_exponents(const Plane& wanted,
-                                                         const std::vector<std::int64_t>& pixels,
-                                                         ExponentRange range = {});
+/// Returns the logarithm of a value to base 2; of values below 1e-30, and 0, that of 1e-30.
+[[nodiscard]] double octaves_of(double value);
+
+inline constexpr int log2_of_steps = 12;
+inline constexpr int steps_of_octave = 1 << log2_of_steps;
+/// Returns a logarithm in whole steps, plus a part of an octave that differs between neighbouring
+/// pixels.
+[[nodiscard]] int dithered_step(double octaves, int x, int y);
+/// Returns rates by the dithered steps of all pixels, all moved alike and rounded down to octaves.
+[[nodiscard]] SampleRates rates_of_steps(PlaneSize size, const std::vector<int>& steps,
+                                         ExponentRange range);
+
+/// Returns rates that are on average in proportion to 2^`octaves(x, y)`. Neighbouring pixels round
+/// to different powers of two, so that no step is seen where rates change slowly. The mean rate is
+/// at most 1, and hardly less unless all have the greatest in `range`.
+template <typename Octaves>
+[[nodiscard]] SampleRates dithered_rates(PlaneSize size, const Octaves& octaves,
+                                         ExponentRange range = {})
+{
+    std::vector<int> steps;
+    steps.reserve(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            steps.push_back(dithered_step(octaves(x, y), x, y));
+        }
+    }
+    return rates_of_steps(size, steps, range);
+}
 
 /// A pilot's estimates for each pixel of an image, row by row from the top left.
 struct RateEvidence {

@@ -3,6 +3,8 @@
 #include "catch.hpp"
 #include "pilot/pilot.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <random>
@@ -151,6 +153,91 @@ TEST_CASE("dots are the noise of cells where paths scatter", "[pilot]")
     const auto of_small = rates_of(before_background(0.1));
     REQUIRE(of_small != nullptr);
     CHECK(of_small->mean() > 0.99);
+}
+
+/// Returns the greatest ratio of the noise of neighbouring blocks of 8 x 8 pixels, if all samples
+/// are alike.
+double steepest_step_of_noise(const SampleRates& rates)
+{
+    constexpr int side = 8;
+    const auto noise = [&](int column, int row) {
+        double variance = 0.0;
+        for (int i = 0; i < side * side; ++i) {
+            variance += 1.0 / static_cast<double>(
+                                  rates.rate(side * column + i % side, side * row + i / side));
+        }
+        return std::sqrt(variance);
+    };
+    double steepest = 1.0;
+    for (int row = 0; row + 1 < rates.height() / side; ++row) {
+        for (int column = 0; column + 1 < rates.width() / side; ++column) {
+            for (const double other : {noise(column + 1, row), noise(column, row + 1)}) {
+                const double ratio = noise(column, row) / other;
+                steepest = std::max({steepest, ratio, 1.0 / ratio});
+            }
+        }
+    }
+    return steepest;
+}
+
+TEST_CASE("no step of noise shows where rates change", "[pilot]")
+{
+    CellErrors cells = equal_cells();
+    multiply_right(cells.camera, 30.0);
+    std::mt19937 engine(7);
+    for (PerCandidate<double>& cell : cells.camera) {
+        cell[used] *= std::exponential_distribution<double>(1.0)(engine);
+    }
+    const auto rates = rates_of(cells);
+    REQUIRE(rates != nullptr);
+    CHECK(rates->least() == 0.5f);
+    CHECK(rates->greatest() == 2.0f);
+    CHECK(steepest_step_of_noise(*rates) < 1.3);
+}
+
+TEST_CASE("what is known to be background may have a sharp border", "[pilot]")
+{
+    CellErrors cells = equal_cells();
+    for (std::size_t i = 0; i < grid().cells(); ++i) {
+        const auto column = static_cast<int>(i % static_cast<std::size_t>(grid().columns()));
+        if (column < grid().columns() / 2) {
+            cells.camera[i][used] = 0.0;
+            cells.scattering[i] = 0.0;
+        }
+    }
+    const auto rates = rates_of(cells);
+    REQUIRE(rates != nullptr);
+    CHECK(rates->rate(196, 100) == 0.5f);
+    CHECK(rates->rate(206, 100) >= 1.0f);
+}
+
+TEST_CASE("an island of a few bright cells is taken for chance", "[pilot]")
+{
+    const auto with_island = [](int side, double factor) {
+        CellErrors cells = equal_cells();
+        multiply_right(cells.camera, 30.0);
+        for (int row = 20; row < 20 + side; ++row) {
+            for (int column = 20; column < 20 + side; ++column) {
+                cells.camera[grid().index(column, row)][used] *= factor;
+            }
+        }
+        return rates_of(cells);
+    };
+    const auto mean_exponent = [](const SampleRates& rates, int cells) {
+        const int x0 = 20 * rates.width() / grid().columns();
+        const int y0 = 20 * rates.height() / grid().rows();
+        const int side = cells * rates.width() / grid().columns();
+        int sum = 0;
+        for (int i = 0; i < side * side; ++i) {
+            sum += rates.exponent(x0 + i % side, y0 + i / side);
+        }
+        return static_cast<double>(sum) / (side * side);
+    };
+    const auto few = with_island(3, 100.0);
+    const auto many = with_island(16, 30.0);
+    REQUIRE((few != nullptr && many != nullptr));
+    CHECK(mean_exponent(*few, 3) < -0.9);
+    CHECK(mean_exponent(*many, 16) > -0.4);
 }
 
 TEST_CASE("one rare bright path does not decide rates", "[pilot]")

@@ -388,7 +388,7 @@ void bind_render(nb::module_& module)
             "spp", [](const Render& render) { return render.part.samples.count(); },
             "Its number of samples per pixel.")
         .def_prop_ro(
-            "noise", [](const Render& render) { return estimate_noise(render.part.film); },
+            "noise", [](const Render& render) { return estimate_noise(render.part.film, render.part.aovs); },
             "Relative standard error that 95 % of all tiles of 16 x 16 pixels do not exceed.")
         .def_prop_ro(
             "settings", [](const Render& render) { return render.notes.metadata.settings; },

@@ -78,7 +78,7 @@ std::string message_of_missing(const MergeArguments& asked, const Plan& plan,
 ordered_json judge_noise(const MergeArguments& arguments, const RenderResult& sum,
                          const PartInfo& part, Console& console)
 {
-    const double noise = estimate_noise(sum.film);
+    const double noise = estimate_noise(sum.film, sum.aovs);
     ordered_json fields{{"noise", noise_json(noise)}};
     if (!arguments.noise) {
         return fields;

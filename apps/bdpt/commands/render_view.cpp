@@ -394,7 +394,7 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
     }
     note_done(console, arguments, result, images);
     attempts.finish();
-    const double noise = estimate_noise(result.film);
+    const double noise = estimate_noise(result.film, result.aovs);
     report_done(console, arguments, result, noise, images, stopped_by);
     const ImageLabel label = make_label(arguments);
     return JobImage{.files = written_files(arguments, std::move(images.files)),

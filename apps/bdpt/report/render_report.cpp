@@ -136,7 +136,7 @@ ordered_json stats_json(const RenderResult& result, const TimeSplit& time)
                       {"rays", rays_json(stats.rays, time.render)},
                       {"defects", defects_json(result.film.defects())},
                       {"clamp", clamp_json(result.film)}};
-    json["noise"] = noise_json(estimate_noise(result.film));
+    json["noise"] = noise_json(estimate_noise(result.film, result.aovs));
     return json;
 }
 

@@ -13,6 +13,7 @@
 /// @endcode
 
 #include <bdpt/export.h>
+#include <bdpt/film/aov_film.h>
 #include <bdpt/film/film.h>
 
 #include <cstdint>
@@ -27,13 +28,15 @@ namespace bdpt {
 /// luminance. It is estimated from the difference of the film's halves [Dammertz et al. 2010, "A
 /// Hierarchical Automatic Stopping Condition for Monte Carlo Global Illumination"], splats
 /// included. Tiles whose halves are bit-identical do not count: empty background would hide the
-/// rest. A few tiles with fireflies do not affect the result, and neither does light that no sample
-/// has found yet.
+/// rest. Where `aovs` have `Aov::alpha`, the image is judged before a background as bright as what
+/// is opaque on average: on its own, a silhouette in a black tile would be noisier than it looks. A
+/// few tiles with fireflies do not affect the result, and neither does light that no sample has
+/// found yet.
 ///
 /// The estimate is valid for halves of equally many samples, which render() ensures whenever it
 /// measures the noise. Infinite if there are fewer than two samples, or if the image is black.
 /// Independent of the number of threads.
-[[nodiscard]] BDPT_EXPORT double estimate_noise(const Film& film);
+[[nodiscard]] BDPT_EXPORT double estimate_noise(const Film& film, const AovFilm& aovs = {});
 
 /// Returns the first number of samples per pixel after `samples` at which a render measures its
 /// noise: 16, 24, 32, 48, 64, 96, ... (2^k and 3 * 2^(k - 1), for which both halves have

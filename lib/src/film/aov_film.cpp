@@ -208,6 +208,18 @@ double AovFilm::shadow_opacity(std::size_t pixel, double samples) const
     return share * std::min(1.0 - shadowed_[pixel].value() / unshadowed, 1.0);
 }
 
+std::vector<float> AovFilm::coverage(const Film& film) const
+{
+    std::vector<float> result;
+    if (aovs_.contains(Aov::alpha) && film.sample_count() > 0) {
+        result.reserve(hits_.size());
+        for (const std::uint64_t hits : hits_) {
+            result.push_back(static_cast<float>(hits) / static_cast<float>(film.sample_count()));
+        }
+    }
+    return result;
+}
+
 std::vector<Layer> AovFilm::develop(const Film& film) const
 {
     if (film.region() != region_) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace bdpt {
@@ -31,24 +32,49 @@ std::vector<int> borders(int length)
     return result;
 }
 
-struct NoiseTile {
-    double luminance = 0.0;  // sum over its pixels
-    double variance = 0.0;   // variance of the mean of both halves; sum over its pixels
+/// Sums over pixels.
+struct NoiseSums {
+    double luminance = 0.0;
+    double empty = 0.0;     ///< of 1 - coverage
+    double variance = 0.0;  ///< of the mean of both halves
     double pixels = 0.0;
+
+    /// Returns the brightness before a background of that brightness.
+    [[nodiscard]] double brightness(double background) const
+    {
+        return (luminance + empty * background) / pixels;
+    }
 };
 
-/// Measures the tiles between two boundaries of rows.
-void measure_row_of_tiles(const Image& even, const Image& odd, int top, int bottom,
-                          const std::vector<int>& columns, NoiseTile* tiles)
+struct NoiseTile {
+    NoiseSums all;
+    NoiseSums certain;  ///< of pixels that are covered in all samples, or in none
+};
+
+/// Measures the tiles between two boundaries of rows. `coverage` is empty if all is opaque.
+void measure_row_of_tiles(const Image& even, const Image& odd, std::span<const float> coverage,
+                          int top, int bottom, const std::vector<int>& columns, NoiseTile* tiles)
 {
     for (int y = top; y < bottom; ++y) {
         for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
             for (int x = columns[i]; x < columns[i + 1]; ++x) {
                 const auto a = static_cast<double>(luminance(even.at(x, y)));
                 const auto b = static_cast<double>(luminance(odd.at(x, y)));
-                tiles[i].luminance += 0.5 * (a + b);
-                tiles[i].variance += 0.25 * (a - b) * (a - b);
-                tiles[i].pixels += 1.0;
+                const auto pixel =
+                    static_cast<std::size_t>(y) * static_cast<std::size_t>(even.width) +
+                    static_cast<std::size_t>(x);
+                const double empty =
+                    coverage.empty() ? 0.0 : 1.0 - static_cast<double>(coverage[pixel]);
+                const auto add = [&](NoiseSums& sums) {
+                    sums.luminance += 0.5 * (a + b);
+                    sums.empty += empty;
+                    sums.variance += 0.25 * (a - b) * (a - b);
+                    sums.pixels += 1.0;
+                };
+                add(tiles[i].all);
+                if (empty == 0.0 || empty == 1.0) {
+                    add(tiles[i].certain);
+                }
             }
         }
     }
@@ -56,7 +82,7 @@ void measure_row_of_tiles(const Image& even, const Image& odd, int top, int bott
 
 }  // namespace
 
-double estimate_noise(const Film& film)
+double estimate_noise(const Film& film, const AovFilm& aovs)
 {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     if (film.sample_count() < 2) {
@@ -67,22 +93,30 @@ double estimate_noise(const Film& film)
     const std::vector<int> rows = borders(film.height());
     const std::vector<int> columns = borders(film.width());
     const std::size_t across = columns.size() - 1;
+    const std::vector<float> coverage = aovs.coverage(film);
     std::vector<NoiseTile> tiles((rows.size() - 1) * across);
     tbb::parallel_for(std::size_t{0}, rows.size() - 1, [&](std::size_t i) {
-        measure_row_of_tiles(even, odd, rows[i], rows[i + 1], columns, &tiles[i * across]);
+        measure_row_of_tiles(even, odd, coverage, rows[i], rows[i + 1], columns,
+                             &tiles[i * across]);
     });
-    double mean = 0.0;
+    double light = 0.0;
+    double opaque = 0.0;
     for (const NoiseTile& tile : tiles) {
-        mean += tile.luminance / (static_cast<double>(film.width()) * film.height());
+        light += tile.all.luminance;
+        opaque += tile.all.pixels - tile.all.empty;
     }
-    if (!(mean > 0.0)) {
+    if (!(light > 0.0 && opaque > 0.0)) {
         return unknown;
     }
+    const double mean = light / opaque;  // of the image, and of what lies behind it
     std::vector<double> errors;
     for (const NoiseTile& tile : tiles) {
-        if (tile.variance > 0.0) {
-            const double error = std::sqrt(tile.variance / tile.pixels);
-            errors.push_back(error / std::max(tile.luminance / tile.pixels, dark * mean));
+        // Before a background of that brightness, the border of a silhouette is as clean as the
+        // rest of it. Where all is partly covered, such as hair, it counts.
+        const NoiseSums& sums = tile.certain.pixels > tile.certain.empty ? tile.certain : tile.all;
+        if (sums.variance > 0.0) {
+            errors.push_back(std::sqrt(sums.variance / sums.pixels) /
+                             std::max(sums.brightness(mean), dark * mean));
         }
     }
     if (errors.empty()) {

@@ -38,7 +38,7 @@ public:
                                                                     .end = wanted_.begin + count})
                                    : control_.on_progress && count >= next_look_;
         if (due && count != samples_) {
-            noise_ = estimate_noise(part.film);
+            noise_ = estimate_noise(part.film, part.aovs);
             samples_ = count;
             next_look_ = next_noise_look(count);
         }

@@ -313,7 +313,7 @@ std::int64_t Renderer::samples() const
 
 double Renderer::noise() const
 {
-    return estimate_noise(result().film);
+    return estimate_noise(result().film, result().aovs);
 }
 
 Image Renderer::image() const

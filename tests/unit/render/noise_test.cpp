@@ -6,6 +6,8 @@
 #include "room.h"
 #include "scene_builder.h"
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -83,6 +85,36 @@ TEST_CASE("noise is that of nearly all tiles", "[noise][long]")
                              : Grey{.mean = 0.001, .deviation = 0.0002};
     };
     CHECK(estimate_noise(noisy_film(in_the_dark)) == Approx(1.07 * 0.04 * clean).epsilon(0.05));
+}
+
+TEST_CASE("silhouettes before an empty background are judged as before a bright one", "[noise]")
+{
+    // A clean grey disk whose border covers pixels by chance, before nothing.
+    Film film(
+        {.width = side, .height = side, .region = {.x0 = 0, .y0 = 0, .x1 = side, .y1 = side}});
+    AovFilm alpha(film.region(), {Aov::alpha});
+    AovFilm normals(film.region(), {Aov::normal});
+    std::mt19937 engine(5);
+    std::normal_distribution<float> normal(2.0f, 0.2f);
+    std::uniform_real_distribution<float> uniform;
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            for (int i = 0; i < samples; ++i) {
+                const Vec2 at = Vec2(x, y) + Vec2(uniform(engine), uniform(engine)) - side / 2.0f;
+                const bool hit = dot(at, at) < 100.0f * 100.0f;
+                film.add_sample(x, y, i, Rgb(hit ? normal(engine) : 0.0f));
+                if (hit) {
+                    alpha.add(x, y, {});
+                    normals.add(x, y, {});
+                }
+            }
+        }
+    }
+    film.count_samples(0, samples);
+    const double inside = 1.07 * 0.1 * clean;
+    CHECK(estimate_noise(film) > 4.0 * inside);
+    CHECK(estimate_noise(film, normals) == estimate_noise(film));  // all of it is shown
+    CHECK(estimate_noise(film, alpha) == Approx(inside).epsilon(0.05));
 }
 
 TEST_CASE("a film without noise is clean, and one that tells nothing is not", "[noise]")

@@ -103,6 +103,10 @@ public:
     void read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const;
     void add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words);
 
+    /// Returns the fraction of the camera rays of each pixel that met a surface, row by row; empty
+    /// if `Aov::alpha` was not asked for. `film` must hold the same samples.
+    [[nodiscard]] std::vector<float> coverage(const Film& film) const;
+
     /// Tests for bit equality.
     [[nodiscard]] bool operator==(const AovFilm& other) const = default;
 

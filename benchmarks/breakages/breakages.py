@@ -121,7 +121,7 @@ BREAKAGES = (
              "window != nullptr ? window->pdf(p, -to_light)", "false ? window->pdf(p, -to_light)", "room-sun.gltf"),
     Breakage("light of suns that enters as learned is worth that of the disk", "lib/src/light/directional_light.cpp",
              ".weight = illuminance_ / entry.pdf.value", ".weight = illuminance_ / bounds_.pdf_disk().value", "room-sun.gltf"),
-    Breakage("numbers within learned windows are not stretched", "lib/src/light/learned/entry_window.cpp",
+    Breakage("numbers within learned windows are not stretched", "lib/src/light/learned/entries.cpp",
              "cells_->sample({rest, u.y}).point", "cells_->sample({u.x, u.y}).point", "room-sun.gltf"),
     Breakage("hits take tiles of the sky for unlearned", LIGHTS, "pdf_incident(with_visibility(receiver, id, sampling), x0,",
              "pdf_incident(receiver, x0,", "room-environment.gltf", SKY),

@@ -1,6 +1,5 @@
 #include "inspect/pixel_walk.h"
 
-#include "path/light_path_counts.h"
 #include "path/strategy_set.h"
 #include "render/learned_light.h"
 #include "render/open_camera.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "light/bounding_sphere.h"
-#include "light/learned/entry_window.h"
+#include "light/learned/entries.h"
 #include "light/light_model.h"
 #include "light/light_samples.h"
 

@@ -1,7 +1,7 @@
 #include "light/environment_light.h"
 
 #include "light/environment/cell_weights.h"
-#include "light/learned/environment_entries.h"
+#include "light/learned/entries.h"
 #include "math/elementary.h"
 
 #include <glm/geometric.hpp>

@@ -3,7 +3,7 @@
 #include "light/bounding_sphere.h"
 #include "light/environment/environment_texels.h"
 #include "light/environment/environment_tiles.h"
-#include "light/learned/entry_window.h"
+#include "light/learned/entries.h"
 #include "light/light_model.h"
 #include "light/light_sample_context.h"
 #include "light/light_samples.h"

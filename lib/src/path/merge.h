@@ -2,7 +2,7 @@
 
 #include "light/bounding_sphere.h"
 #include "path/connect.h"
-#include "path/light_path_counts.h"
+#include "path/strategy_set.h"
 
 #include <bdpt/render_options.h>
 

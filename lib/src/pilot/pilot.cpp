@@ -2,10 +2,9 @@
 
 #include "geometry/flush_denormals.h"
 #include "integrator/bidirectional/bidirectional_integrator.h"
-#include "pilot/cost_model.h"
-#include "pilot/errors/merged_paths.h"
-#include "pilot/errors/pilot_errors.h"
-#include "pilot/errors/visible_lights.h"
+#include "pilot/candidates.h"
+#include "pilot/pilot_errors.h"
+#include "pilot/rare_paths.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pilot/candidates.h"
-#include "pilot/errors/visible_lights.h"
+#include "pilot/pilot_errors.h"
 #include "pilot/pilot_rates.h"
 
 #include <bdpt/render_options.h>

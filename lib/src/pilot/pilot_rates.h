@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pilot/errors/pilot_errors.h"
+#include "pilot/pilot_errors.h"
 
 #include <bdpt/part/sample_rates.h>
 

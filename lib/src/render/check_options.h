@@ -24,4 +24,9 @@ void check_camera(const CameraDesc& camera);
 /// origin [m], in any coordinate: its rays would hit nothing.
 void check_camera_distance(const CameraDesc& camera, float farthest);
 
+/// Throws `Error` (usage) if numbers of light paths or connections are out of range or
+/// inconsistent, or if shared light paths could take more than `light_path_memory`. All other
+/// options have been checked.
+void check_light_paths(const RenderOptions& options);
+
 }  // namespace bdpt

@@ -3,7 +3,6 @@
 #include "identity/same_bits.h"
 #include "material/specular_albedo.h"
 #include "math/rgb.h"
-#include "scene/checks/check_powers.h"
 #include "scene/checks/validate.h"
 #include "scene/measured_emission.h"
 #include "scene/precision.h"

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <bdpt/thread_limit.h>
+
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 namespace bdpt {
@@ -51,5 +53,8 @@ private:
     std::optional<tbb::global_control> allowance_;
     std::optional<tbb::task_arena> arena_;
 };
+
+/// Runs both functions, side by side if another thread is idle. Throws what they throw.
+void run_both(const std::function<void()>& first, const std::function<void()>& second);
 
 }  // namespace bdpt

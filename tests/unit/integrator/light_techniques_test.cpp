@@ -1,4 +1,4 @@
-#include "integrator/path/light_techniques.h"
+#include "integrator/path/path_integrator.h"
 
 #include "catch.hpp"
 

@@ -1,4 +1,4 @@
-#include "light/learned/environment_entries.h"
+#include "light/learned/entries.h"
 
 #include "catch.hpp"
 #include "chi_square.h"

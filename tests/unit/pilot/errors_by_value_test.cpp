@@ -1,4 +1,4 @@
-#include "pilot/errors/errors_by_value.h"
+#include "pilot/rare_paths.h"
 
 #include "catch.hpp"
 

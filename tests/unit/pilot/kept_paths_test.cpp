@@ -1,4 +1,4 @@
-#include "pilot/kept_paths.h"
+#include "pilot/pilot_contributions.h"
 
 #include "catch.hpp"
 

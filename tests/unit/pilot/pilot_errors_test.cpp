@@ -1,9 +1,7 @@
-#include "pilot/errors/pilot_errors.h"
+#include "pilot/pilot_errors.h"
 
 #include "catch.hpp"
-#include "pilot/errors/choice_noise.h"
-#include "pilot/errors/merged_paths.h"
-#include "pilot/errors/qmc_variance_factor.h"
+#include "pilot/rare_paths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "pilot/pilot.h"
 
 #include "catch.hpp"
-#include "pilot/cost_model.h"
+#include "pilot/candidates.h"
 #include "pilot/path_shares.h"
 #include "render/open_camera.h"
 #include "scene/world.h"

@@ -1,6 +1,6 @@
 #include "integrator/bidirectional/connection_chooser.h"
 
-#include "path/light_path_counts.h"
+#include "path/strategy_set.h"
 
 #include <cmath>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "integrator/sample_schedule.h"
 #include "integrator/sample_start.h"
 #include "memory/huge_page_pool.h"
-#include "path/light_path_counts.h"
+#include "path/strategy_set.h"
 #include "path/subpath.h"
 
 #include <cstddef>

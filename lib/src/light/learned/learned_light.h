@@ -1,8 +1,7 @@
 #pragma once
 
 #include "light/environment/environment_visibility.h"
-#include "light/learned/entry_window.h"
-#include "light/learned/environment_entries.h"
+#include "light/learned/entries.h"
 #include "light/learned/group_shares.h"
 #include "light/light_samples.h"
 #include "math/distributions.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "threads/run_both.h"
+#include "threads/threads.h"
 
 #include <bdpt/types.h>
 

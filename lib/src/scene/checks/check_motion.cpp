@@ -1,8 +1,7 @@
-#include "scene/checks/check_motion.h"
+#include "scene/checks/validate.h"
 
 #include "geometry/coordinate_limit.h"
 #include "geometry/motion.h"
-#include "scene/checks/validate_lights.h"
 #include "scene/checks/value_checks.h"
 
 #include <bdpt/motion.h>

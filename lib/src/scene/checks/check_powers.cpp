@@ -1,4 +1,4 @@
-#include "scene/checks/check_powers.h"
+#include "scene/checks/validate.h"
 
 #include "scene/checks/value_checks.h"
 

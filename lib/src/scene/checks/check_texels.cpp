@@ -1,4 +1,4 @@
-#include "scene/checks/check_texels.h"
+#include "scene/checks/validate.h"
 
 #include <bdpt/error.h>
 

@@ -2,9 +2,6 @@
 
 #include "geometry/coordinate_limit.h"
 #include "math/rgb.h"
-#include "scene/checks/check_motion.h"
-#include "scene/checks/check_texels.h"
-#include "scene/checks/validate_lights.h"
 #include "scene/checks/value_checks.h"
 
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-#include "scene/checks/validate_lights.h"
+#include "scene/checks/validate.h"
 
 #include "geometry/coordinate_limit.h"
 #include "math/elementary.h"

@@ -1,11 +1,9 @@
-#include "pilot/errors/pilot_errors.h"
+#include "pilot/pilot_errors.h"
 
 #include "geometry/flush_denormals.h"
-#include "pilot/cost_model.h"
-#include "pilot/errors/choice_noise.h"
-#include "pilot/errors/errors_by_value.h"
-#include "pilot/errors/merged_paths.h"
-#include "pilot/errors/qmc_variance_factor.h"
+#include "math/elementary.h"
+#include "pilot/candidates.h"
+#include "pilot/rare_paths.h"
 
 #include <tbb/parallel_for.h>
 
@@ -17,6 +15,189 @@
 #include <vector>
 
 namespace bdpt {
+
+namespace {
+
+/// Second moments of paths that connections found.
+struct ChoiceMoments {
+    PerCandidate<double> choice{};
+    PerCandidate<double> connections{};
+
+    void add(const PerCandidate<double>& of_choice, const PerCandidate<double>& of_connections,
+             double scale)
+    {
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            choice[k] += scale * of_choice[k];
+            connections[k] += scale * of_connections[k];
+        }
+    }
+};
+
+ChoiceMoments moments_of(const PilotRow& row, const PilotBrightness& brightness)
+{
+    ChoiceMoments sum;
+    for (const PilotContribution& path : row.joined()) {
+        if (path.shares.choice_is_known()) {
+            const PathShares::SecondMoments moments = path.shares.second_moments();
+            sum.add(moments.choice, moments.connections, brightness.scale(path.cell) * path.number);
+        }
+    }
+    return sum;
+}
+
+}  // namespace
+
+PerCandidate<double> measure_choice(const PilotContributions& contributions,
+                                    const PilotBrightness& brightness)
+{
+    std::vector<ChoiceMoments> rows(contributions.rows.size());
+    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+        const FlushDenormals flush;
+        rows[i] = moments_of(contributions.rows[i], brightness);
+    });
+    ChoiceMoments all;
+    for (const ChoiceMoments& row : rows) {
+        all.add(row.choice, row.connections, 1.0);
+    }
+    PerCandidate<double> result{};
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        result[k] = all.connections[k] > 0.0 ? all.choice[k] / all.connections[k] : 0.0;
+    }
+    return result;
+}
+
+namespace {
+
+// Sobol points leave a fraction of the variance of independent samples, as measured in the
+// project's scenes with 32 samples: a small one for direct light, a larger one for the rest; splats
+// do not benefit, nor do paths in bodies that scatter light: their integrands have too many
+// dimensions and peaks.
+constexpr double left_of_direct = 0.25;
+constexpr double left_of_connections = 0.3;
+constexpr double left_of_choice = 0.2;  // of what the choice of connections adds
+
+/// Returns the remaining fraction for paths that camera paths find alone: 1 for rare paths, as a
+/// single sample is not stratified. `value` is the path's contribution relative to the local
+/// brightness: at most one in that many samples finds one.
+double left_of_own(const PathShares& shares, double value)
+{
+    if (shares.kind() == PathShares::in_body) {
+        return 1.0;
+    }
+    if (shares.kind() == PathShares::direct) {
+        return left_of_direct;
+    }
+    constexpr double least = 0.3;
+    constexpr double rare = 4.0;
+    return least + (1.0 - least) * value / (value + rare);
+}
+
+/// Returns the remaining fraction by number of connections: more connections of a sample are more
+/// points of one sequence, which reduce the remaining variance of each.
+PerCandidate<double> left_by_more_connections()
+{
+    PerCandidate<double> result;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const auto c = static_cast<float>(std::max(1.0, candidates[k].connections));
+        result[k] = exp_exact(-log_exact(c) / 3.0f);
+    }
+    return result;
+}
+
+}  // namespace
+
+RemainingErrors remaining_errors(const PathShares& shares, double scale,
+                                 const PerCandidate<double>& choice)
+{
+    RemainingErrors result;
+    if (shares.kind() == PathShares::seen) {
+        return result;  // directly visible light is accounted for separately
+    }
+    const double per_brightness = std::sqrt(scale);
+    const PathShares::SecondMoments moments = shares.second_moments();
+    const PerCandidate<double> values = shares.own_values();
+    static const PerCandidate<double> of_connections = left_by_more_connections();
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double own = left_of_own(shares, values[k] * per_brightness);
+        const double connections =
+            shares.kind() == PathShares::in_body ? 1.0 : left_of_connections * of_connections[k];
+        const double of_choice =
+            shares.choice_is_known() ? moments.choice[k] : choice[k] * moments.connections[k];
+        result.camera[k] = scale * (own * moments.own[k] + connections * moments.connections[k] +
+                                    left_of_choice * of_choice);
+        result.splats[k] = scale * moments.splats[k];
+    }
+    return result;
+}
+
+namespace {
+
+std::vector<PilotLamp> by_pixel(const PilotContributions& contributions)
+{
+    std::vector<PilotLamp> lamps;
+    for (const PilotRow& row : contributions.rows) {
+        lamps.insert(lamps.end(), row.lamps().begin(), row.lamps().end());
+    }
+    // Stable, so that sums are bit-identical.
+    std::stable_sort(lamps.begin(), lamps.end(), [](const PilotLamp& a, const PilotLamp& b) {
+        return std::pair(a.y, a.x) < std::pair(b.y, b.x);
+    });
+    return lamps;
+}
+
+/// Returns the variance of hits in one pixel that the light partly fills, as far as Sobol points
+/// leave it [nit^2].
+double variance_of_hits(std::span<const PilotLamp> pixel, double points_per_pixel)
+{
+    constexpr double qmc_variance_factor = 0.25;  // as for direct light
+    double light = 0.0;
+    double filled = 0.0;
+    for (const PilotLamp& lamp : pixel) {
+        light += lamp.value / points_per_pixel;
+        filled += lamp.value / (points_per_pixel * lamp.radiance);
+    }
+    if (!(filled > 0.0)) {
+        return 0.0;
+    }
+    const double radiance = light / filled;
+    const double part = std::min(1.0, filled);
+    return qmc_variance_factor * radiance * radiance * part * (1.0 - part);
+}
+
+}  // namespace
+
+VisibleLightErrors visible_light_errors(const PilotContributions& contributions,
+                                        const PilotBrightness& brightness,
+                                        const RenderOptions& options)
+{
+    const double samples = options.bidirectional.visible_light_samples;
+    const auto weight = [&](const PilotLamp& lamp) {
+        const double odds = samples * lamp.odds;
+        const double raised = options.transport.heuristic == Heuristic::power ? odds * odds : odds;
+        return raised / (1.0 + raised);
+    };
+    const double points = contributions.camera_paths();
+    const double pixels = contributions.grid.pixels();
+    const std::vector<PilotLamp> lamps = by_pixel(contributions);
+    VisibleLightErrors errors;
+    for (auto first = lamps.begin(); first != lamps.end();) {
+        const auto last = std::find_if(first, lamps.end(), [first](const PilotLamp& lamp) {
+            return lamp.x != first->x || lamp.y != first->y;
+        });
+        const double hits = brightness.scale(first->cell) *
+                            variance_of_hits({first, last}, points / pixels) / pixels;
+        errors.by_hits += hits;
+        const double left = 1.0 - weight(*first);
+        errors.by_both += left * left * hits;
+        for (; first != last; ++first) {
+            const double weighted = weight(*first) * first->value;
+            errors.by_both +=
+                brightness.scale(first->cell) * weighted * weighted / (samples * points);
+        }
+    }
+    return errors;
+}
+
 namespace {
 
 // The error excludes the brightest paths of a usual render, up to these limits.

@@ -1,4 +1,4 @@
-#include "threads/run_both.h"
+#include "threads/threads.h"
 
 #include <tbb/parallel_invoke.h>
 

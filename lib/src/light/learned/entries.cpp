@@ -1,4 +1,4 @@
-#include "light/learned/entry_window.h"
+#include "light/learned/entries.h"
 
 #include "math/frame.h"
 #include "math/warp.h"
@@ -9,9 +9,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace bdpt {
+
 namespace {
 
 constexpr std::size_t side = 16;  // cells
@@ -134,6 +136,47 @@ PlanarPdf EntryWindow::pdf(Vec3 p, Vec3 direction) const noexcept
         is_in_grid(at) ? cells_->pdf(at) / (size_.x * size_.y * std::abs(dot(direction, normal_)))
                        : 0.0f;
     return {uniform_part * uniform + (1.0f - uniform_part) * in_grid};
+}
+
+namespace {
+
+/// Returns the mean of the last vertices: planes through it are near the openings of a room.
+Vec3 center_of(std::span<const Escape> escapes, const BoundingSphere& bounds)
+{
+    glm::dvec3 sum(0.0);
+    double throughput = 0.0;
+    for (const Escape& escape : escapes) {
+        sum += static_cast<double>(escape.throughput) * glm::dvec3(escape.p);
+        throughput += static_cast<double>(escape.throughput);
+    }
+    return throughput > 0.0 ? Vec3(sum / throughput) : bounds.center;
+}
+
+}  // namespace
+
+EnvironmentEntries::EnvironmentEntries(std::vector<Escape> escapes, const EnvironmentTiles& tiles,
+                                       const BoundingSphere& bounds)
+    : windows_(EnvironmentTiles::tile_count, EntryWindow(bounds))
+{
+    const Vec3 center = center_of(escapes, bounds);
+    std::stable_sort(escapes.begin(), escapes.end(),
+                     [](const Escape& a, const Escape& b) { return a.tile < b.tile; });
+    std::vector<double> importance(windows_.size(), 0.0);
+    for (auto begin = escapes.begin(); begin != escapes.end();) {
+        const std::size_t tile = begin->tile;
+        const auto end =
+            std::find_if(begin, escapes.end(), [tile](const Escape& e) { return e.tile != tile; });
+        windows_[tile] = EntryWindow(std::span(begin, end), center, bounds);
+        // Per solid angle, as the weights of tiles are integrals over it.
+        importance[tile] = windows_[tile].root_of_throughput() / std::sqrt(tiles.solid_angle(tile));
+        begin = end;
+    }
+    const double most = *std::max_element(importance.begin(), importance.end());
+    for (std::size_t tile = 0; tile < windows_.size(); ++tile) {
+        const double factor = most > 0.0 ? importance[tile] / most : 1.0;
+        factors_.of[tile] = std::max(min_factor, static_cast<float>(factor));
+    }
+    worth_ = tiles.worth(factors_, EnvironmentSampling::plain);
 }
 
 }  // namespace bdpt

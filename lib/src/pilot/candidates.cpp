@@ -1,10 +1,11 @@
-#include "pilot/cost_model.h"
+#include "pilot/candidates.h"
 
 #include "pilot/path_shares.h"
 
 #include <cmath>
 
 namespace bdpt {
+
 namespace {
 
 /// Cost factors fitted to the CPU time of 48 scenes x 8 candidates, up to one factor per scene

@@ -99,6 +99,7 @@ SceneGeometry::SceneGeometry(const SharedSceneDesc& desc, const SceneGeometry* l
       traced(desc.instances),
       lights(desc.lights),
       volumes(desc.volumes),
+      contact_kind(desc.contacts),
       parts(contact_parts(desc)),
       shells(find_shells(desc, parts,
                          like != nullptr && like->meshes.is_shared_with(desc.meshes)
@@ -140,7 +141,7 @@ SceneGeometry::SceneGeometry(const SharedSceneDesc& desc, const SceneGeometry* l
 bool SceneGeometry::same_contacts(const SharedSceneDesc& desc) const
 {
     const std::vector<ContactPart> others = contact_parts(desc);
-    if (parts == others) {
+    if (parts == others && contact_kind == desc.contacts) {
         return true;
     }
     const Contacts found =

@@ -45,6 +45,7 @@ struct SceneGeometry {
     SharedList<InstanceDesc> traced;
     SharedList<LightDesc> lights;
     SharedList<VolumeDesc> volumes;
+    ContactKind contact_kind;        ///< of the description
     std::vector<ContactPart> parts;  // one per instance
     ShellTable shells;               // of meshes that bound bodies, or shine
     Contacts contacts;

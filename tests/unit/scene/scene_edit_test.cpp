@@ -215,7 +215,8 @@ std::vector<NamedEdit> edits()
         {"fog off", [](SharedSceneDesc& d) { d.fog.reset(); }},
         {"another material",
          // A ball's material on the floor moves faces, as the cube stands on it.
-         of_instances([](auto& list) { std::swap(list[0].material, list.back().material); }), false},
+         of_instances([](auto& list) { std::swap(list[0].material, list.back().material); }),
+         false},
         {"instance of a shared mesh moved",
          of_instances([](auto& list) { list.back().world_from_object[3].y -= 0.3f; }), false},
         {"instance of its own mesh moved",
@@ -377,6 +378,68 @@ TEST_CASE("edits of edited scenes have their bits, too, when the scenes before a
     const RenderResult again = rendered(scene, IntegratorKind::bdpt);
     CHECK(first_part.film.develop().pixels == again.film.develop().pixels);
     CHECK(first_part.identity == again.identity);
+}
+
+TEST_CASE("edits of bodies that touch have the bits of new scenes", "[edit][contacts]")
+{
+    SceneBuilder builder;
+    const MaterialDesc grey = lambertian(Rgb(0.7f));
+    builder.walls(grey, grey).lamp(0.9f, 0.4f, Rgb(5.0f));
+    const auto box = [&](const char* name, float bottom, float ior) {
+        MaterialDesc material = called(name, glass(0.0f));
+        material.ior = ior;
+        builder.place(
+            builder.add_mesh(box_mesh({-0.5f, bottom, -0.3f}, {0.5f, bottom + 0.6f, 0.3f})),
+            material, Mat4(1.0f));
+        builder.desc.instances.back().name = name;
+    };
+    box("lower", -0.8f, 1.5f);
+    box("upper", -0.2f, 1.33f);
+    Scene scene(builder.desc);
+    REQUIRE(scene.counts().bonds == 1);
+    const auto contacts = [](ContactKind kind) {
+        return [kind](SharedSceneDesc& desc) { desc.contacts = kind; };
+    };
+    const auto raise_upper = [](float by) {
+        return of_instances([by](auto& list) { list.back().world_from_object[3].y += by; });
+    };
+    struct Step {
+        const char* name;
+        std::function<void(SharedSceneDesc&)> edit;
+        std::size_t bonds;
+    };
+    const std::vector<Step> steps{
+        {"another index", of_material("upper", [](auto& m) { m.ior = 1.8f; }), 1},
+        {"absorption",
+         of_material("upper",
+                     [](auto& m) {
+                         m.attenuation_distance = 0.3f;
+                         m.attenuation_color = {0.9f, 0.3f, 0.5f};
+                     }),
+         1},
+        {"air", contacts(ContactKind::air), 0},
+        {"another index in air", of_material("upper", [](auto& m) { m.ior = 1.4f; }), 0},
+        {"bonded", contacts(ContactKind::bonded), 1},
+        {"one index, bonded", of_material("upper", [](auto& m) { m.ior = 1.5f; }), 1},
+        {"one index, automatic", contacts(ContactKind::automatic), 0},
+        {"metal", of_material("upper", [](auto& m) { m.transmission = 0.0f; }), 0},
+        {"glass",
+         of_material("upper",
+                     [](auto& m) {
+                         m.transmission = 1.0f;
+                         m.ior = 1.2f;
+                     }),
+         1},
+        {"apart", raise_upper(0.05f), 0},
+        {"together", raise_upper(-0.05f), 1}};
+    for (const Step& step : steps) {
+        CAPTURE(step.name);
+        SharedSceneDesc desc = scene.description();
+        step.edit(desc);
+        scene = scene.edited(desc);
+        CHECK(scene.counts().bonds == step.bonds);
+        check_same(scene, Scene(desc.copy()));
+    }
 }
 
 TEST_CASE("the tree of a mesh stays when its instances move, and when others let rays pass",

@@ -1,12 +1,16 @@
 #include "camera/camera.h"
 
+#include "geometry/motion.h"
 #include "math/elementary.h"
 #include "math/warp.h"
+
+#include <bdpt/thin_lens.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <cmath>
+#include <span>
 
 namespace bdpt {
 
@@ -197,6 +201,32 @@ std::optional<LensHit> Camera::hit_lens(Vec3 origin, Vec3 direction) const
                    .importance = pdf_direction.value * pdf_lens_.value / d.z,
                    .pdf_lens = pdf_lens_,
                    .pdf_direction = pdf_direction};
+}
+
+Camera MovingCamera::at(float time) const
+{
+    return moves() ? first_.moved_to(at_time(pose_, std::span<const Mat4>(motion_), time)) : first_;
+}
+
+namespace {
+
+constexpr double half_sensor = 0.012;  // [m]
+
+}  // namespace
+
+double compute_lens_radius(double f_number, double vertical_fov)
+{
+    const SinCos half = sin_cos(static_cast<float>(0.5 * vertical_fov));
+    const double focal_length =
+        half_sensor * static_cast<double>(half.cos) / static_cast<double>(half.sin);
+    return focal_length / (2.0 * f_number);
+}
+
+double compute_vertical_fov(double focal_length)
+{
+    const auto half =
+        atan2_exact(static_cast<float>(half_sensor), static_cast<float>(focal_length));
+    return 2.0 * static_cast<double>(half);
 }
 
 }  // namespace bdpt

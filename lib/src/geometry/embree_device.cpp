@@ -13,7 +13,7 @@ constexpr bool is_x86 = true;
 constexpr bool is_x86 = false;
 #endif
 
-[[noreturn]] void fail(RTCError code, const char* action)
+[[noreturn]] void throw_embree_error(RTCError code, const char* action)
 {
     if (code == RTC_ERROR_OUT_OF_MEMORY) {
         throw Error(ErrorCode::out_of_memory, std::string("not enough memory to ") + action);
@@ -33,7 +33,7 @@ RTCDevice start(Isa isa)
     if (device == nullptr) {
         const RTCError code = rtcGetDeviceError(nullptr);
         if (code != RTC_ERROR_UNSUPPORTED_CPU) {
-            fail(code, "start");
+            throw_embree_error(code, "start");
         }
     }
     return device;
@@ -66,8 +66,9 @@ EmbreeDevice::EmbreeDevice(Isa isa) : isa_(isa)
         device_.reset(best.device);
         isa_ = best.isa;
         if (!device_) {
-            throw Error(ErrorCode::internal, "this CPU lacks the instruction set that Embree was "
-                                             "built for");
+            throw Error(ErrorCode::internal,
+                        "this CPU lacks the instruction set that Embree was "
+                        "built for");
         }
         return;
     }
@@ -94,7 +95,7 @@ void check_embree(RTCDevice device, const char* action)
 {
     const RTCError code = rtcGetDeviceError(device);
     if (code != RTC_ERROR_NONE) {
-        fail(code, action);
+        throw_embree_error(code, action);
     }
 }
 

@@ -2,7 +2,7 @@
 
 #include "geometry/length.h"
 #include "geometry/motion.h"
-#include "geometry/rounding.h"
+#include "geometry/ray.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 #include "geometry/sphere.h"
 
 #include "geometry/motion.h"
-#include "geometry/rounding.h"
+#include "geometry/ray.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

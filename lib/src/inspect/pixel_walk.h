@@ -1,8 +1,8 @@
 #pragma once
 
-#include "camera/moving_camera.h"
+#include "camera/camera.h"
 #include "film/pixel_filter.h"
-#include "integrator/sample_start.h"
+#include "integrator/sample_schedule.h"
 #include "light/learned/learned_light.h"
 #include "path/random_walk.h"
 #include "path/sample_context.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "light/bounding_sphere.h"
 #include "light/learned/entries.h"
 #include "light/light_model.h"
 #include "light/light_samples.h"

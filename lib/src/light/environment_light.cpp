@@ -1,6 +1,6 @@
 #include "light/environment_light.h"
 
-#include "light/environment/cell_weights.h"
+#include "light/environment/cell_tables.h"
 #include "light/learned/entries.h"
 #include "math/elementary.h"
 

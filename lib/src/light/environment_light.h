@@ -1,11 +1,9 @@
 #pragma once
 
-#include "light/bounding_sphere.h"
 #include "light/environment/environment_texels.h"
 #include "light/environment/environment_tiles.h"
 #include "light/learned/entries.h"
 #include "light/light_model.h"
-#include "light/light_sample_context.h"
 #include "light/light_samples.h"
 
 #include <bdpt/render_options.h>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "light/bounding_sphere.h"
 #include "light/directional_light.h"
 #include "light/environment_light.h"
 #include "light/intensity_profile.h"
 #include "light/light_model.h"
+#include "light/light_samples.h"
 #include "light/profile_light.h"
 #include "light/punctual_light.h"
 #include "light/sphere_light.h"

@@ -1,14 +1,39 @@
 #pragma once
 
-#include "geometry/segment_end.h"
+#include "geometry/ray.h"
+#include "math/elementary.h"
 #include "math/pdf.h"
 
 #include <bdpt/render_options.h>
 #include <bdpt/types.h>
 
 #include <cstdint>
+#include <optional>
 
 namespace bdpt {
+
+/// Bounding sphere of the whole scene, which lights at infinity illuminate.
+struct BoundingSphere {
+    Vec3 center{0.0f};
+    float radius = 1.0f;
+
+    /// Returns the density of a point on the disk perpendicular to parallel rays through the
+    /// sphere.
+    [[nodiscard]] PlanarPdf pdf_disk() const { return {1.0f / (pi * radius * radius)}; }
+};
+
+struct TileFactors;
+
+/// Receiver for which next-event estimation chooses a light, and a point on it. Evaluating the
+/// density of a point requires the same receiver as sampling it.
+struct LightSampleContext {
+    Vec3 p{0.0f};
+    /// Unit normal; light from below it has no effect. nullopt: light from all directions has.
+    std::optional<Vec3> normal{};
+    /// Learned visibility of the environment's tiles from here; null if unknown. `LightSet` sets it
+    /// for the environment.
+    const TileFactors* visibility = nullptr;
+};
 
 struct LearnedLight;
 

@@ -1,7 +1,7 @@
 #include "light/punctual_light.h"
 
 #include "geometry/motion.h"
-#include "light/incident_from_point.h"
+#include "light/point_emission.h"
 #include "math/rgb.h"
 
 namespace bdpt {

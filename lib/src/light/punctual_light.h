@@ -2,7 +2,7 @@
 
 #include "light/light_model.h"
 #include "light/light_samples.h"
-#include "light/spot_cone.h"
+#include "light/point_emission.h"
 #include "light/tree/light_bounds.h"
 
 #include <bdpt/scene_desc.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "light/bounding_sphere.h"
+#include "light/light_samples.h"
 #include "path/connect.h"
 #include "path/strategy_set.h"
 

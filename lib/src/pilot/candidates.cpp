@@ -5,7 +5,6 @@
 #include <cmath>
 
 namespace bdpt {
-
 namespace {
 
 /// Cost factors fitted to the CPU time of 48 scenes x 8 candidates, up to one factor per scene

@@ -1,8 +1,8 @@
 #include "pilot/light_pilot.h"
 
-#include "camera/moving_camera.h"
+#include "camera/camera.h"
 #include "geometry/flush_denormals.h"
-#include "integrator/sample_start.h"
+#include "integrator/sample_schedule.h"
 #include "math/rgb.h"
 #include "path/densities.h"
 #include "path/direct_light.h"

@@ -15,7 +15,6 @@
 #include <vector>
 
 namespace bdpt {
-
 namespace {
 
 /// Second moments of paths that connections found.

@@ -1,7 +1,7 @@
 #include "render/aov_pass.h"
 
-#include "camera/moving_camera.h"
-#include "integrator/sample_start.h"
+#include "camera/camera.h"
+#include "integrator/sample_schedule.h"
 #include "math/rgb.h"
 #include "math/sampler.h"
 #include "path/segment_sample.h"

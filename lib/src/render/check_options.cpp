@@ -3,7 +3,6 @@
 #include "geometry/coordinate_limit.h"
 #include "integrator/bidirectional/light_path_cache.h"
 #include "math/elementary.h"
-#include "render/megabytes.h"
 
 #include <bdpt/error.h>
 #include <bdpt/motion.h>
@@ -27,7 +26,6 @@
 #include <vector>
 
 namespace bdpt {
-
 namespace {
 
 void check_crop(const PixelRect& crop, int width, int height)

@@ -4,8 +4,16 @@
 #include <bdpt/scene_desc.h>
 
 #include <cstdint>
+#include <string>
 
 namespace bdpt {
+
+/// Formats bytes as "12 MB", rounded up, for messages.
+[[nodiscard]] inline std::string megabytes(std::uint64_t bytes)
+{
+    constexpr std::uint64_t megabyte = 1'000'000;
+    return std::to_string(bytes / megabyte + (bytes % megabyte != 0 ? 1 : 0)) + " MB";
+}
 
 /// Throws `Error` (usage) if `value` is not in [low, high]; the text begins with `what`.
 void check_range(const char* what, std::int64_t value, std::int64_t low, std::int64_t high);

@@ -1,9 +1,9 @@
 #include <bdpt/light/light_meter.h>
 
-#include "camera/moving_camera.h"
+#include "camera/camera.h"
 #include "geometry/flush_denormals.h"
 #include "integrator/path/path_integrator.h"
-#include "integrator/sample_start.h"
+#include "integrator/sample_schedule.h"
 #include "math/frame.h"
 #include "math/rgb.h"
 #include "render/check_options.h"

@@ -5,7 +5,7 @@
 #include <bdpt/render.h>
 #include <bdpt/renderer.h>
 
-#include "camera/moving_camera.h"
+#include "camera/camera.h"
 #include "integrator/integrator.h"
 #include "render/aov_pass.h"
 #include "render/check_options.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "camera/moving_camera.h"
+#include "camera/camera.h"
 
 #include <bdpt/scene.h>
 

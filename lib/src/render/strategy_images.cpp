@@ -2,7 +2,6 @@
 
 #include "path/strategy_set.h"
 #include "render/check_options.h"
-#include "render/megabytes.h"
 
 #include <bdpt/error.h>
 #include <bdpt/render.h>

@@ -1,7 +1,7 @@
 #include "scene/enclosing_volumes.h"
 
 #include "geometry/length.h"
-#include "geometry/rounding.h"
+#include "geometry/ray.h"
 
 #include <bdpt/error.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "geometry/segment_end.h"
-#include "light/bounding_sphere.h"
+#include "geometry/ray.h"
+#include "light/light_samples.h"
 #include "material/medium.h"
 #include "math/rgb.h"
 

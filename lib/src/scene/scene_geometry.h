@@ -3,7 +3,7 @@
 #include "geometry/embree_scene.h"
 #include "geometry/placed_mesh.h"
 #include "geometry/sphere.h"
-#include "light/bounding_sphere.h"
+#include "light/light_samples.h"
 #include "scene/contacts/contacts.h"
 
 #include <bdpt/scene.h>

@@ -1,6 +1,6 @@
 #include "scene/world.h"
 
-#include "geometry/rounding.h"
+#include "geometry/ray.h"
 #include "math/rgb.h"
 #include "scene/world_builder.h"
 

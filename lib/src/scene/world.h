@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/embree_scene.h"
-#include "geometry/segment_end.h"
+#include "geometry/ray.h"
 #include "geometry/sphere.h"
 #include "light/intensity_profile.h"
 #include "material/bsdf.h"

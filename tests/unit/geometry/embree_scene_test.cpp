@@ -3,7 +3,7 @@
 #include <bdpt/error.h>
 
 #include "catch.hpp"
-#include "geometry/rounding.h"
+#include "geometry/ray.h"
 #include "scene_builder.h"
 #include "statistics.h"
 

@@ -1,7 +1,7 @@
 // Rays that start on surfaces that move.
 
 #include "catch.hpp"
-#include "geometry/rounding.h"
+#include "geometry/ray.h"
 #include "moving_scenes.h"
 #include "statistics.h"
 #include "traced.h"

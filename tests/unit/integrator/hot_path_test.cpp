@@ -1,5 +1,5 @@
 #include "call_counter.h"
-#include "camera/moving_camera.h"
+#include "camera/camera.h"
 #include "catch.hpp"
 #include "integrator/integrator.h"
 #include "moving_scenes.h"

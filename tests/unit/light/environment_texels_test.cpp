@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "geometry/flush_denormals.h"
-#include "light/environment/cell_weights.h"
+#include "light/environment/cell_tables.h"
 #include "light/environment_light.h"
 #include "math/rgb.h"
 #include "statistics.h"

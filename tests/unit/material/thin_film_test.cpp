@@ -1,4 +1,4 @@
-#include "material/lobes/thin_film.h"
+#include "material/lobes/fresnel.h"
 
 #include "catch.hpp"
 #include "math/rgb.h"

@@ -2,7 +2,7 @@
 
 #include "pilot/light_pilot.h"
 
-#include "camera/moving_camera.h"
+#include "camera/camera.h"
 #include "catch.hpp"
 #include "integrator/integrator.h"
 #include "make_sample.h"

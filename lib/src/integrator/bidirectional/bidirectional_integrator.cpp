@@ -1,7 +1,7 @@
 #include "integrator/bidirectional/bidirectional_integrator.h"
 
-#include "camera/moving_camera.h"
-#include "integrator/sample_start.h"
+#include "camera/camera.h"
+#include "integrator/sample_schedule.h"
 #include "path/merge.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "integrator/bidirectional/light_vertex_block.h"
+#include "integrator/bidirectional/light_path_cache.h"
 #include "path/subpath.h"
 
 #include <bdpt/render_options.h>

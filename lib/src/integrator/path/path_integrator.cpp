@@ -1,7 +1,7 @@
 #include "integrator/path/path_integrator.h"
 
-#include "camera/moving_camera.h"
-#include "integrator/sample_start.h"
+#include "camera/camera.h"
+#include "integrator/sample_schedule.h"
 #include "math/random_numbers.h"
 #include "math/rgb.h"
 #include "path/segment_sample.h"

@@ -13,7 +13,6 @@
 #include <vector>
 
 namespace bdpt {
-
 namespace {
 
 constexpr std::size_t side = 16;  // cells

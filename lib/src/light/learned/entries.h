@@ -1,7 +1,7 @@
 #pragma once
 
-#include "light/bounding_sphere.h"
 #include "light/environment/environment_tiles.h"
+#include "light/light_samples.h"
 #include "math/distributions.h"
 #include "math/pdf.h"
 

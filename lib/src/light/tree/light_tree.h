@@ -1,6 +1,6 @@
 #pragma once
 
-#include "light/light_sample_context.h"
+#include "light/light_samples.h"
 #include "light/tree/light_bounds.h"
 
 #include <array>

@@ -2,7 +2,6 @@
 
 #include "material/bsdf_model.h"
 #include "material/lobes/fresnel.h"
-#include "material/lobes/thin_film.h"
 #include "material/small_numbers.h"
 #include "material/specular_albedo.h"
 #include "math/rgb.h"

@@ -1,6 +1,6 @@
 #include "render/ground/ground_shadow.h"
 
-#include "geometry/rounding.h"
+#include "geometry/ray.h"
 #include "math/random_numbers.h"
 #include "math/rgb.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "camera/camera.h"
-#include "integrator/sample_start.h"
+#include "integrator/sample_schedule.h"
 #include "light/light_samples.h"
 #include "math/sampler.h"
 #include "render/ground/ground_lamps.h"

@@ -1,6 +1,5 @@
-#include "material/lobes/thin_film.h"
-
 #include "material/lobes/fresnel.h"
+
 #include "math/elementary.h"
 #include "math/rgb.h"
 

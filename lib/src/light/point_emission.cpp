@@ -1,4 +1,4 @@
-#include "light/spot_cone.h"
+#include "light/point_emission.h"
 
 #include "math/elementary.h"
 #include "math/frame.h"

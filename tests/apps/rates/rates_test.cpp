@@ -94,14 +94,15 @@ TEST_CASE("the library renders the command's default image to the bit", "[comman
     const ScratchFolder folder;
     const std::string file = std::string(BDPT_SOURCE_DIR) + "/scenes/alpha.gltf";
     const auto by_command = [&](const Words& more) {
-        succeed(joined({"render", file, "--size", "96x64", "-o", path(folder, "image.exr")}, more));
+        succeed(
+            joined({"render", file, "--size", "128x128", "-o", path(folder, "image.exr")}, more));
         return pixels(folder, "image.exr");
     };
     const std::vector<Rgb> expected = by_command({"--spp", "8"});
     io::LoadedScene loaded = io::load_gltf(file);
     const Scene scene(std::move(loaded.scene));
     const CameraDesc& camera = loaded.cameras.at(0);
-    RenderOptions options{.film = {.width = 96, .height = 64},
+    RenderOptions options{.film = {.width = 128, .height = 128},
                           .sampling = {.samples = {.begin = 0, .end = 8}}};
     REQUIRE(chosen_options(scene, camera, options).sampling.rates);
     CHECK(bdpt::render(scene, camera, options).image().pixels == expected);
@@ -194,7 +195,8 @@ TEST_CASE("tasks of an adaptive plan take the rates of the plan", "[command]")
 TEST_CASE("auto gives noisy pixels more samples where that helps", "[command][long]")
 {
     const ScratchFolder folder;
-    const Words words{BDPT_SOURCE_DIR "/scenes/veach-plates.gltf", "--size", "64x48", "--max-depth", "4"};
+    const Words words{BDPT_SOURCE_DIR "/scenes/alpha.gltf", "--size", "128x128", "--max-depth",
+                      "4"};
     const auto image = [&](const std::string& name, const Words& more) {
         succeed(joined(joined({"render"}, words), joined({"-o", path(folder, name), "--quiet",
                                                           "--stats", path(folder, "stats.json")},

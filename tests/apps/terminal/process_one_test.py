@@ -35,6 +35,12 @@ def find_outer_pid(process):
     raise RuntimeError("bdpt has not started")
 
 
+def awaits(pid, number):
+    """Tests whether the process blocks the signal or has a handler: process 1 ignores all others."""
+    fields = dict(line.split(":", 1) for line in pathlib.Path(f"/proc/{pid}/status").read_text().splitlines())
+    return (int(fields["SigBlk"], 16) | int(fields["SigCgt"], 16)) >> (number - 1) & 1
+
+
 def send(process, number):
     try:
         os.kill(find_outer_pid(process), number)
@@ -57,10 +63,15 @@ def main():
         folder = pathlib.Path(name)
         part = folder / "a.part.exr"
         process = start("--spp", 2_000_000_000, "--part", part)
-        time.sleep(2)
-        send(process, signal.SIGTERM)
-        # unshare passes the exit code on.
-        code = process.wait(timeout=60)
+        try:
+            while not awaits(find_outer_pid(process), signal.SIGTERM):
+                time.sleep(0.05)
+            time.sleep(2)
+            send(process, signal.SIGTERM)
+            # unshare passes the exit code on.
+            code = process.wait(timeout=60)
+        finally:
+            process.kill()
         check(f"SIGTERM to process 1: exit code {code}", code == 143)
         check("and its part is there", part.exists())
         part.unlink()

@@ -36,12 +36,12 @@ class Window(Browser):
         self.drawn()
         return self.run(f"return {STAGE}.toDataURL();")
 
-    def codes(self, slot=0):
-        """Returns red, green and blue bytes of the picture before it is magnified."""
+    def codes(self, slot=0, channels=3):
+        """Returns the bytes of the first channels of RGBA of the picture before it is magnified."""
         self.drawn()
         return self.run("const canvas = window.bdptView.stage.slots[arguments[0]].canvas;"
                         "const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;"
-                        "return [...data].filter((_, i) => i % 4 < 3);", slot)
+                        "return [...data].filter((_, i) => i % 4 < arguments[1]);", slot, channels)
 
     def text(self, name):
         """Returns the text of an element; empty if it is hidden."""

@@ -19,7 +19,7 @@ constexpr int mean_radius = 3;  // 7 x 7 cells
 /// Rates change within about this distance: chance makes islands, whose borders would be seen.
 constexpr double smooth_pixels = 8.0;
 /// Islands of about half of this neighbourhood, and smaller ones, are taken for chance.
-constexpr int island_radius = 5;  // 11 x 11 cells: more than one bright path spreads to
+constexpr int island_radius = 5;  // 11 x 11 cells; one bright path affects 7 x 7
 /// Error beside the pilot's estimate and dots, as a fraction of the mean error: rare bright paths
 /// also occur where the pilot has not found them.
 constexpr double unseen_share = 0.25;

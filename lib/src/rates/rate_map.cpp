@@ -89,7 +89,7 @@ double octaves_of(double value)
 
 namespace {
 
-constexpr double widest = 32.0;  // difference of two wishes that counts [octaves]
+constexpr double widest = 32.0;  // greatest distance of a wanted rate from 1 that counts [octaves]
 
 }  // namespace
 

@@ -68,7 +68,7 @@ endif()
 if(BDPT_BUILD_APPS)
   bdpt_install_library(bdpt_job job bdptJobTargets)
   set_property(TARGET bdpt_job APPEND PROPERTY INSTALL_RPATH "$ORIGIN")
-  install(DIRECTORY apps/job/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+  install(DIRECTORY lib/job/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
           COMPONENT bdpt_development FILES_MATCHING PATTERN "*.h")
   file(RELATIVE_PATH to_libdir "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
   set_property(TARGET bdpt_app APPEND PROPERTY INSTALL_RPATH "$ORIGIN/${to_libdir}")

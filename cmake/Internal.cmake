@@ -1,5 +1,5 @@
 # The libraries export their public interface only; NAME_internal holds the same objects with all internal symbols
-# visible, for unit tests.
+# visible, for unit tests and our own programs. To be called when all else is said about the library.
 function(bdpt_add_internal library)
   add_library(${library}_internal STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${library}>)
   add_dependencies(${library}_internal ${library})
@@ -14,11 +14,3 @@ function(bdpt_add_internal library)
     target_compile_definitions(${library}_internal PUBLIC ${definitions})
   endif()
 endfunction()
-
-bdpt_add_internal(bdpt)
-if(BDPT_BUILD_IO)
-  bdpt_add_internal(bdpt_io)
-endif()
-if(BDPT_BUILD_EVAL)
-  bdpt_add_internal(bdpt_eval)
-endif()

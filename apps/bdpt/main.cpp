@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "commands/commands.h"
+#include "machine/machine_limits.h"
 #include "options/option_list.h"
 #include "plan/planned_tasks.h"
 #include "terminal/console.h"
-#include "terminal/machine_limits.h"
 
 namespace bdpt::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "options/command_parser.h"
+#include "parser/command_parser.h"
 
 namespace bdpt::manual {
 

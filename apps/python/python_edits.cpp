@@ -26,7 +26,7 @@ namespace nb = nanobind;
 /// Returns `original` with another scene, but its camera, size and options.
 PythonScene with_scene(const PythonScene& original, Scene scene, std::string environment_name)
 {
-    const app::PreparedScene& stage = original.stage;
+    const job::PreparedScene& stage = original.stage;
     const std::size_t lights = scene.counts().lights;
     return {.stage = {.scene = std::move(scene),
                       .camera = stage.camera,
@@ -120,7 +120,7 @@ PythonScene with_lights(const PythonScene& scene, const std::vector<ArrayLight>&
         std::visit(
             [&origin = scene.stage.scene.description().origin](auto& light) {
                 if constexpr (requires { light.position; }) {
-                    light.position = app::to_world(DVec3(light.position), origin);
+                    light.position = job::to_world(DVec3(light.position), origin);
                 }
             },
             desc);

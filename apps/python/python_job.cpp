@@ -99,7 +99,7 @@ std::vector<JobImage> run_job(const nb::object& file, const nb::object& progress
                               const nb::object& message, const nb::kwargs& options)
 {
     const std::filesystem::path path = to_path(file);
-    RenderJob job = app::is_job(path) ? RenderJob::from_file(path) : RenderJob(path);
+    RenderJob job = job::is_job(path) ? RenderJob::from_file(path) : RenderJob(path);
     set_options(job, options);
     Observer observer(progress, message);
     JobResult result;

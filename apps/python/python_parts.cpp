@@ -19,9 +19,9 @@
 
 #include "arrays.h"
 #include "attributes.h"
+#include "machine/machine_limits.h"
 #include "options/groups/camera_arguments.h"
 #include "python_scene.h"
-#include "terminal/machine_limits.h"
 
 namespace bdpt::python {
 namespace {
@@ -108,7 +108,7 @@ ArrayMesh make_mesh(const FloatsLike<nb::shape<-1, 3>>& positions,
 CameraDesc make_camera(const Three& from, const Three& look_at, float fov, float lens_radius,
                        const std::optional<float>& focus_distance)
 {
-    CameraDesc camera = app::apply(
+    CameraDesc camera = job::apply(
         {.from = to_vec(from),
          .look_at = to_vec(look_at),
          .vertical_fov = static_cast<float>(static_cast<double>(fov) * std::numbers::pi / 180.0)},
@@ -150,7 +150,7 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
     }
     Scene scene(describe(meshes, lights));
     std::string environment = "scene";
-    std::vector<app::Note> notes;
+    std::vector<job::Note> notes;
     if (lights.empty()) {  // as load() does for files
         const FramedView framed = metered_view(scene);
         const DefaultLights missing = missing_lights(scene, framed);
@@ -159,9 +159,9 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
             environment = "default";
             notes.push_back(
                 missing == DefaultLights::sky
-                    ? app::Note{"default_sky",
+                    ? job::Note{"default_sky",
                                 "no light: lit by the default environment, a soft sky"}
-                    : app::Note{"default_lamp", "a closed room without light: lit by a lamp"});
+                    : job::Note{"default_lamp", "a closed room without light: lit by a lamp"});
         }
     }
     const float aspect = static_cast<float>(size.first) / static_cast<float>(size.second);
@@ -176,7 +176,7 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
                                      .notes = std::move(notes),
                                      .lights = count,
                                      .cameras = {view},
-                                     .memory = io::MemoryBudget(app::memory_limit(std::nullopt))},
+                                     .memory = io::MemoryBudget(job::memory_limit(std::nullopt))},
                            .file = {},
                            .words = {}};
 }

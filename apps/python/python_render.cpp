@@ -18,18 +18,18 @@
 
 #include "arrays.h"
 #include "interpreter_lock.h"
+#include "machine/machine_limits.h"
+#include "messages/console.h"
 #include "options/groups/sequence_arguments.h"
 #include "options/output_files.h"
 #include "options/part_arguments.h"
+#include "output/image/denoised.h"
+#include "output/image/display_sources.h"
+#include "output/image/image_files.h"
+#include "output/part/part_collection.h"
+#include "output/render_report.h"
 #include "python_render.h"
-#include "report/image/denoised.h"
-#include "report/image/display_sources.h"
-#include "report/image/image_files.h"
-#include "report/part/part_collection.h"
-#include "report/render_report.h"
 #include "stage/render_preparation.h"
-#include "terminal/console.h"
-#include "terminal/machine_limits.h"
 
 namespace bdpt::python {
 namespace {
@@ -50,11 +50,11 @@ void tell(const Progress& progress, const nb::object& listener)
 }
 
 /// Returns the view of render() before any turn: that of load(), or that of its own options.
-app::Viewpoint first_viewpoint(const PythonScene& scene, app::RenderArguments arguments,
+job::Viewpoint first_viewpoint(const PythonScene& scene, job::RenderArguments arguments,
                                bool is_other_view)
 {
-    const app::Size own = scene.stage.size;
-    const app::Size size = arguments.size.value_or(own);
+    const job::Size own = scene.stage.size;
+    const job::Size size = arguments.size.value_or(own);
     const bool is_of_arrays = scene.file.empty();
     const bool resized = size.width != own.width || size.height != own.height;
     if (!is_other_view && !arguments.sequence && (!resized || is_of_arrays)) {
@@ -68,9 +68,9 @@ app::Viewpoint first_viewpoint(const PythonScene& scene, app::RenderArguments ar
 }
 
 /// Returns the view of a turntable that render() renders. Throws `Error` if there are several.
-app::SequenceView only_view(const app::RenderArguments& arguments)
+job::SequenceView only_view(const job::RenderArguments& arguments)
 {
-    const std::vector<app::SequenceView> views = make_views(arguments, {});
+    const std::vector<job::SequenceView> views = make_views(arguments, {});
     if (views.size() != 1) {
         throw Error(ErrorCode::usage,
                     fmt::format("orbit: render() renders one of the {} views, chosen by frames, "
@@ -83,7 +83,7 @@ app::SequenceView only_view(const app::RenderArguments& arguments)
 /// Shows the view of a task in a scene, while this lives.
 class Shown {
 public:
-    Shown(PythonScene& scene, Task& task, app::Size size)
+    Shown(PythonScene& scene, Task& task, job::Size size)
         : scene_(scene), task_(task), own_camera_(scene.stage.camera), own_size_(scene.stage.size)
     {
         scene.stage.camera = task.camera;
@@ -110,7 +110,7 @@ private:
     PythonScene& scene_;
     Task& task_;
     CameraDesc own_camera_;
-    app::Size own_size_;
+    job::Size own_size_;
 };
 
 }  // namespace
@@ -121,29 +121,29 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
     Task task{.arguments = understand_render(combined(scene.words, own)),
               .camera = scene.stage.camera,
               .metadata = {}};
-    app::RenderArguments& arguments = task.arguments;
+    job::RenderArguments& arguments = task.arguments;
     arguments.file = scene.file;
-    const app::Viewpoint first = first_viewpoint(scene, arguments, change_view(own));
-    app::Viewpoint seen = first;
+    const job::Viewpoint first = first_viewpoint(scene, arguments, change_view(own));
+    job::Viewpoint seen = first;
     if (arguments.sequence) {
-        const app::SequenceView view = only_view(arguments);
+        const job::SequenceView view = only_view(arguments);
         arguments = make_view_arguments(arguments, view);
         seen = sequence_viewpoint(scene.stage, first, arguments);
-        if (arguments.sequence->motion == app::TurntableMotion::object) {
+        if (arguments.sequence->motion == job::TurntableMotion::object) {
             const Unlocked unlocked;
-            task.turned = app::with_turned_environment(scene.stage.scene, *view.turn);
+            task.turned = job::with_turned_environment(scene.stage.scene, *view.turn);
         }
     }
-    const app::Size size = seen.size;
+    const job::Size size = seen.size;
     task.camera = std::move(seen.camera);
     arguments.options.film.width = size.width;
     arguments.options.film.height = size.height;
     io::MemoryBudget memory = scene.stage.memory;
     spend_film(memory, arguments.options, size);
     arguments.options.sampling.samples = arguments.samples;
-    if (app::meters_light(arguments, scene.stage)) {
+    if (job::meters_light(arguments, scene.stage)) {
         arguments.light_exposure =
-            app::metered_exposure(scene.stage, arguments);  // shared by all views of a turn
+            job::metered_exposure(scene.stage, arguments);  // shared by all views of a turn
     }
     // Renders of a given time have no rates, as in the command.
     arguments.may_adapt = arguments.may_adapt && !std::isfinite(arguments.goal.seconds);
@@ -152,7 +152,7 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
         const Shown shown(scene, task, size);
         {
             const Unlocked unlocked;
-            app::TerminalConsole silent(arguments.printed.format, app::Verbosity::quiet);
+            job::Console silent;
             arguments = with_choice(std::move(arguments), scene.stage, silent);
         }
         nlohmann::ordered_json settings = make_settings(arguments, scene.stage);
@@ -166,11 +166,11 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
 
 Render empty_render(const PythonScene& scene, const Task& task)
 {
-    app::check_backplate(task.arguments.display);
+    job::check_backplate(task.arguments.display);
     return {.part = {},
             .notes = {.goal = SampleSet(task.arguments.samples), .metadata = task.metadata},
             .backdrop = task.arguments.display.backdrop,
-            .inputs = app::input_files(task.arguments, scene.stage)};
+            .inputs = job::input_files(task.arguments, scene.stage)};
 }
 
 RenderControl make_control(const nb::object& progress)
@@ -186,11 +186,11 @@ namespace {
 /// Warns in Python of a black image. Throws if the user has made an error of warnings.
 void warn_if_black(const Render& render, const PythonScene& scene)
 {
-    if (!app::is_black(render.part.image(), app::develop_layers(render.part))) {
+    if (!job::is_black(render.part.image(), job::develop_layers(render.part))) {
         return;
     }
     const std::string text =
-        app::black_image_text(scene.file.empty() ? "scene of arrays" : scene.file);
+        job::black_image_text(scene.file.empty() ? "scene of arrays" : scene.file);
     if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) {
         throw nb::python_error();
     }
@@ -199,7 +199,7 @@ void warn_if_black(const Render& render, const PythonScene& scene)
 Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kwargs& options)
 {
     const Task task = prepare(scene, options);
-    const app::RenderArguments& arguments = task.arguments;
+    const job::RenderArguments& arguments = task.arguments;
     Render result = empty_render(scene, task);
     RenderControl control = make_control(progress);
     control.time_limit = arguments.goal.seconds;
@@ -227,7 +227,7 @@ std::map<std::string, std::map<std::string, std::uint32_t>> collect_ids(const Re
 std::map<std::string, FloatArray> collect_layers(const Render& render)
 {
     std::map<std::string, FloatArray> arrays;
-    for (Layer& layer : app::develop_layers(render.part)) {
+    for (Layer& layer : job::develop_layers(render.part)) {
         const std::string name = layer.name.empty() ? "alpha" : layer.name;
         arrays.emplace(name, to_array(std::move(layer)));
     }
@@ -236,7 +236,7 @@ std::map<std::string, FloatArray> collect_layers(const Render& render)
 
 io::ImageMetadata current_metadata(const Render& render)
 {
-    return app::completed(render.notes.metadata, render.part.samples.count(), render.part.seconds);
+    return job::completed(render.notes.metadata, render.part.samples.count(), render.part.seconds);
 }
 
 /// Calls `write` with the options for writing images of `render` to `files`.
@@ -249,10 +249,10 @@ void with_file_options(const Render& render, SaveArguments asked, std::span<cons
     } else if (!render.backdrop) {
         throw Error(ErrorCode::usage, "background: pass it to render(), too");
     }
-    app::check_transparency(asked.display, files);
-    app::check_metered(asked.display.exposure, render.notes.metadata, "the render");
-    const auto denoiser = app::open_denoiser(asked.denoise, files, 0);
-    write(app::image_file_options(render.part, current_metadata(render), asked.exr, asked.display,
+    job::check_transparency(asked.display, files);
+    job::check_metered(asked.display.exposure, render.notes.metadata, "the render");
+    const auto denoiser = job::open_denoiser(asked.denoise, files, 0);
+    write(job::image_file_options(render.part, current_metadata(render), asked.exr, asked.display,
                                   denoiser ? &*denoiser : nullptr, asked.denoise));
 }
 
@@ -262,8 +262,8 @@ nb::object to_srgb(const Render& render, const nb::kwargs& options)
     const std::vector<fs::path> file{"image.png"};  // never written
     nb::object array;
     with_file_options(render, understand_save(to_words(options, Call::save)), file,
-                      [&](app::ImageFileOptions how) {
-                          array = to_array(app::screen_image(render.part.image(), std::move(how)));
+                      [&](job::ImageFileOptions how) {
+                          array = to_array(job::screen_image(render.part.image(), std::move(how)));
                       });
     return array;
 }
@@ -272,9 +272,9 @@ Render read_part(const fs::path& file)
 {
     const io::PartInfo info = io::read_part_info(file);
     Render render{.part = {}, .notes = info.notes};
-    io::MemoryBudget memory(app::memory_limit(std::nullopt));
+    io::MemoryBudget memory(job::memory_limit(std::nullopt));
     io::merge_part(render.part, info, &memory);
-    render.backdrop = app::display_of_parts(info, {}).backdrop;
+    render.backdrop = job::display_of_parts(info, {}).backdrop;
     render.part.seconds = info.notes.metadata.render_seconds;
     return render;
 }
@@ -282,16 +282,16 @@ Render read_part(const fs::path& file)
 void save_file(const Render& render, const fs::path& file, const SaveArguments& asked)
 {
     const std::vector<fs::path> files{file};
-    app::check_outputs(files, render.inputs);
-    if (app::is_part_name(file)) {
+    job::check_outputs(files, render.inputs);
+    if (job::is_part_name(file)) {
         io::PartNotes notes = render.notes;
         notes.metadata = current_metadata(render);
         io::write_part(file, render.part, notes, io::OldPart::replace);
         return;
     }
-    with_file_options(render, asked, files, [&](app::ImageFileOptions how) {
-        app::Attempts attempts;
-        app::write_image_files(files, render.part.image(), std::move(how), attempts);
+    with_file_options(render, asked, files, [&](job::ImageFileOptions how) {
+        job::Attempts attempts;
+        job::write_image_files(files, render.part.image(), std::move(how), attempts);
         attempts.finish();
     });
 }
@@ -299,7 +299,7 @@ void save_file(const Render& render, const fs::path& file, const SaveArguments& 
 /// Returns the bytes of the file that save_file() writes in this format.
 nb::bytes to_bytes(const Render& render, const std::string& format, const SaveArguments& asked)
 {
-    const app::TemporaryFolder folder;
+    const job::TemporaryFolder folder;
     const fs::path file = folder.file("image." + format);
     save_file(render, file, asked);
     return read_bytes(file);
@@ -388,7 +388,8 @@ void bind_render(nb::module_& module)
             "spp", [](const Render& render) { return render.part.samples.count(); },
             "Its number of samples per pixel.")
         .def_prop_ro(
-            "noise", [](const Render& render) { return estimate_noise(render.part.film, render.part.aovs); },
+            "noise",
+            [](const Render& render) { return estimate_noise(render.part.film, render.part.aovs); },
             "Relative standard error that 95 % of all tiles of 16 x 16 pixels do not exceed.")
         .def_prop_ro(
             "settings", [](const Render& render) { return render.notes.metadata.settings; },
@@ -411,7 +412,7 @@ void bind_render(nb::module_& module)
         .def("__getstate__", [](const Render& render) { return to_bytes(render, "part.exr", {}); })
         .def("__setstate__",
              [](Render& render, const nb::bytes& part) {
-                 const app::TemporaryFolder folder;
+                 const job::TemporaryFolder folder;
                  write_bytes(folder.file("image.part.exr"), part);
                  new (&render) Render(read_part(folder.file("image.part.exr")));
              })

@@ -19,13 +19,13 @@ namespace bdpt::python {
 struct Render {
     RenderResult part;
     io::PartNotes notes;
-    std::optional<app::Backdrop> backdrop{};
+    std::optional<job::Backdrop> backdrop{};
     std::vector<std::filesystem::path> inputs{};  ///< files that must not be overwritten
 };
 
 /// Input of one call of render().
 struct Task {
-    app::RenderArguments arguments;
+    job::RenderArguments arguments;
     CameraDesc camera;
     io::ImageMetadata metadata;
     std::optional<Scene> turned{};  ///< replaces the scene: a turntable whose light stands still

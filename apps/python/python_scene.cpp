@@ -80,7 +80,7 @@ namespace {
 
 PythonScene load_file(const fs::path& file, const Words& words)
 {
-    app::RenderArguments arguments = understand_render(words);
+    job::RenderArguments arguments = understand_render(words);
     arguments.file = file;
     std::error_code unknown;
     const Unlocked unlocked;
@@ -102,7 +102,7 @@ std::string renamed(std::string text, const std::string& file, const std::string
 PythonScene load_bytes(const nb::bytes& contents, const Words& words)
 {
     const std::string name = "bytes";
-    const app::TemporaryFolder folder;
+    const job::TemporaryFolder folder;
     const fs::path file = folder.file(name);
     write_bytes(file, contents);
     try {
@@ -110,7 +110,7 @@ PythonScene load_bytes(const nb::bytes& contents, const Words& words)
         for (std::string& warning : scene.stage.warnings) {
             warning = renamed(warning, file.string(), name);
         }
-        for (app::Note& note : scene.stage.notes) {
+        for (job::Note& note : scene.stage.notes) {
             note.text = renamed(note.text, file.string(), name);
         }
         scene.file = name;
@@ -176,7 +176,7 @@ void bind_scene(nb::module_& module)
             "notes",
             [](const PythonScene& scene) {
                 std::vector<std::string> texts;
-                for (const app::Note& note : scene.stage.notes) {
+                for (const job::Note& note : scene.stage.notes) {
                     texts.push_back(note.text);
                 }
                 return texts;

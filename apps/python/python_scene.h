@@ -13,7 +13,7 @@ namespace bdpt::python {
 
 /// A scene that is ready to render, and the options that it was loaded with.
 struct PythonScene {
-    app::PreparedScene stage;
+    job::PreparedScene stage;
     std::string file;  ///< empty: made from arrays
     Words words;
     std::optional<std::filesystem::path> origin{};  ///< file from which load() can load it again

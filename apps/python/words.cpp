@@ -9,11 +9,10 @@
 #include <cstdint>
 #include <map>
 
-#include "options/arguments.h"
-#include "options/command_parser.h"
+#include "messages/text.h"
 #include "options/groups/camera_arguments.h"
 #include "options/job_file.h"
-#include "terminal/text.h"
+#include "options/value_types.h"
 
 namespace bdpt::python {
 namespace {
@@ -25,21 +24,21 @@ struct SaveRequest {
     SaveRequest()
     {
         options.section("", {.python_save = true});
-        app::add_display_options(options, arguments.display);
-        app::add_denoise_options(options, arguments.denoise);
-        app::add_half_option(options, arguments.exr);
-        app::add_tiled_option(options, arguments.exr);
+        job::add_display_options(options, arguments.display);
+        job::add_denoise_options(options, arguments.denoise);
+        job::add_half_option(options, arguments.exr);
+        job::add_tiled_option(options, arguments.exr);
     }
     SaveRequest(const SaveRequest&) = delete;
     SaveRequest& operator=(const SaveRequest&) = delete;
 
     SaveArguments arguments{};
-    app::OptionList options{};
+    job::OptionList options{};
 };
 
-bool belongs(const app::Option& option, Call call)
+bool belongs(const job::Option& option, Call call)
 {
-    const app::OptionUses& uses = option.uses;
+    const job::OptionUses& uses = option.uses;
     switch (call) {
         case Call::load:
             return uses.python_load;
@@ -48,7 +47,7 @@ bool belongs(const app::Option& option, Call call)
         case Call::save:
             return uses.python_save;
         case Call::run:
-            return uses.stated_in <= app::StatedIn::programs && !option.is_argument();
+            return uses.stated_in <= job::StatedIn::programs && !option.is_argument();
     }
     return false;
 }
@@ -58,8 +57,8 @@ template <typename Visitor>
 void visit_options(Call call, const Visitor& visit)
 {
     const SaveRequest save;
-    const app::RenderOptionList render;
-    for (const app::Option& option : (call == Call::save ? save.options : render.list).all()) {
+    const job::RenderOptionList render;
+    for (const job::Option& option : (call == Call::save ? save.options : render.list).all()) {
         if (belongs(option, call)) {
             visit(option);
         }
@@ -67,17 +66,17 @@ void visit_options(Call call, const Visitor& visit)
 }
 
 /// Returns "look_at" for --look-at. "from" is a keyword of Python.
-std::string to_keyword(const app::Option& option)
+std::string to_keyword(const job::Option& option)
 {
     const std::string key = to_key(option);
     return key == "from" ? "from_" : key;
 }
 
 /// Returns the options by keyword.
-std::map<std::string, app::Option> collect_options(Call call)
+std::map<std::string, job::Option> collect_options(Call call)
 {
-    std::map<std::string, app::Option> options;
-    visit_options(call, [&options](const app::Option& option) {
+    std::map<std::string, job::Option> options;
+    visit_options(call, [&options](const job::Option& option) {
         options.emplace(to_keyword(option), option);
     });
     return options;
@@ -112,7 +111,7 @@ std::string to_text(nb::handle value)
     return nb::cast<std::string>(nb::str(value));
 }
 
-std::string to_text(const app::Option& option, nb::handle value)
+std::string to_text(const job::Option& option, nb::handle value)
 {
     if (!has_items(value)) {
         return to_text(value);
@@ -140,7 +139,7 @@ JobValue to_number(nb::handle value)
     return nb::try_cast(value, number) ? JobValue(number) : JobValue(to_text(value));
 }
 
-JobValue to_value(const app::Option& option, nb::handle value)
+JobValue to_value(const job::Option& option, nb::handle value)
 {
     if (option.repeats && has_items(value)) {
         std::vector<JobValue> values;
@@ -152,8 +151,8 @@ JobValue to_value(const app::Option& option, nb::handle value)
     if (value.ptr() == Py_True || value.ptr() == Py_False) {
         return value.ptr() == Py_True;
     }
-    const bool is_number = option.info.json == app::JsonType::whole_number ||
-                           option.info.json == app::JsonType::number;
+    const bool is_number = option.info.json == job::JsonType::whole_number ||
+                           option.info.json == job::JsonType::number;
     return is_number && !has_items(value) ? to_number(value) : JobValue(to_text(option, value));
 }
 
@@ -174,9 +173,9 @@ std::string literals(const std::vector<std::string>& words)
 }
 
 /// Returns the Python type of the values of `option`.
-std::string format_type(const app::Option& option)
+std::string format_type(const job::Option& option)
 {
-    const app::ValueInfo& info = option.info;
+    const job::ValueInfo& info = option.info;
     if (option.is_flag()) {
         std::vector<std::string> words = info.words;
         std::erase_if(words, [](const auto& word) { return word == "true" || word == "false"; });
@@ -188,10 +187,10 @@ std::string format_type(const app::Option& option)
     if (!info.words.empty()) {
         return literals(info.words);
     }
-    if (info.json == app::JsonType::whole_number) {
+    if (info.json == job::JsonType::whole_number) {
         return whole;
     }
-    if (info.json == app::JsonType::number) {
+    if (info.json == job::JsonType::number) {
         return real;
     }
     if (info.may_be_number) {
@@ -220,7 +219,7 @@ const char* format_call(Call call)
     const bool is_size = (keyword == "width" || keyword == "height" || keyword == "resolution") &&
                          collect_options(call).contains("size");
     const auto meant = is_size ? std::optional<std::string>("size")
-                               : app::closest(keyword, collect_keywords(call));
+                               : job::closest(keyword, collect_keywords(call));
     throw Error(ErrorCode::usage,
                 fmt::format("{} has no option {}{}", format_call(call), keyword,
                             meant ? fmt::format(" (did you mean {}?)", *meant) : ""));
@@ -230,9 +229,9 @@ const char* format_call(Call call)
 std::string wrapped(const std::string& text, std::size_t indent)
 {
     constexpr std::size_t columns = 100;
-    const std::string lines = app::wrapped(text, columns - indent);
+    const std::string lines = job::wrapped(text, columns - indent);
     std::string result;
-    for (const std::string_view line : app::split(lines, '\n')) {
+    for (const std::string_view line : job::split(lines, '\n')) {
         result += std::string(indent, ' ') + std::string(line) + "\n";
     }
     return result;
@@ -247,8 +246,8 @@ std::string_view parse_name(std::string_view word)
 /// Tests whether two options of a view exclude each other.
 bool exclude(std::string_view one, std::string_view other)
 {
-    static const std::vector<app::Conflict> conflicts = app::view_conflicts();
-    return std::any_of(conflicts.begin(), conflicts.end(), [&](const app::Conflict& pair) {
+    static const std::vector<job::Conflict> conflicts = job::view_conflicts();
+    return std::any_of(conflicts.begin(), conflicts.end(), [&](const job::Conflict& pair) {
         return (pair.option == one && pair.other == other) ||
                (pair.option == other && pair.other == one);
     });
@@ -259,7 +258,7 @@ bool exclude(std::string_view one, std::string_view other)
 bool change_view(const Words& words)
 {
     bool changed = false;
-    visit_options(Call::load, [&](const app::Option& option) {
+    visit_options(Call::load, [&](const job::Option& option) {
         const bool is_of_view = option.uses.python_render && option.name() != "--size";
         changed = changed ||
                   (is_of_view && std::any_of(words.begin(), words.end(), [&](const auto& word) {
@@ -272,7 +271,7 @@ bool change_view(const Words& words)
 std::optional<std::string> find_unsafe(const Words& words)
 {
     std::vector<std::string> safe;
-    visit_options(Call::load, [&safe](const app::Option& option) {
+    visit_options(Call::load, [&safe](const job::Option& option) {
         if (option.is_harmless()) {
             safe.push_back(option.name());
         }
@@ -301,7 +300,7 @@ Words combined(const Words& of_load, const Words& of_render)
 
 Words to_words(const nb::kwargs& options, Call call)
 {
-    const std::map<std::string, app::Option> known = collect_options(call);
+    const std::map<std::string, job::Option> known = collect_options(call);
     Words words;
     for (const auto& [key, value] : options) {
         auto keyword = nb::cast<std::string>(key);
@@ -310,7 +309,7 @@ Words to_words(const nb::kwargs& options, Call call)
         if (found == known.end()) {
             fail_unknown(keyword, call);
         }
-        const app::Option& option = found->second;
+        const job::Option& option = found->second;
         const bool is_off = option.is_flag() && value.ptr() == Py_False;
         if (value.is_none() || (is_off && !option.default_is_chosen)) {
             continue;
@@ -331,14 +330,14 @@ Words to_words(const nb::kwargs& options, Call call)
 
 void set_options(RenderJob& job, const nb::kwargs& options)
 {
-    const std::map<std::string, app::Option> known = collect_options(Call::run);
+    const std::map<std::string, job::Option> known = collect_options(Call::run);
     for (const auto& [key, value] : options) {
         const auto keyword = nb::cast<std::string>(key);
         const auto found = known.find(keyword == "from" ? "from_" : keyword);
         if (found == known.end()) {
             fail_unknown(keyword, Call::run);
         }
-        const app::Option& option = found->second;
+        const job::Option& option = found->second;
         if (value.is_none()) {
             continue;
         }
@@ -348,26 +347,26 @@ void set_options(RenderJob& job, const nb::kwargs& options)
     }
 }
 
-app::RenderArguments understand_render(const Words& words)
+job::RenderArguments understand_render(const Words& words)
 {
     Words all = words;
     // The output is a placeholder, as save() names files later; layers are kept for it. Views have
     // numbers.
     all.insert(all.end(), {"--output=image.####.exr", "scene"});
-    return app::render_arguments(all);
+    return job::render_arguments(all);
 }
 
 SaveArguments understand_save(const Words& words)
 {
     SaveRequest save;
-    app::parse(save.options, words);
+    job::give_words(words, save.options);
     return save.arguments;
 }
 
 std::string declaration(std::string_view head, Call call, std::string_view result)
 {
     std::string text(head);
-    visit_options(call, [&text](const app::Option& option) {
+    visit_options(call, [&text](const job::Option& option) {
         text += fmt::format(", {}: {} | None = None", to_keyword(option), format_type(option));
     });
     return fmt::format("{}) -> {}", text, result);
@@ -376,7 +375,7 @@ std::string declaration(std::string_view head, Call call, std::string_view resul
 std::string documentation(std::string_view text, Call call)
 {
     std::string result = wrapped(std::string(text), 0) + "\nOptions:\n";
-    visit_options(call, [&result](const app::Option& option) {
+    visit_options(call, [&result](const job::Option& option) {
         const std::string value = option.is_flag() ? "True" : option.value;
         result += fmt::format("    {}: {}\n{}", to_keyword(option), value, wrapped(option.help, 8));
     });

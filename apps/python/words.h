@@ -40,14 +40,14 @@ void set_options(RenderJob& job, const nanobind::kwargs& options);
 /// combined with: another view of the same scene.
 [[nodiscard]] Words combined(const Words& of_load, const Words& of_render);
 
-/// Parses the `words` of load() and render() by the command's parser.
-[[nodiscard]] app::RenderArguments understand_render(const Words& words);
+/// Parses the `words` of load() and render().
+[[nodiscard]] job::RenderArguments understand_render(const Words& words);
 
 /// Options of save().
 struct SaveArguments {
-    app::DisplayArguments display{};
-    app::DenoiseArguments denoise{};
-    app::ExrFormat exr{};
+    job::DisplayArguments display{};
+    job::DenoiseArguments denoise{};
+    job::ExrFormat exr{};
 };
 
 [[nodiscard]] SaveArguments understand_save(const Words& words);

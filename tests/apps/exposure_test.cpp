@@ -22,8 +22,8 @@
 namespace bdpt::test::exposure_test {
 namespace {
 
-using app::ExposureBase;
-using app::parse_exposure;
+using job::ExposureBase;
+using job::parse_exposure;
 using Words = std::vector<std::string>;
 
 Outcome render(const ScratchFolder& folder, const std::string& scene, const Words& more)

@@ -8,7 +8,7 @@
 
 #include "catch.hpp"
 #include "image_files.h"
-#include "options/arguments.h"
+#include "options/value_types.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -39,15 +39,15 @@ nlohmann::json done(const Outcome& outcome)
 
 TEST_CASE("a noise is a percentage or a fraction", "[noise]")
 {
-    CHECK(app::parse_share("2%") == 0.02);
-    CHECK(app::parse_share("0.02") == 0.02);
-    CHECK(app::parse_share("100%") == 1.0);
-    CHECK(app::parse_share("2") == 0.02);
-    CHECK(app::parse_share("1") == 0.01);
-    CHECK(app::parse_share("1%") == 0.01);
+    CHECK(job::parse_share("2%") == 0.02);
+    CHECK(job::parse_share("0.02") == 0.02);
+    CHECK(job::parse_share("100%") == 1.0);
+    CHECK(job::parse_share("2") == 0.02);
+    CHECK(job::parse_share("1") == 0.01);
+    CHECK(job::parse_share("1%") == 0.01);
     for (const char* word : {"", "%", "0", "0%", "-1%", "101%", "101", "2 %", "nan", "x%"}) {
         CAPTURE(word);
-        CHECK_FALSE(app::parse_share(word));
+        CHECK_FALSE(job::parse_share(word));
     }
 }
 

@@ -11,9 +11,9 @@
 
 #include "catch.hpp"
 #include "image_files.h"
-#include "options/arguments.h"
 #include "options/groups/sequence_arguments.h"
 #include "options/output_files.h"
+#include "options/value_types.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -21,7 +21,7 @@
 namespace bdpt::test::sequence_test {
 namespace {
 
-using app::FrameRange;
+using job::FrameRange;
 using Words = std::vector<std::string>;
 
 const std::string moving_scene = BDPT_SOURCE_DIR "/scenes/motion.gltf";
@@ -60,32 +60,32 @@ std::size_t lines_with(const std::string& text, const std::string& what)
 
 TEST_CASE("frames are a first, a last and a step, all whole", "[sequence]")
 {
-    CHECK(app::parse_frames("1:24") == FrameRange{.first = 1, .last = 24});
-    CHECK(app::parse_frames("-3:9:4") == FrameRange{.first = -3, .last = 9, .step = 4});
-    CHECK(app::parse_frames("7") == FrameRange{.first = 7, .last = 7});
+    CHECK(job::parse_frames("1:24") == FrameRange{.first = 1, .last = 24});
+    CHECK(job::parse_frames("-3:9:4") == FrameRange{.first = -3, .last = 9, .step = 4});
+    CHECK(job::parse_frames("7") == FrameRange{.first = 7, .last = 7});
     for (const char* word :
          {"", "1:", ":1", "2:1", "1:2:0", "1:2:-1", "1:2:3:4", "1.5:2", "a:b", "0:2000000"}) {
         CAPTURE(word);
-        CHECK_FALSE(app::parse_frames(word));
+        CHECK_FALSE(job::parse_frames(word));
     }
-    CHECK(app::parse_rate("24") == 24.0);
-    CHECK(app::parse_rate("24000/1001") == 24000.0 / 1001.0);
+    CHECK(job::parse_rate("24") == 24.0);
+    CHECK(job::parse_rate("24000/1001") == 24000.0 / 1001.0);
     for (const char* word : {"", "0", "-24", "24/0", "24/", "/2", "nan", "24fps", "1e300"}) {
         CAPTURE(word);
-        CHECK_FALSE(app::parse_rate(word));
+        CHECK_FALSE(job::parse_rate(word));
     }
 }
 
 TEST_CASE("names of files take a number and a camera", "[sequence]")
 {
-    CHECK(app::with_number("a#b/out.####.exr", 12) == "a#b/out.0012.exr");
-    CHECK(app::with_number("out.##.exr", 12345) == "out.12345.exr");
-    CHECK(app::with_number("out.####.exr", -5) == "out.-0005.exr");
-    CHECK(app::with_number("out.exr", 5) == "out.exr");
-    CHECK_THROWS_AS(app::with_number("shot#2.####.exr", 1), app::OptionError);
-    CHECK(app::with_camera("{camera}/out.{camera}.exr", "a") == "{camera}/out.a.exr");
-    CHECK(app::with_camera("{camera}.exr", "../etc/x\n\\y") == "_._etc_x__y.exr");
-    CHECK(app::with_camera("{camera}.exr", "{camera}") == "{camera}.exr");
+    CHECK(job::with_number("a#b/out.####.exr", 12) == "a#b/out.0012.exr");
+    CHECK(job::with_number("out.##.exr", 12345) == "out.12345.exr");
+    CHECK(job::with_number("out.####.exr", -5) == "out.-0005.exr");
+    CHECK(job::with_number("out.exr", 5) == "out.exr");
+    CHECK_THROWS_AS(job::with_number("shot#2.####.exr", 1), job::OptionError);
+    CHECK(job::with_camera("{camera}/out.{camera}.exr", "a") == "{camera}/out.a.exr");
+    CHECK(job::with_camera("{camera}.exr", "../etc/x\n\\y") == "_._etc_x__y.exr");
+    CHECK(job::with_camera("{camera}.exr", "{camera}") == "{camera}.exr");
 }
 
 TEST_CASE("a frame has the pixels of its time, and its own noise", "[sequence]")

@@ -314,7 +314,7 @@ TEST_CASE("what cannot be written leaves nothing of the images of strategies")
 }  // namespace
 }  // namespace bdpt::test::strategies_test
 
-namespace bdpt::app::strategies_test {
+namespace bdpt::job::strategies_test {
 namespace {
 
 TEST_CASE("images of strategies are made of as long paths as memory is allowed for")
@@ -354,4 +354,4 @@ TEST_CASE("images of strategies are made of as long paths as memory is allowed f
 }
 
 }  // namespace
-}  // namespace bdpt::app::strategies_test
+}  // namespace bdpt::job::strategies_test

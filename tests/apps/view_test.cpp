@@ -12,7 +12,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::app::view_test {
+namespace bdpt::job::view_test {
 namespace {
 
 std::vector<CameraDesc> cameras()
@@ -140,4 +140,4 @@ TEST_CASE("the default size is the largest in 1280 x 720 with the camera's aspec
 }
 
 }  // namespace
-}  // namespace bdpt::app::view_test
+}  // namespace bdpt::job::view_test

@@ -1,6 +1,6 @@
 // What a denoiser is given where pixels show something in part.
 
-#include "report/image/denoised.h"
+#include "output/image/denoised.h"
 
 #include <cstddef>
 #include <utility>
@@ -8,7 +8,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::app::visible_values_test {
+namespace bdpt::job::visible_values_test {
 namespace {
 
 Layer layer(int width, int height, std::vector<float> values, const char* channels = "A")
@@ -76,4 +76,4 @@ TEST_CASE("where nothing is shown at all values are 0")
 }
 
 }  // namespace
-}  // namespace bdpt::app::visible_values_test
+}  // namespace bdpt::job::visible_values_test

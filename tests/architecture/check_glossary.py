@@ -34,7 +34,7 @@ def find_public_types(root):
     """Returns the types of the public headers, by file."""
     declaration = re.compile(r"^(?:class|struct|enum class)\s+(?:BDPT_\w*EXPORT\s+)?(\w+)\s*(?:final\s*)?[:{]", flags=re.M)
     types = {}
-    for folder in ("lib/include", "lib/io/include", "lib/eval/include", "apps/job/include"):
+    for folder in ("lib/include", "lib/io/include", "lib/eval/include", "lib/job/include"):
         for header in sorted((root / folder).rglob("*.h")):
             for name in declaration.findall(header.read_text(encoding="utf-8")):
                 types.setdefault(name, header.relative_to(root))

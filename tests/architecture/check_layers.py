@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Tests that the source tree follows the rules of docs/architecture.md: check_layers.py ROOT.
 
-A folder of lib/src, lib/io/src or apps/bdpt includes only folders of lower layers, public headers need only GLM and the
+A folder of lib/src, lib/io/src, lib/job/src, lib/view/src or apps/bdpt includes only folders of lower layers, public headers need only GLM and the
 standard library, each third-party library is used only in its area, no file is longer than 600 lines, no folder has
 more than 30 sources side by side, and every source file is listed in a CMakeLists.txt or in a .cmake file beside one.
 """
@@ -13,7 +13,11 @@ import sys
 
 LAYERS = {"math": 1, "memory": 1, "threads": 1, "film": 2, "identity": 2, "rates": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
           "scene": 5, "path": 6, "integrator": 7, "pilot": 8, "render": 9, "inspect": 10}
-COMMAND_LAYERS = {"terminal": 1, "options": 2, "plan": 3, "stage": 3, "report": 4, "view": 5, "commands": 6}
+JOB_LAYERS = {"machine": 1, "messages": 1, "options": 2, "plan": 3, "stage": 3, "output": 4, "run": 5}
+# What is built upon lib/job may include all of it.
+ABOVE_JOBS = {folder: 0 for folder in JOB_LAYERS}
+VIEW_LAYERS = ABOVE_JOBS | {"state": 1, "live": 2, "session": 3, "server": 4}
+COMMAND_LAYERS = ABOVE_JOBS | {"terminal": 1, "parser": 2, "report": 2, "commands": 3}
 # Layers of lib/io/src. Headers are included by their folder there too.
 IO_LAYERS = {"file": 1, "process": 1, "image": 2, "ies": 2, "output": 2, "volume": 2, "denoise": 2, "image/linear": 3, "part": 4, "oiio_module": 4, "vdb_reader": 4, "ktx_reader": 4, "gltf/checks": 3, "gltf/compression": 4,
              "gltf/document": 5, "gltf/animation": 6, "gltf/geometry": 7, "gltf/material": 7, "gltf/light_camera": 7,
@@ -46,12 +50,15 @@ ALLOWED = {
     "lib/io/src/ktx_reader": [POSIX],
     "lib/eval/include": [],
     "lib/eval/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
+    "lib/job/include": [],
+    "lib/job/src": [r"glm/", r"nlohmann/", r"fmt/", POSIX],
+    "lib/job/src/machine": [r"(oneapi/)?tbb/", POSIX],
+    "lib/view/include": [],
+    "lib/view/src": [r"glm/", r"nlohmann/", r"fmt/"],
+    "lib/view/src/server": [r"nlohmann/", r"fmt/", r"boost/", POSIX],
     "apps": [r"glm/", r"nlohmann/", r"fmt/", POSIX],
     "apps/python": [r"glm/", r"nlohmann/", r"fmt/", r"nanobind/", r"cxxabi\.h", POSIX],
-    "apps/bdpt/options/command_parser.cpp": [r"CLI/", r"fmt/"],
-    "apps/bdpt/view": [r"glm/", r"nlohmann/", r"fmt/", r"boost/", POSIX],
-    "apps/bdpt/terminal/machine_limits.cpp": [r"(oneapi/)?tbb/", r"fmt/", POSIX],
-    "apps/job/include": [],
+    "apps/bdpt/parser/command_parser.cpp": [r"CLI/", r"fmt/"],
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, r"pthread\.h",
               INTRINSICS],
     "tests/unit/io/volume": [r"catch2/", r"openvdb/", POSIX],
@@ -63,6 +70,8 @@ OWN = {
     "lib/src": r"bdpt/(film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
     "lib/io": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
     "lib/eval": r"bdpt/(io/|eval/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
+    "lib/job": r"bdpt/(io/|eval/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
+    "lib/view": r"bdpt/(io/|eval/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
     "apps": r"bdpt/(io/|eval/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
     "tests": r"bdpt/(io/|eval/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
     "benchmarks": r"bdpt/(io/|eval/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
@@ -101,22 +110,25 @@ def check_layer_include(layers, layer, header):
     return None
 
 
+# Maps an area to the layers of its folders.
+AREA_LAYERS = {"lib/src": LAYERS, "lib/io/src": IO_LAYERS, "lib/job/src": JOB_LAYERS, "lib/view/src": VIEW_LAYERS,
+               "apps/bdpt": COMMAND_LAYERS}
+
+
 def check_quoted_include(path, header):
     """Returns the error of `#include "header"` in the file `path`, or None."""
-    if path.startswith(("lib/include/", "lib/io/include/", "lib/eval/include/", "apps/job/include/")):
+    if re.match(r"lib/(\w+/)?include/", path):
         return f'is public: "{header}" must be a <bdpt/...> header'
     folder = header.split("/")[0]
-    if path.startswith("apps/bdpt/") and folder not in LAYERS:
-        return check_layer_include(COMMAND_LAYERS, path.split("/")[2], header) if path.count("/") > 2 else None
-    if not path.startswith("lib/src/"):
-        may_look_inside = path.startswith("tests/")
-        internal = folder in LAYERS and "/" in header and not may_look_inside
-        if internal:
-            return f'reaches into lib/src: "{header}"'
-        if path.startswith("lib/io/src/"):
-            return check_layer_include(IO_LAYERS, path.removeprefix("lib/io/src/").rpartition("/")[0], header)
-        return None
-    return check_layer_include(LAYERS, path.split("/")[2], header)
+    may_look_inside = path.startswith(("lib/src/", "tests/"))
+    if folder in LAYERS and "/" in header and not may_look_inside:
+        return f'reaches into lib/src: "{header}"'
+    for area, layers in AREA_LAYERS.items():
+        if path.startswith(area + "/"):
+            inside = path.removeprefix(area + "/").rpartition("/")[0]
+            return check_layer_include(layers, inside if layers is IO_LAYERS else inside.split("/")[0], header) \
+                if inside else None
+    return None
 
 
 def find_listed_sources(root):

@@ -23,7 +23,7 @@ ALLOWED = {
     "light_meter.cpp": "the exposure for a screen",
     "view_camera.cpp": "the place of a camera that words then say",
     "filled_share.cpp": "a note for people",
-    "layers.cpp": "false colours",
+    "frame.cpp": "false colours",
 }
 
 def find_inexact_calls(symbols):

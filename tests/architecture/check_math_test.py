@@ -10,7 +10,7 @@ import check_math
 SOUND = {
     "lib/a/image_metadata.cpp.o": "                 U tanf\n",
     "apps/a/filled_share.cpp.o": "                 U tanf\n",
-    "apps/a/layers.cpp.o": "                 U log10\n",
+    "apps/a/frame.cpp.o": "                 U log10\n",
     "apps/a/view_camera.cpp.o": "                 U atan2f\n",
     "apps/a/inspect_report.cpp.o": "                 U cos\n",
     "lib/a/display.cpp.o": "                 U powf\n                 U exp2\n",

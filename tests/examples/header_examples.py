@@ -21,7 +21,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ("lib/include", "lib/io/include", "lib/eval/include", "apps/job/include")
+FOLDERS = ("lib/include", "lib/io/include", "lib/eval/include", "lib/job/include")
 EXEMPT = ("bdpt/export.h",)  # a macro for the headers themselves
 STANDARD = ("algorithm", "array", "atomic", "chrono", "cmath", "cstddef", "cstdint", "cstdlib", "filesystem", "fstream",
             "functional", "iostream", "limits", "memory", "numbers", "optional", "span", "stop_token", "string",

@@ -9,7 +9,7 @@
 #include "promises.h"
 
 using namespace bdpt;
-using namespace bdpt::app;
+using namespace bdpt::job;
 
 namespace {
 

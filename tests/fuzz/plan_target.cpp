@@ -7,10 +7,10 @@
 
 #include "fuzz_target.h"
 #include "input_file.h"
-#include "options/command_parser.h"
 #include "options/part_arguments.h"
 #include "options/render_arguments.h"
-#include "plan/plan_file.h"
+#include "parser/command_parser.h"
+#include "plan/plan.h"
 #include "plan/planned_tasks.h"
 #include "promises.h"
 

@@ -11,10 +11,11 @@
 #include <vector>
 
 #include "options/output_files.h"
-#include "report/image/denoised.h"
-#include "report/image/display_sources.h"
-#include "report/image/image_files.h"
-#include "report/values.h"
+#include "options/part_arguments.h"
+#include "output/image/denoised.h"
+#include "output/image/display_sources.h"
+#include "output/image/image_files.h"
+#include "output/values.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
 
@@ -22,7 +23,58 @@ namespace bdpt::app {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::ordered_json;
+
+/// Arguments of `bdpt develop`.
+struct DevelopArguments {
+    std::filesystem::path file{};  ///< .exr
+    std::vector<std::filesystem::path> outputs{};
+    DisplayArguments display{};
+    DenoiseArguments denoise{};
+    Printed printed{};
+};
+
+constexpr const char* develop_footer = R"(Examples:
+  bdpt develop room.exr
+  bdpt develop room.exr -o bright.png --exposure 2 --tone-map agx
+  bdpt develop chair.exr -o chair.jpg --background white
+  bdpt develop room.exr -o clean.png --denoise
+
+Writes the pictures that bdpt render would write with the same options. --background needs an .exr
+that was rendered with --background; --denoise works best with --aov albedo,normal.)";
+
+void add_develop_options(OptionList& options, DevelopArguments& arguments)
+{
+    options
+        .add("file", "FILE", "The image: .exr, with layers; - is the standard input",
+             arguments.file, file_path({"-"}))
+        .required = true;
+    options.section("Output");
+    options.add_repeated("-o,--output", "FILE",
+                         "A picture, .png, .jpg or .webp; png:- etc. write to standard output. May "
+                         "be repeated. Default: the image's name with .png, in the working "
+                         "directory",
+                         arguments.outputs, file_path(standard_output_names()));
+    add_display_options(options, arguments.display);
+    add_denoise_options(options, arguments.denoise);
+    add_quiet_option(options, arguments.printed);
+    add_json_option(options, arguments.printed,
+                    "Print one JSON object per line on stdout: warning, done, error");
+}
+
+/// Throws `OptionError` for incompatible options.
+void check(const DevelopArguments& arguments, const OptionList& options)
+{
+    if (arguments.denoise.kind == Denoising::layer) {
+        options.reject_value("--denoise", "no value: a picture has no layers");
+    }
+    for (const std::filesystem::path& output : arguments.outputs) {
+        if (find_type(output) && !is_for_screens(output)) {
+            throw OptionError(fmt::format(
+                "{}: develop writes display images: name it .png, .jpg or .webp", output.string()));
+        }
+    }
+    check_pipes(std::array{arguments.file}, arguments.outputs, arguments.printed.format);
+}
 
 std::vector<fs::path> choose_outputs(const DevelopArguments& arguments)
 {
@@ -62,10 +114,10 @@ bool has_layer(const LayeredImage& image, const char* name)
                        [name](const Layer& layer) { return layer.name == name; });
 }
 
-}  // namespace
-
-int run_develop(const DevelopArguments& arguments)
+int run_develop(const DevelopArguments& arguments, const OptionList& options,
+                const Words& /*words*/)
 {
+    check(arguments, options);
     const std::vector<fs::path> outputs = choose_outputs(arguments);
     const std::string file = arguments.file.string();
     FileSet inputs({arguments.file});
@@ -97,15 +149,14 @@ int run_develop(const DevelopArguments& arguments)
                         file));
     }
     const std::optional<io::Denoiser> denoiser = open_denoiser(denoise, outputs, 0);
-    ImageFileOptions options{
+    ImageFileOptions how{
         .exr = {.metadata = std::move(image.metadata), .placement = image.placement},
         .layers = std::move(image.layers),
         .display = display,
         .denoiser = denoiser ? &*denoiser : nullptr,
         .denoising = denoise.kind};
     Attempts attempts;
-    const WrittenImages written =
-        write_image_files(outputs, image.image, std::move(options), attempts);
+    const WrittenImages written = write_image_files(outputs, image.image, std::move(how), attempts);
     if (!written.why_noisy.empty()) {
         console.warning(fmt::format("{}: not denoised: {}", file, written.why_noisy));
     }
@@ -121,6 +172,15 @@ int run_develop(const DevelopArguments& arguments)
                    {"denoised", names_json(are_denoised ? written.files : std::vector<fs::path>())},
                    {"exposure", or_null(written.exposure)}});
     return 0;
+}
+
+}  // namespace
+
+void add_develop_command(Program& program)
+{
+    add_command<DevelopArguments>(program, "develop",
+                                  "Convert an .exr file to pictures, without rendering",
+                                  develop_footer, add_develop_options, run_develop);
 }
 
 }  // namespace bdpt::app

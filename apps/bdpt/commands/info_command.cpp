@@ -13,14 +13,23 @@
 #include <utility>
 #include <vector>
 
+#include "machine/machine_limits.h"
 #include "options/groups/scene_arguments.h"
 #include "options/value_types.h"
 #include "report/scene_report.h"
 #include "terminal/console.h"
-#include "terminal/machine_limits.h"
 
 namespace bdpt::app {
 namespace {
+
+/// Arguments of `bdpt info`.
+struct InfoArguments {
+    std::string file{};                         ///< empty: only the limits
+    io::GltfOptions scene{};                    ///< selects the part of the file to describe
+    std::optional<std::uint64_t> max_memory{};  ///< [bytes]
+    bool limits = false;                        ///< print the limits for reading files
+    bool json = false;
+};
 
 struct Limit {
     std::string_view name;
@@ -139,9 +148,7 @@ SceneReport read_report(const InfoArguments& arguments, const io::GltfOptions& o
     }
 }
 
-}  // namespace
-
-const char* const info_footer = R"(Examples:
+constexpr const char* info_footer = R"(Examples:
   bdpt info scene.gltf
   bdpt info scene.glb --json
   bdpt info --limits
@@ -162,9 +169,8 @@ void add_info_options(OptionList& options, InfoArguments& arguments)
     options.add_flag("--json", "Print one JSON object instead of text", arguments.json);
 }
 
-int run_info(const InfoArguments& arguments, const OptionList& given)
+int run_info(const InfoArguments& arguments, const OptionList& given, const Words& /*words*/)
 {
-    using nlohmann::ordered_json;
     if (!given.given("file") && !arguments.limits) {
         throw OptionError("file is required");
     }
@@ -173,21 +179,29 @@ int run_info(const InfoArguments& arguments, const OptionList& given)
     options.limits.memory_bytes = memory.bytes;
     options.memory = std::make_shared<io::MemoryBudget>(memory);
     std::string text;
-    ordered_json json = ordered_json::object();
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
     if (!arguments.file.empty()) {
         const SceneReport report = read_report(arguments, options);
-        text = to_text(report);
-        json = to_json(report);
+        text = info_text(report);
+        json = info_json(report);
     }
     if (arguments.limits) {
         text += limits_text(options.limits);
         json["limits"] = limits_json(options.limits);
     }
     if (arguments.json) {
-        text = json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+        text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     }
     print_text(text);
     return 0;
+}
+
+}  // namespace
+
+void add_info_command(Program& program)
+{
+    add_command<InfoArguments>(program, "info", "Print what a scene contains", info_footer,
+                               add_info_options, run_info);
 }
 
 }  // namespace bdpt::app

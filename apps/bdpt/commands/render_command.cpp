@@ -1,254 +1,95 @@
+#include "commands/commands.h"
+
 #include <bdpt/error.h>
-#include <bdpt/io/gltf.h>
 #include <fmt/core.h>
 
+#include <array>
 #include <cstddef>
-#include <cstdint>
-#include <memory>
+#include <filesystem>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "commands/commands.h"
-#include "options/foreign_words.h"
+#include "messages/text.h"
 #include "options/job_file.h"
 #include "options/output_files.h"
-#include "plan/plan_file.h"
-#include "plan/planned_tasks.h"
-#include "report/display.h"
-#include "report/image/denoised.h"
-#include "report/image/display_sources.h"
-#include "report/part/part_keeper.h"
-#include "report/render_report.h"
+#include "output/render_report.h"
+#include "parser/foreign_words.h"
+#include "run/run_render.h"
 #include "stage/render_preparation.h"
-#include "terminal/console.h"
 #include "terminal/interrupt.h"
-#include "terminal/text.h"
 
 namespace bdpt::app {
-
-namespace {
-
-using nlohmann::ordered_json;
-
-/// Reports a task that had been completed before.
-void report_complete(Console& console, const RenderArguments& arguments)
-{
-    const std::int64_t samples = arguments.samples.end - arguments.samples.begin;
-    console.note(fmt::format("{}: has all samples of the task", arguments.part->file.string()));
-    console.event("done", {{"samples", samples},
-                           {"seconds", 0.0},
-                           {"outputs", ordered_json::array()},
-                           {"exposure", nullptr},
-                           {"stopped_by", nullptr}});
-}
-
-JobImage complete_image(const RenderArguments& arguments)
-{
-    const ImageLabel label = make_label(arguments);
-    return {.frame = label.frame,
-            .camera = label.camera,
-            .samples_per_pixel = arguments.samples.end - arguments.samples.begin};
-}
-
-/// Adds a cache of images, if the file is loaded for several frames.
-RenderArguments with_cache(RenderArguments arguments)
-{
-    if (arguments.sequence && arguments.sequence->frames && arguments.sequence->orbit == 0) {
-        arguments.scene.images = std::make_shared<io::ImageCache>(image_cache_bytes(arguments));
-    }
-    return arguments;
-}
-
-PreparedScene load(const RenderArguments& arguments, Console& console)
-{
-    PreparedScene stage = prepare_within_memory(arguments, console);
-    console.end_progress();
-    return stage;
-}
-
-/// Returns the plan of a task, if any.
-std::optional<Plan> read_task_plan(const RenderArguments& asked)
-{
-    return asked.part && asked.part->plan ? std::optional(read_plan(*asked.part->plan))
-                                          : std::nullopt;
-}
-
-/// Images that this process renders.
-struct Assignment {
-    std::vector<SequenceView> views;
-    std::size_t first_image = 0;  ///< index in the plan, if there is one
-};
-
-/// Returns the images of one task of a plan of several images.
-Assignment planned_assignment(const RenderArguments& asked, const Plan& plan)
-{
-    const PlanTask& task = find_task(plan, *asked.part->plan, asked.part->task);
-    std::vector<SequenceView> views = make_views(asked, collect_cameras(plan));
-    if (views.size() != plan.images.size()) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("{}: is not a plan of bdpt plan: it has {} images, but its options "
-                                "give {}",
-                                asked.part->plan->string(), plan.images.size(), views.size()));
-    }
-    const auto begin = views.begin() + static_cast<std::ptrdiff_t>(task.first_image);
-    Assignment result{.views = {begin, begin + static_cast<std::ptrdiff_t>(task.images)},
-                      .first_image = task.first_image};
-    for (std::size_t i = 0; i < task.images; ++i) {
-        result.views[i].index = i;
-        result.views[i].count = task.images;
-    }
-    return result;
-}
-
-/// Throws `Error` (invalid_input) if files have changed since the plan was made.
-void check_files_of_plan(const RenderArguments& asked, const Plan& plan)
-{
-    if (const auto what = difference(identity_of_files(asked), plan.files)) {
-        throw Error(ErrorCode::invalid_input, fmt::format("{}: is the plan of another render: {}",
-                                                          asked.part->plan->string(), *what));
-    }
-}
-
-}  // namespace
-
-JobResult run_render(const RenderArguments& typed, const std::vector<std::string>& words,
-                     Console& console, Interrupt& interrupt)
-{
-    const RenderArguments asked = with_cache(typed);
-    check_patterns(asked);
-    if (const std::optional<std::string> warning =
-            warning_of_flicker(asked, FramesBy::one_process)) {
-        console.warning(*warning);
-    }
-    std::optional<PreparedScene> stage;
-    const std::optional<Plan> plan = read_task_plan(asked);
-    const bool has_planned_sequence = plan && is_sequence(*plan);
-    std::optional<Assignment> assignment;
-    if (has_planned_sequence) {
-        assignment = planned_assignment(asked, *plan);
-    }
-    if (!assignment && asked.sequence && asked.sequence->cameras == SequenceCameras::all) {
-        stage = load(asked, console);
-    }
-    if (!assignment) {
-        assignment = Assignment{
-            make_views(asked, stage ? camera_names(*stage) : std::vector<std::string>())};
-    }
-    const std::vector<SequenceView>& views = assignment->views;
-    const auto check_all = [&] {
-        const FileSet inputs = stage ? input_files(asked, *stage) : input_files(asked);
-        for (const SequenceView& view : views) {
-            static_cast<void>(check_files(make_view_arguments(asked, view), inputs));
-        }
-    };
-    check_all();
-    check_backplate(asked.display);
-    bool knows_scene = stage.has_value();
-    std::optional<Display> display;
-    if (asked.viewer) {
-        display.emplace(*asked.viewer, console);
-    }
-    std::optional<io::Denoiser> denoiser =
-        open_denoiser(asked.denoise, asked.outputs, asked.options.system.threads);
-    std::optional<double> time = asked.scene.time;
-    std::optional<Viewpoint> first;
-    std::optional<Scene> still;              // before its environment was turned
-    std::optional<float> exposure;           // by the light of the first frame, for all frames
-    std::optional<std::vector<Aov>> guides;  // of automatic denoising
-    JobResult result;
-    for (const SequenceView& view : views) {
-        if (interrupt.stopped_by()) {
-            break;
-        }
-        RenderArguments image = make_view_arguments(asked, view);
-        console.begin_image(make_label(image));
-        interrupt.set_outputs(pending_outputs(check_files(image, input_files(asked))));
-        std::optional<PartKeeper> keeper;
-        if (image.part) {
-            keeper.emplace(
-                *image.part,
-                plan ? std::optional(planned_identity(*plan, assignment->first_image + view.index))
-                     : std::nullopt,
-                console);
-            if (keeper->is_complete(image.samples) && image.outputs.empty()) {
-                report_complete(console, image);
-                result.images.push_back(complete_image(image));
-                continue;
-            }
-        }
-        if (!stage && has_planned_sequence) {
-            check_files_of_plan(asked, *plan);
-        }
-        if (!stage || time != image.scene.time) {
-            interrupt.forbid_stop();
-            if (interrupt.stopped_by()) {
-                break;
-            }
-            stage.reset();  // first, to avoid two scenes in memory
-            first.reset();
-            still.reset();
-            guides.reset();
-            stage = load(image, console);
-            time = image.scene.time;
-        }
-        if (!std::exchange(knows_scene, true)) {
-            check_all();  // now the files that the scene names are known
-        }
-        if (!first) {
-            first = Viewpoint{
-                .camera = stage->camera, .size = stage->size, .is_framed = stage->is_framed};
-        }
-        if (!exposure && meters_light(asked, *stage)) {
-            exposure = metered_exposure(*stage, image);
-        }
-        image.light_exposure = exposure;
-        if (denoiser && asked.denoise.kind == Denoising::automatic && !guides) {
-            guides = spend_guides(stage->memory, asked);
-            if (!guides) {
-                console.note(
-                    Note{"not_denoised",
-                         "not denoised: too little memory is left (--denoise denoises anyway)"},
-                    Repeat::never);
-                denoiser.reset();
-                image.denoise.kind = Denoising::none;
-            }
-        }
-        if (guides) {
-            image.guides = *guides;
-            for (const Aov guide : *guides) {
-                image.options.film.aovs.insert(guide);
-            }
-        }
-        Viewpoint seen = sequence_viewpoint(*stage, *first, image);
-        if (view.turn && image.sequence->motion == TurntableMotion::object) {
-            if (!still) {
-                still.emplace(std::move(stage->scene));
-            }
-            stage->scene = with_turned_environment(*still, *view.turn);
-        }
-        stage->camera = std::move(seen.camera);
-        stage->size = seen.size;
-        std::optional<JobImage> done =
-            render_view(image, *stage, keeper,
-                        {console, interrupt, display ? &*display : nullptr,
-                         denoiser ? &*denoiser : nullptr, add_view_words(words, view)});
-        if (done) {
-            result.images.push_back(std::move(*done));
-        }
-        stage->load_seconds = 0.0;
-        stage->build_seconds = 0.0;
-    }
-    result.stopped = interrupt.stopped_by().has_value();
-    return result;
-}
-
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* render_footer = R"(Examples:
+  bdpt render model.glb
+  bdpt render scene.gltf -o out.exr
+  bdpt render scene.glb -o out.exr -o out.png --spp 256 --size 1920x1080
+  bdpt render *.glb -o 'out/{name}.png'
+  bdpt render room.glb -o out.exr --time 90s --camera "Camera 2"
+  bdpt render chair.glb -o out.png --background transparent --ground shadow
+  bdpt render walk.glb -o out.png --animation run --frame-time 0.25
+  bdpt render hall.glb -o out.exr --spp 4096 --part out.part.exr
+  bdpt render lamp.glb -o lamp.exr --spp 1024 --adaptive
+  bdpt render walk.glb -o walk.####.exr --frames 1:48 --fps 24
+  bdpt render hall.glb -o out.png --volume smoke.vdb --volume-extinction 20
+  bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
+
+Without a camera in the file, the whole scene is framed; without light, a soft sky is added (and a
+lamp in a closed room); a note says so. Ctrl-C, or closing the terminal, finishes the current pass
+and writes the image; a second Ctrl-C quits at once. With --part, SIGUSR1 writes a checkpoint, and a
+killed render resumes when the same command runs again.
+
+Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
+5 unsupported feature, 6 output cannot be written, 7 out of memory or threads, 129 stopped by
+SIGHUP, 130 by SIGINT, 143 by SIGTERM.)";
+
+constexpr const char* render_short_footer = R"(Examples:
+  bdpt render model.glb
+  bdpt render scene.glb -o out.exr -o out.png --time 60s --size 1920x1080
+  bdpt render chair.glb -o chair.png --background transparent --ground shadow
+  bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
+
+"bdpt render --help-all" has all options, more examples and the exit codes.)";
+
+std::vector<Essential> render_essentials()
+{
+    return {
+        {"file"},
+        {"others", "More scenes; {name} in output names becomes the scene's name"},
+        {"--output",
+         "An image: .png, .jpg or .webp (tone-mapped), .exr or .hdr (linear). May be repeated. "
+         "Default: the scene's name with .png"},
+        {"--exposure",
+         "Exposure: metered from the image (auto), from the incident light (light), or fixed"},
+        {"--background",
+         "Shown instead of the environment, which still lights the scene: transparent, a colour or "
+         "a photograph"},
+        {"--denoise",
+         "Denoise the image with Open Image Denoise 2. Default: .png, .jpg and .webp, if it is "
+         "found; --denoise=false: none"},
+        {"--spp"},
+        {"--size", "Image size. Default: the largest within 1280x720"},
+        {"--time", "Time of loading and rendering, like 90s, 2m or 1.5h"},
+        {"--noise", "Stop at this noise, like 2%"},
+        {"--ground", "shadow: shadow catcher, an invisible ground below the scene"},
+        {"--camera"},
+        {"--view",
+         "Frame the whole scene: front, right, back, left, top, bottom, three-quarter, or angles "
+         "[degrees]"},
+        {"--from"},
+        {"--look-at"},
+        {"--fov"},
+        {"--env",
+         "Environment map: an equirectangular image, none, default (a soft sky) or studio (soft "
+         "boxes)"},
+        {"--orbit", "Turntable: N views, into files with #### in their names"},
+    };
+}
 
 void check_scenes(const std::vector<fs::path>& scenes, const OptionList& options)
 {
@@ -297,30 +138,22 @@ void check_separate(const std::vector<RenderArguments>& all)
     }
 }
 
-}  // namespace
-
-RenderArguments for_scene(const RenderArguments& asked, const fs::path& scene)
+/// Renders one scene, controlled by signals. Returns the exit code: 0, or 128 + a signal's number
+/// if that ended the render early.
+int run_scene(const RenderArguments& arguments, const std::vector<std::string>& words)
 {
-    RenderArguments one = asked;
-    one.file = scene;
-    const std::string name = scene.stem().string();
-    for (fs::path& output : one.outputs) {
-        output = with_scene(output, name);
-    }
-    if (one.stats) {
-        one.stats = with_scene(*one.stats, name);
-    }
-    if (one.outputs.empty() && !one.part && !one.sequence && scene != "-") {
-        one.outputs.push_back(default_output(scene));
-        if (one.job) {
-            one.job->names_default = true;
-        }
-    }
-    return one;
+    TerminalConsole console(arguments.printed.format, arguments.printed.verbosity);
+    SignalInterrupt interrupt({}, [&console] {
+        console.note("stopping after the current pass; interrupt again to quit at once");
+    });
+    static_cast<void>(job::run_render(arguments, words, console, interrupt));
+    const std::optional<int> signal = interrupt.signal();
+    return signal ? 128 + *signal : 0;
 }
 
-int run_render_scenes(const RenderArguments& asked, const std::vector<fs::path>& scenes,
-                      const OptionList& options, const RenderScene& render)
+/// Renders `asked` for each of `scenes`. `words` are the whole command line.
+int run_scenes(const RenderArguments& asked, const std::vector<fs::path>& scenes,
+               const OptionList& options, const std::vector<std::string>& words)
 {
     check_scenes(scenes, options);
     std::vector<RenderArguments> all;
@@ -328,7 +161,7 @@ int run_render_scenes(const RenderArguments& asked, const std::vector<fs::path>&
         all.push_back(for_scene(asked, scene));
     }
     if (all.size() == 1) {
-        return render(all.front());
+        return run_scene(all.front(), words);
     }
     check_separate(all);
     int first_failure = 0;
@@ -339,7 +172,7 @@ int run_render_scenes(const RenderArguments& asked, const std::vector<fs::path>&
     };
     for (const RenderArguments& one : all) {
         try {
-            const int code = render(one);
+            const int code = run_scene(one, words);
             if (code != 0) {
                 return code;  // a signal stopped it
             }
@@ -359,6 +192,58 @@ int run_render_scenes(const RenderArguments& asked, const std::vector<fs::path>&
             .note(fmt::format("{} of {} failed", failures, counted(all.size(), "scene")));
     }
     return first_failure;
+}
+
+/// Runs `bdpt render --save-job`: checks that the options are compatible, as a render would.
+int save_job(const RenderRequest& request, const OptionList& options)
+{
+    RenderArguments arguments = checked(request, options);
+    const fs::path& file = request.saved_job;
+    FileSet inputs(input_files(arguments));
+    inputs.add(named_files(arguments, std::array{file}));
+    check_output("--save-job", file, inputs, FileSet(arguments.outputs));
+    arguments.job = JobSource{.file = file};
+    for (const Option& option : options.all()) {
+        if (option.given() && option.uses.stated_in == StatedIn::own_folder) {
+            arguments.job->outputs.push_back(option.name());
+        }
+    }
+    check_files_of_job(arguments);
+    write_text(file, job_text(options, file));
+    TerminalConsole(arguments.printed.format, arguments.printed.verbosity)
+        .note(fmt::format("wrote {}", file.string()));
+    return 0;
+}
+
+int run_render_command(const RenderRequest& request, OptionList& options, const Words& given)
+{
+    Words words = given;
+    std::vector<fs::path> scenes{request.arguments.file};
+    scenes.insert(scenes.end(), request.others.begin(), request.others.end());
+    if (scenes.size() == 1 && is_job(scenes.front())) {
+        load_job(scenes.front(), options);
+        scenes = {request.arguments.file};
+        // With the job's options as words, commands that render missing samples need not name the
+        // job.
+        words.resize(2);
+        const std::vector<std::string> more = to_words(options);
+        words.insert(words.end(), more.begin(), more.end());
+    }
+    if (!request.saved_job.empty() && scenes.size() == 1) {
+        return save_job(request, options);
+    }
+    return run_scenes(checked(request, options), scenes, options, words);
+}
+
+}  // namespace
+
+void add_render_command(Program& program)
+{
+    Command& command =
+        add_command<RenderRequest>(program, "render", "Render a scene to an image", render_footer,
+                                   add_render_options, run_render_command);
+    command.essentials = render_essentials();
+    command.short_footer = render_short_footer;
 }
 
 }  // namespace bdpt::app

@@ -6,29 +6,123 @@
 
 #include <string>
 
+#include "messages/text.h"
 #include "options/groups/transport_arguments.h"
 #include "report/eval_text.h"
 #include "stage/prepared_scene.h"
 #include "stage/render_preparation.h"
 #include "terminal/interrupt.h"
-#include "terminal/text.h"
 
 namespace bdpt::app {
+namespace {
 
-int exit_code(eval::Verdict verdict)
+/// Arguments of `bdpt verify`.
+struct VerifyArguments {
+    RenderArguments stage{};  ///< scene and view
+    eval::VerifyOptions options{};
+};
+
+/// Options of `bdpt verify`, as given.
+struct VerifyRequest {
+    RenderRequest render{};  ///< options shared with `bdpt render`; the rest is unused
+    eval::VerifyOptions options{};
+};
+
+void add_how(OptionList& options, VerifyRequest& request)
 {
-    switch (verdict) {
-        case eval::Verdict::pass:
-            return 0;
-        case eval::Verdict::fail:
-            return verify_failed;
-        case eval::Verdict::inconclusive:
-            return verify_inconclusive;
-    }
-    return verify_failed;
+    RenderRequest& render = request.render;
+    RenderOptions& render_options = render.arguments.options;
+    options.section("How to verify");
+    add_time_option(options, render,
+                    "Maximum render time, like 90s, 2m or 1.5h; verify stops earlier if possible. "
+                    "Default: 2m");
+    add_size_option(options, render, "Image size. Default: 32x32");
+    options.add("--max-depth", "N", "Maximum path length tested, in edges. Default: 5",
+                request.options.max_depth, whole_number(1, 64));
+    options.add("--grid", "N", "Tiles along each side of the image. Default: 4",
+                request.options.grid, whole_number(1, 64));
+    options.add("--bias", "PERCENT",
+                "Smallest error of a strategy that must be detected, as a change of the image mean "
+                "[%]. Default: 1",
+                request.options.detectable_bias, job::percent(100.0));
+    options.add("--false-alarm", "PERCENT",
+                "Probability that a correct renderer fails [%]. Default: 0.1",
+                request.options.false_alarm, job::percent(50.0));
+    const Choices<IntegratorKind> integrators{{{"bdpt", IntegratorKind::bdpt},
+                                               {"auto", IntegratorKind::automatic},
+                                               {"vcm", IntegratorKind::vcm}}};
+    add_choice(options, "--integrator",
+               "What is verified: bdpt (default); auto: bdpt with the light paths and connections "
+               "that auto chooses; or vcm: bdpt and the image of vcm, which is correct if "
+               "--merge-radius is small enough",
+               render_options.integrator, integrators);
+    add_fields(options, render_options,
+               std::array<std::string_view, 7>{"seed", "threads", "light_paths", "connections",
+                                               "connection_rays", "merge_radius", "light_samples"});
 }
 
-namespace {
+constexpr const char* verify_footer = R"(Examples:
+  bdpt verify scene.gltf
+  bdpt verify room.glb --from 0,1.6,2 --look-at 0,1,0 --time 10m
+  bdpt verify scene.gltf --size 64x64 --max-depth 8 --json
+  bdpt verify scene.gltf --light-paths 0.25 --connections 2
+  bdpt verify scene.gltf --light-samples 4
+  bdpt verify scene.gltf --integrator vcm --merge-radius 0.01
+
+Renders the scene with pt, nee, mis, lt, bdpt and every strategy of bdpt, at low resolution and with
+many independent samples, and tests whether they agree: for each path length, in the whole image and
+in tiles. docs/verify.md explains the method and the numbers.
+
+Exit codes: 0 pass, 10 fail: something disagrees, 11 inconclusive: nothing disagrees, but the noise
+could hide it (use more --time); 1 internal error, 2 wrong usage, 3 input not found, 4 invalid
+input, 5 unsupported feature, 6 output cannot be written, 7 out of memory or threads, 129 stopped by
+SIGHUP, 130 by SIGINT, 143 by SIGTERM.)";
+
+void add_verify_options(OptionList& options, VerifyRequest& request)
+{
+    RenderArguments& render = request.render.arguments;
+    render.options.integrator = IntegratorKind::bdpt;
+    render.options.bidirectional.merge_radius = eval::VerifyOptions::small_merge_radius;
+    add_scene_file(options, request.render);
+    add_how(options, request);
+    add_view_options(options, request.render);
+    options.section("Output");
+    add_json_option(options, render.printed, "Print one JSON object on stdout instead of text");
+    add_quiet_option(options, render.printed, "Print only errors and the object of --json");
+}
+
+VerifyArguments checked(const VerifyRequest& request, const OptionList& options)
+{
+    constexpr int widest = 4096;
+    if (request.render.arguments.options.bidirectional.light_paths == 0.0) {
+        throw OptionError("--light-paths must be above 0: without light paths there is only mis");
+    }
+    VerifyArguments result{.stage = checked(request.render, options), .options = request.options};
+    eval::VerifyOptions& verify = result.options;
+    if (const std::optional<Size>& size = result.stage.size) {
+        if (std::max(size->width, size->height) > widest) {
+            options.reject_value("--size", "WIDTHxHEIGHT from 1x1 to 4096x4096");
+        }
+        verify.width = size->width;
+        verify.height = size->height;
+    }
+    result.stage.size = Size{.width = verify.width, .height = verify.height};
+    verify.grid = std::min({verify.grid, verify.width, verify.height});
+    if (request.render.seconds) {
+        verify.seconds = result.stage.goal.seconds;
+    }
+    const RenderOptions& render = result.stage.options;
+    verify.light_paths = render.bidirectional.light_paths;
+    verify.connections = render.bidirectional.connections;
+    verify.connection_rays = render.bidirectional.connection_rays;
+    if (render.integrator == IntegratorKind::vcm) {
+        verify.merge_radius = render.bidirectional.merge_radius;
+    }
+    verify.light_samples = render.sampling.light_samples;
+    verify.seed = render.sampling.seed;
+    verify.threads = render.system.threads;
+    return result;
+}
 
 /// Returns the verification options, with the light paths that auto chooses on request.
 eval::VerifyOptions options_for(const VerifyArguments& arguments, const PreparedScene& stage,
@@ -51,8 +145,6 @@ eval::VerifyOptions options_for(const VerifyArguments& arguments, const Prepared
     }
     return options;
 }
-
-}  // namespace
 
 int run_verify(const VerifyArguments& arguments)
 {
@@ -88,6 +180,28 @@ int run_verify(const VerifyArguments& arguments)
         return 128 + *signal;
     }
     return exit_code(report.verdict);
+}
+
+}  // namespace
+
+int exit_code(eval::Verdict verdict)
+{
+    switch (verdict) {
+        case eval::Verdict::pass:
+            return 0;
+        case eval::Verdict::fail:
+            return 10;
+        case eval::Verdict::inconclusive:
+            return 11;
+    }
+    return 10;
+}
+
+void add_verify_command(Program& program)
+{
+    add_command<VerifyRequest>(program, "verify",
+                               "Test that all integrators and strategies agree on a scene",
+                               verify_footer, add_verify_options, checked_by(run_verify));
 }
 
 }  // namespace bdpt::app

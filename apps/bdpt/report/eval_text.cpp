@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "terminal/text.h"
+#include "messages/text.h"
 
 namespace bdpt::app {
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <variant>
 
-#include "report/values.h"
-#include "terminal/text.h"
+#include "messages/text.h"
+#include "output/values.h"
 
 namespace bdpt::app {
 namespace {
@@ -460,7 +460,7 @@ SceneReport make_report(const std::string& file, const io::LoadedScene& loaded)
     return report;
 }
 
-std::string to_text(const SceneReport& report)
+std::string info_text(const SceneReport& report)
 {
     const io::GltfFacts& facts = report.facts;
     Lines lines;
@@ -486,7 +486,7 @@ std::string to_text(const SceneReport& report)
     return lines.text();
 }
 
-ordered_json to_json(const SceneReport& report)
+ordered_json info_json(const SceneReport& report)
 {
     const io::GltfFacts& facts = report.facts;
     ordered_json result{{"file", report.file},

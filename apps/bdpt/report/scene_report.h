@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "options/arguments.h"
+#include "options/value_types.h"
+#include "terminal/console.h"
 
 namespace bdpt::app {
 
@@ -75,8 +76,8 @@ struct SceneReport {
 [[nodiscard]] SceneReport make_report(const std::string& file, const io::LoadedScene& loaded);
 
 /// Formats the report for people.
-[[nodiscard]] std::string to_text(const SceneReport& report);
+[[nodiscard]] std::string info_text(const SceneReport& report);
 /// Formats the report for programs.
-[[nodiscard]] nlohmann::ordered_json to_json(const SceneReport& report);
+[[nodiscard]] nlohmann::ordered_json info_json(const SceneReport& report);
 
 }  // namespace bdpt::app

@@ -3,42 +3,16 @@
 #include <signal.h>
 
 #include <atomic>
-#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
-#include <vector>
+
+#include "terminal/console.h"
 
 namespace bdpt::app {
-
-/// What an early end of the process means for its outputs.
-struct PendingOutputs {
-    std::vector<std::filesystem::path> temporaries;  ///< removed if the process ends early
-    bool have_readers = false;                       ///< one is a pipe, which may wait for a reader
-};
-
-/// Asks a render to stop.
-class Interrupt {
-public:
-    Interrupt() = default;
-    virtual ~Interrupt() = default;
-    Interrupt(const Interrupt&) = delete;
-    Interrupt& operator=(const Interrupt&) = delete;
-
-    virtual void set_outputs(PendingOutputs outputs) = 0;
-    /// Allows stops: from now on there is a result worth finishing.
-    virtual void allow_stop() = 0;
-    /// Forbids stops, until they are allowed again: there is nothing worth finishing.
-    virtual void forbid_stop() = 0;
-    [[nodiscard]] virtual std::stop_token stop_token() const = 0;
-    /// Returns what requested the stop, such as "SIGINT"; none if nothing did.
-    [[nodiscard]] virtual std::optional<std::string> stopped_by() const = 0;
-    /// Returns whether a checkpoint was requested since the last call.
-    [[nodiscard]] virtual bool take_checkpoint_request() = 0;
-};
 
 /// Turns SIGINT, SIGTERM and SIGHUP into a stop request during its lifetime: the first one requests
 /// a stop if that is allowed; any other removes the temporary files and ends the process with 128 +

@@ -1,14 +1,14 @@
-#include "options/arguments.h"
 #include "options/option_list.h"
+#include "options/value_types.h"
 
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "catch.hpp"
-#include "terminal/text.h"
+#include "messages/text.h"
 
-namespace bdpt::app::arguments_test {
+namespace bdpt::job::arguments_test {
 namespace {
 
 TEST_CASE("sizes are two whole numbers and a cross")
@@ -129,4 +129,4 @@ TEST_CASE("times are shown as on a clock")
 }
 
 }  // namespace
-}  // namespace bdpt::app::arguments_test
+}  // namespace bdpt::job::arguments_test

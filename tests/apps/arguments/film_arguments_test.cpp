@@ -4,7 +4,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::app::film_arguments_test {
+namespace bdpt::job::film_arguments_test {
 namespace {
 
 TEST_CASE("filters have a name and perhaps a radius")
@@ -50,4 +50,4 @@ TEST_CASE("crops are four whole numbers in order")
 }
 
 }  // namespace
-}  // namespace bdpt::app::film_arguments_test
+}  // namespace bdpt::job::film_arguments_test

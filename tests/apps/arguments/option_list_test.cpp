@@ -12,7 +12,7 @@
 #include "options/render_arguments.h"
 #include "options/value_types.h"
 
-namespace bdpt::app::option_list_test {
+namespace bdpt::job::option_list_test {
 namespace {
 
 /// The message of what `action` throws.
@@ -158,4 +158,4 @@ TEST_CASE("needs and conflicts of options are told in one form")
 }
 
 }  // namespace
-}  // namespace bdpt::app::option_list_test
+}  // namespace bdpt::job::option_list_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace bdpt::app::transport_arguments_test {
+namespace bdpt::job::transport_arguments_test {
 namespace {
 
 TEST_CASE("strategies are two numbers of vertices")
@@ -157,4 +157,4 @@ TEST_CASE("direct and indirect light share the lengths of paths")
 }
 
 }  // namespace
-}  // namespace bdpt::app::transport_arguments_test
+}  // namespace bdpt::job::transport_arguments_test

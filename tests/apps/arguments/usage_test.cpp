@@ -5,10 +5,10 @@
 
 #include "catch.hpp"
 #include "image_files.h"
+#include "messages/text.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
-#include "terminal/text.h"
 
 namespace bdpt::test::usage_test {
 namespace {
@@ -69,9 +69,9 @@ TEST_CASE("help is as wide as the terminal, within limits")
         }
         return most;
     };
-    CHECK(widest(app::wrapped("one two three four", 9)) == 7);
-    CHECK(app::wrapped("one two three four", 9) == "one two\nthree\nfour");
-    CHECK(app::wrapped_paragraphs("a b c\nd\n\nTitle:\n  as it is\nend", 3) ==
+    CHECK(widest(job::wrapped("one two three four", 9)) == 7);
+    CHECK(job::wrapped("one two three four", 9) == "one two\nthree\nfour");
+    CHECK(job::wrapped_paragraphs("a b c\nd\n\nTitle:\n  as it is\nend", 3) ==
           "a b\nc d\n\nTitle:\n  as it is\nend\n");
     CHECK(widest(run({"render", "--help"}).out) <= 100);
 }

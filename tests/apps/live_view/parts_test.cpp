@@ -11,17 +11,18 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "options/view_arguments.h"
+#include "commands/commands.h"
+#include "live/frame.h"
+#include "live/live_render.h"
+#include "live/live_scene.h"
+#include "live/mailbox.h"
 #include "scratch_folder.h"
-#include "view/live_render.h"
-#include "view/live_scene.h"
-#include "view/mailbox.h"
-#include "view/page_request.h"
-#include "view/server/access.h"
-#include "view/server/page.h"
-#include "view/view_camera.h"
+#include "server/access.h"
+#include "server/server.h"
+#include "state/page_request.h"
+#include "state/view_camera.h"
 
-namespace bdpt::app::live_view_parts_test {
+namespace bdpt::view::live_view_parts_test {
 namespace {
 
 std::uint32_t number_at(const FrameHeader& header, std::size_t i)
@@ -178,15 +179,18 @@ TEST_CASE("the ticket opens the page once, and to our own names only", "[live_vi
 
 TEST_CASE("where to listen is a host, and perhaps a port", "[live_view]")
 {
-    CHECK(parse_listen_address("127.0.0.1") == DisplayAddress{.host = "127.0.0.1", .port = "0"});
-    CHECK(parse_listen_address("127.0.0.1:0") == DisplayAddress{.host = "127.0.0.1", .port = "0"});
-    CHECK(parse_listen_address(":8080") == DisplayAddress{.host = "localhost", .port = "8080"});
-    CHECK(parse_listen_address("8080") == DisplayAddress{.host = "127.0.0.1", .port = "8080"});
-    CHECK(parse_listen_address("[::1]:80") == DisplayAddress{.host = "::1", .port = "80"});
-    CHECK(parse_listen_address("[::1]") == DisplayAddress{.host = "::1", .port = "0"});
+    CHECK(app::parse_listen_address("127.0.0.1") ==
+          NetworkAddress{.host = "127.0.0.1", .port = "0"});
+    CHECK(app::parse_listen_address("127.0.0.1:0") ==
+          NetworkAddress{.host = "127.0.0.1", .port = "0"});
+    CHECK(app::parse_listen_address(":8080") ==
+          NetworkAddress{.host = "localhost", .port = "8080"});
+    CHECK(app::parse_listen_address("8080") == NetworkAddress{.host = "127.0.0.1", .port = "8080"});
+    CHECK(app::parse_listen_address("[::1]:80") == NetworkAddress{.host = "::1", .port = "80"});
+    CHECK(app::parse_listen_address("[::1]") == NetworkAddress{.host = "::1", .port = "0"});
     for (const char* wrong : {"", "a:b", "a:70000", "70000", "a b", "[::1", "a:-1"}) {
         CAPTURE(wrong);
-        CHECK_FALSE(parse_listen_address(wrong));
+        CHECK_FALSE(app::parse_listen_address(wrong));
     }
 }
 
@@ -372,4 +376,4 @@ TEST_CASE("the page has all its parts", "[live_view]")
 }
 
 }  // namespace
-}  // namespace bdpt::app::live_view_parts_test
+}  // namespace bdpt::view::live_view_parts_test

@@ -1,4 +1,4 @@
-#include "view/session.h"
+#include "session/session.h"
 
 #include <bdpt/error.h>
 #include <bdpt/io/read_image.h>
@@ -18,8 +18,9 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "options/command_parser.h"
-#include "options/view_arguments.h"
+#include "commands/commands.h"
+#include "options/job_file.h"
+#include "options/render_arguments.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -31,20 +32,20 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Words = std::vector<std::string>;
 
-constexpr app::ClientId me = 1;
+constexpr view::ClientId me = 1;
 
 /// Keeps what a session tells.
-class Listener : public app::Audience {
+class Listener : public view::Audience {
 public:
     void tell(std::string state) override
     {
         keep([&] { state_ = json::parse(state).at("state"); });
     }
-    void show(std::shared_ptr<const app::Frame> frame) override
+    void show(std::shared_ptr<const view::Frame> frame) override
     {
         keep([&] { frames_.push_back(std::move(frame)); });
     }
-    void answer(app::ClientId /*client*/, std::string text) override
+    void answer(view::ClientId /*client*/, std::string text) override
     {
         keep([&] { answers_.push_back(json::parse(text)); });
     }
@@ -53,7 +54,8 @@ public:
     json state(const std::function<bool(const json&)>& is_wanted)
     {
         std::unique_lock lock(mutex_);
-        if (!news_.wait_for(lock, patience, [&] { return !state_.is_null() && is_wanted(state_); })) {
+        if (!news_.wait_for(lock, patience,
+                            [&] { return !state_.is_null() && is_wanted(state_); })) {
             throw std::runtime_error("no such state; the last is " + state_.dump());
         }
         return state_;
@@ -75,7 +77,7 @@ public:
         }
         return *found;
     }
-    std::vector<std::shared_ptr<const app::Frame>> frames()
+    std::vector<std::shared_ptr<const view::Frame>> frames()
     {
         const std::lock_guard lock(mutex_);
         return frames_;
@@ -96,7 +98,7 @@ private:
     std::condition_variable news_;
     json state_;
     std::vector<json> answers_;
-    std::vector<std::shared_ptr<const app::Frame>> frames_;
+    std::vector<std::shared_ptr<const view::Frame>> frames_;
 };
 
 /// `bdpt view` of a cube without its server.
@@ -111,12 +113,9 @@ public:
         }
         Words words{path("cube.gltf"), "--size=48x24", "--threads=2"};
         words.insert(words.end(), more.begin(), more.end());
-        app::ViewRequest request;
-        app::OptionList options;
-        app::add_view_command_options(options, request);
-        app::parse(options, words);
-        static_cast<void>(checked(request, options));
-        session_.emplace(app::ViewWords(options), listener_, console_);
+        job::RenderOptionList options;
+        job::give_words(words, options.list);
+        session_.emplace(view::ViewWords(options.list), listener_, console_);
         session_->join(me);
         thread_ = std::thread([this] { session_->run(); });
     }
@@ -144,7 +143,8 @@ public:
         return listener_.state([&](const json& state) {
             bool done = state.contains("slots");
             for (const std::string& word : words_of_command) {
-                done = done && state.at("command").get<std::string>().find(word) != std::string::npos;
+                done =
+                    done && state.at("command").get<std::string>().find(word) != std::string::npos;
             }
             for (const json& slot : state.value("slots", json::array())) {
                 done = done && slot.at("done").get<bool>();
@@ -152,15 +152,15 @@ public:
             return done;
         });
     }
-    app::Download save(const std::string& name, int slot = 0)
+    view::Download save(const std::string& name, int slot = 0)
     {
-        std::promise<app::Download> file;
-        session_->save(name, slot, [&](app::Download done) { file.set_value(std::move(done)); });
+        std::promise<view::Download> file;
+        session_->save(name, slot, [&](view::Download done) { file.set_value(std::move(done)); });
         return file.get_future().get();
     }
     fs::path saved(const std::string& name, int slot = 0)
     {
-        const app::Download file = save(name, slot);
+        const view::Download file = save(name, slot);
         INFO(file.content.substr(0, 200));
         REQUIRE(file.status == 200);
         std::ofstream(path("of_page_" + name), std::ios::binary) << file.content;
@@ -186,7 +186,7 @@ private:
     ScratchFolder folder_;
     app::TerminalConsole console_{app::Format::text, app::Verbosity::quiet};
     Listener listener_;
-    std::optional<app::Session> session_;
+    std::optional<view::Session> session_;
     std::thread thread_;
     int sequence_ = 0;
 };
@@ -212,9 +212,8 @@ TEST_CASE("what is seen has the bits of the command that can be copied", "[live_
     CHECK_FALSE(viewing.ask({{"set", {{"rotation", 35}, {"intensity", 0.5}}}}).contains("error"));
     for (const char* integrator : {"auto", "bdpt", "vcm"}) {
         CAPTURE(integrator);
-        CHECK_FALSE(
-            viewing.ask({{"set", {{"integrator_a", integrator}, {"exposure", 0.25}}}}).contains(
-                "error"));
+        CHECK_FALSE(viewing.ask({{"set", {{"integrator_a", integrator}, {"exposure", 0.25}}}})
+                        .contains("error"));
         const json state = viewing.finished(
             {"--env-rotation=35", "--exposure=0.25", std::string("--integrator=") + integrator});
         CHECK(state.at("slots").at(0).at("samples") == 6);
@@ -234,15 +233,14 @@ TEST_CASE("what is seen has the bits of the command that can be copied", "[live_
     const auto frame = viewing.listener().frames().back();
     CHECK(frame->width == 48);
     CHECK(frame->samples == 6);
-    CHECK(frame->pixels == app::half_pixels(io::read_image(viewing.path("job.exr")).image));
+    CHECK(frame->pixels == view::half_pixels(io::read_image(viewing.path("job.exr")).image));
     CHECK(frame->sequences.at(me) == static_cast<std::uint32_t>(viewing.sequence()));
 }
 
 TEST_CASE("a picture is finished after the samples that the help names", "[live_view]")
 {
-    app::ViewRequest request;
-    app::OptionList options;
-    app::add_view_command_options(options, request);
+    const app::CommandLine line;
+    const job::OptionList& options = line.program.find("view")->options;
     Viewing viewing({"--size=4x4", "--integrator=pt"});
     const json samples = viewing.finished().at("slots").at(0).at("samples");
     CHECK(options.at("--spp").help.ends_with("Default: " + samples.dump()));
@@ -278,8 +276,8 @@ TEST_CASE("two integrators have the same view and samples of their own", "[live_
     Viewing viewing({"--spp=4", "--integrator=mis"});
     static_cast<void>(viewing.finished());
     CHECK_FALSE(viewing.ask({{"set", {{"integrator_b", "bdpt"}}}}).contains("error"));
-    static_cast<void>(viewing.listener().state(
-        [](const json& state) { return state.at("slots").size() == 2; }));
+    static_cast<void>(
+        viewing.listener().state([](const json& state) { return state.at("slots").size() == 2; }));
     const json state = viewing.finished();
     CHECK(state.at("slots").at(0).at("integrator") == "mis");
     CHECK(state.at("slots").at(1).at("integrator") == "bdpt");
@@ -293,15 +291,14 @@ TEST_CASE("settings that cannot be are refused, and change nothing", "[live_view
 {
     Viewing viewing({"--spp=2"});
     const json before = viewing.finished();
-    const std::vector<json> wrong{
-        {{"set", {{"integrator_a", "magic"}}}},
-        {{"set", {{"integrator_b", "magic"}, {"paused", true}}}},
-        {{"set", {{"environment", "/etc/passwd"}, {"layer", "noise"}}}},
-        {{"set", {{"curve", "none at all"}, {"layer", "noise"}}}},
-        {{"set", {{"layer", "rates"}}}},
-        {{"set", {{"strategy", {9, 9}}}}},
-        {{"inspect", {48, 3}}},
-        {{"focus", {3, 24}}}};
+    const std::vector<json> wrong{{{"set", {{"integrator_a", "magic"}}}},
+                                  {{"set", {{"integrator_b", "magic"}, {"paused", true}}}},
+                                  {{"set", {{"environment", "/etc/passwd"}, {"layer", "noise"}}}},
+                                  {{"set", {{"curve", "none at all"}, {"layer", "noise"}}}},
+                                  {{"set", {{"layer", "rates"}}}},
+                                  {{"set", {{"strategy", {9, 9}}}}},
+                                  {{"inspect", {48, 3}}},
+                                  {{"focus", {3, 24}}}};
     for (const json& request : wrong) {
         CAPTURE(request.dump());
         CHECK(viewing.ask(request).contains("error"));
@@ -390,8 +387,8 @@ TEST_CASE("a file that changes is loaded again, and a broken one keeps the pictu
     static_cast<void>(viewing.finished());
     const std::string whole = text_of(viewing.path("cube.gltf"));
     std::ofstream(viewing.path("cube.gltf")) << whole.substr(0, whole.size() / 2);
-    const json broken = viewing.listener().state(
-        [](const json& state) { return state.at("message").is_string(); });
+    const json broken =
+        viewing.listener().state([](const json& state) { return state.at("message").is_string(); });
     CHECK(broken.at("message").get<std::string>().find("cube.gltf") != std::string::npos);
     CHECK(viewing.save("save.exr").status == 200);
     std::ofstream(viewing.path("cube.gltf")) << whole << "\n";

@@ -8,7 +8,7 @@
 
 #include "catch.hpp"
 #include "image_files.h"
-#include "plan/plan_file.h"
+#include "plan/plan.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -140,8 +140,8 @@ TEST_CASE("a plan has no words that write elsewhere, load code or call a machine
           "--save-rates=" + elsewhere, "--strategies=" + elsewhere,
           std::string("--display=localhost"), std::string("--restart"), "--env=" + elsewhere,
           "--rates=" + elsewhere, "--denoiser-library=" + elsewhere, "--ktx-library=" + elsewhere,
-          "--volume=" + elsewhere,
-          elsewhere, std::string("--plan=other"), std::string("--config=x")}) {
+          "--volume=" + elsewhere, elsewhere, std::string("--plan=other"),
+          std::string("--config=x")}) {
         refused("render", word);
         refused("merge", word);
     }
@@ -224,7 +224,7 @@ TEST_CASE("the plans of all engines can be read again, and are replaced with the
     for (const char* engine : {"slurm", "kubernetes", "make"}) {
         CAPTURE(engine);
         REQUIRE(job.plan({"--for", engine, "--restart"}).exit_code == 0);
-        const app::Plan plan = app::read_plan(job.file());
+        const job::Plan plan = job::read_plan(job.file());
         std::size_t files = 0;
         for (const auto& entry : fs::directory_iterator(job / "job")) {
             ++files;
@@ -243,7 +243,7 @@ TEST_CASE("a plan of many images and tasks is merged in time", "[plan][long]")
 {
     const ScratchFolder folder;
     constexpr int count = 100'000;
-    app::Plan plan{.scene = "scene.glb", .outputs = {"out.####.exr"}};
+    job::Plan plan{.scene = "scene.glb", .outputs = {"out.####.exr"}};
     plan.images.clear();
     for (int i = 0; i < count; ++i) {
         plan.images.push_back({.frame = i, .seed = 5});
@@ -254,7 +254,7 @@ TEST_CASE("a plan of many images and tasks is merged in time", "[plan][long]")
     }
     plan.identity.components = {{.name = "option: width", .value = "8"}};
     write_text(folder / "plan.json", to_text(plan));
-    CHECK(app::read_plan(folder / "plan.json") == plan);
+    CHECK(job::read_plan(folder / "plan.json") == plan);
     check_refused(run({"merge", "--plan", (folder / "plan.json").string(), "--quiet"}), 12,
                   {"samples are missing: frame 0 to frame 99999 (tasks 0-99999 of "});
 }

@@ -278,15 +278,15 @@ TEST_CASE("words about plans of frames that make no sense are refused", "[plan]"
 
 TEST_CASE("tasks share all images and samples out, and take about one time")
 {
-    app::Plan plan;
-    plan.images.assign(5, app::PlanImage{.frame = 1, .seed = 1});
+    job::Plan plan;
+    plan.images.assign(5, job::PlanImage{.frame = 1, .seed = 1});
     for (const std::int64_t count : {1, 2, 4, 5, 6, 9, 40}) {
-        const auto tasks = app::split_plan(plan, {.begin = 0, .end = 8}, count);
+        const auto tasks = job::split_plan(plan, {.begin = 0, .end = 8}, count);
         CAPTURE(count);
         REQUIRE(tasks.size() == static_cast<std::size_t>(count));
         std::vector<SampleSet> samples(5);
         std::set<fs::path> parts;
-        for (const app::PlanTask& task : tasks) {
+        for (const job::PlanTask& task : tasks) {
             parts.insert(task.part);
             for (std::size_t i = 0; i < task.images; ++i) {
                 SampleSet& there = samples.at(task.first_image + i);
@@ -298,7 +298,7 @@ TEST_CASE("tasks share all images and samples out, and take about one time")
         CHECK(samples == std::vector<SampleSet>(5, SampleSet({.begin = 0, .end = 8})));
     }
     const auto count = [](double seconds) {
-        return app::tasks_of_time(10, {.begin = 0, .end = 64}, seconds, 1.0, 6.0);
+        return job::tasks_of_time(10, {.begin = 0, .end = 64}, seconds, 1.0, 6.0);
     };
     CHECK(count(70.0) == 10);  // an image each
     CHECK(count(209.0) == 5);  // two
@@ -306,7 +306,7 @@ TEST_CASE("tasks share all images and samples out, and take about one time")
     CHECK(count(1e9) == 1);
     CHECK(count(38.0) == 20);  // half an image
     CHECK(count(0.0) == 640);
-    CHECK(app::tasks_of_time(1, {.begin = 0, .end = 64}, 1e9, 1.0, 6.0) == 1);
+    CHECK(job::tasks_of_time(1, {.begin = 0, .end = 64}, 1e9, 1.0, 6.0) == 1);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::app::sample_split_test {
+namespace bdpt::job::sample_split_test {
 namespace {
 
 std::vector<std::int64_t> ends(const std::vector<SampleRange>& ranges)
@@ -61,4 +61,4 @@ TEST_CASE("the number of parts is what fits into the time")
 }
 
 }  // namespace
-}  // namespace bdpt::app::sample_split_test
+}  // namespace bdpt::job::sample_split_test

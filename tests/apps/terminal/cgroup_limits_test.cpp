@@ -1,4 +1,4 @@
-#include "terminal/machine_limits.h"
+#include "machine/machine_limits.h"
 
 #include <filesystem>
 #include <string>
@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "scratch_folder.h"
 
-namespace bdpt::app::cgroup_limits_test {
+namespace bdpt::job::cgroup_limits_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST_CASE("what is no quota is none", "[cgroup]")
 }
 
 }  // namespace
-}  // namespace bdpt::app::cgroup_limits_test
+}  // namespace bdpt::job::cgroup_limits_test

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "commands/commands.h"
 #include "image_files.h"
+#include "run/run_render.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -65,7 +65,7 @@ TEST_CASE("a stop after loading, before the first pass, writes nothing")
     arguments.options.integrator = GENERATE(IntegratorKind::automatic, IntegratorKind::bdpt);
     app::TerminalConsole console(app::Format::text, app::Verbosity::quiet);
     StopAfterLoading interrupt;
-    const JobResult result = app::run_render(arguments, {"bdpt", "render"}, console, interrupt);
+    const JobResult result = job::run_render(arguments, {"bdpt", "render"}, console, interrupt);
     CHECK(interrupt.stopped_by());
     CHECK(result.stopped);
     CHECK(result.images.empty());

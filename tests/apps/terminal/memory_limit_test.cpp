@@ -1,4 +1,4 @@
-#include "terminal/machine_limits.h"
+#include "machine/machine_limits.h"
 
 #include <bdpt/error.h>
 #include <sys/resource.h>
@@ -13,7 +13,7 @@
 #include "catch.hpp"
 #include "scratch_folder.h"
 
-namespace bdpt::app::memory_limit_test {
+namespace bdpt::job::memory_limit_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,4 +87,4 @@ TEST_CASE("scenes may take half of the machine's memory, and more if that is ask
 }
 
 }  // namespace
-}  // namespace bdpt::app::memory_limit_test
+}  // namespace bdpt::job::memory_limit_test

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "options/eval_arguments.h"
+#include "commands/commands.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
 

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "image_files.h"
-#include "report/inspect_report.h"
+#include "output/inspect_report.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -51,7 +51,7 @@ TEST_CASE("columns of long numbers do not run together", "[inspect]")
                                     .unweighted = Rgb(1.236e-5f),
                                     .weight = 1.0f,
                                     .shares = {0.0f, 1.0f}});
-    const std::string text = app::inspect_text(sample, {}, DVec3(0.0));
+    const std::string text = job::inspect_text(sample, {}, DVec3(0.0));
     CAPTURE(text);
     CHECK(text.find(" 1.236e-05  s=1 1") != std::string::npos);
     CHECK(text.find(" 1.236e-05           1 ") != std::string::npos);

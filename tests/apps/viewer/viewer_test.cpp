@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "fake_viewer.h"
 #include "image_files.h"
-#include "options/arguments.h"
+#include "options/value_types.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -16,8 +16,8 @@
 namespace bdpt::test::viewer_test {
 namespace {
 
-using app::DisplayAddress;
-using app::parse_address;
+using job::NetworkAddress;
+using job::parse_address;
 using Words = std::vector<std::string>;
 
 Words words(const ScratchFolder& folder, const std::string& address, const Words& more)
@@ -32,11 +32,11 @@ Words words(const ScratchFolder& folder, const std::string& address, const Words
 
 TEST_CASE("an address is a host and perhaps a port", "[display]")
 {
-    CHECK(parse_address("localhost") == DisplayAddress{"localhost", "14158"});
-    CHECK(parse_address("10.0.0.7:99") == DisplayAddress{"10.0.0.7", "99"});
-    CHECK(parse_address(":99") == DisplayAddress{"localhost", "99"});
-    CHECK(parse_address("[::1]") == DisplayAddress{"::1", "14158"});
-    CHECK(parse_address("[::1]:99") == DisplayAddress{"::1", "99"});
+    CHECK(parse_address("localhost") == NetworkAddress{"localhost", "14158"});
+    CHECK(parse_address("10.0.0.7:99") == NetworkAddress{"10.0.0.7", "99"});
+    CHECK(parse_address(":99") == NetworkAddress{"localhost", "99"});
+    CHECK(parse_address("[::1]") == NetworkAddress{"::1", "14158"});
+    CHECK(parse_address("[::1]:99") == NetworkAddress{"::1", "99"});
     for (const char* word : {"", "a:", "a:0", "a:65536", "a:b", "a:1:2", "a b", "[::1]x:9", "[::1",
                              "http://a", "a:-1"}) {
         CAPTURE(word);

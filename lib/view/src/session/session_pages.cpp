@@ -1,0 +1,280 @@
+// Output to pages.
+
+#include <bdpt/io/display.h>
+#include <bdpt/options/integrators.h>
+#include <bdpt/options/option_fields.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "live/frame.h"
+#include "output/render_report.h"
+#include "output/values.h"
+#include "session/session.h"
+#include "stage/render_preparation.h"
+
+namespace bdpt::view {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Maximum path length [edges] of strategies that are shown separately.
+constexpr int strategy_edges = 4;
+
+ordered_json scale_json(const Scale& scale)
+{
+    ordered_json ticks = ordered_json::array();
+    for (const Tick& tick : scale.ticks) {
+        ticks.push_back(ordered_json::array({tick.place, tick.text}));
+    }
+    return {{"label", scale.label}, {"ticks", std::move(ticks)}};
+}
+
+/// Returns the strategies with a vertex on the lens, for paths of up to `edges`.
+std::vector<Strategy> strategies_up_to(int edges)
+{
+    std::vector<Strategy> result;
+    for (int length = 1; length <= edges; ++length) {
+        for (int s = 0; s <= length; ++s) {
+            result.push_back({.s = s, .t = length + 1 - s});
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<Strategy> Session::known_strategies() const
+{
+    return strategies_ ? strategies_->renderer().result().strategies.strategies()
+                       : strategies_up_to(std::min(strategy_edges,
+                                                   scene_.arguments().options.transport.max_depth));
+}
+
+void Session::begin_strategies()
+{
+    constexpr std::uint64_t max_bytes = std::uint64_t{256} << 20U;
+    constexpr std::int64_t samples = 64;
+    RenderArguments arguments = words_of_slot(0).arguments();
+    RenderOptions& options = arguments.options;
+    options.integrator = IntegratorKind::bdpt;
+    options.bidirectional.strategy_depth = std::min(strategy_edges, options.transport.max_depth);
+    options.sampling.rates.reset();
+    options.sampling.samples = {.begin = 0, .end = samples};
+    options.film.aovs = {};
+    options.film.crop.reset();
+    arguments.samples = options.sampling.samples;
+    arguments.goal.noise.reset();
+    for (int divisor = 1;; divisor *= 2) {
+        const Size size = coarse_size(scene_.stage().size, divisor);
+        options.film.width = size.width;
+        options.film.height = size.height;
+        if (size.width * size.height == 1 ||
+            strategy_image_bytes(options, scene_.stage().camera) <= max_bytes) {
+            break;
+        }
+    }
+    strategies_.emplace(std::move(arguments), scene_.stage());
+    const std::vector<Strategy>& there = strategies_->renderer().result().strategies.strategies();
+    if (std::find(there.begin(), there.end(), strategy_) == there.end() && !there.empty()) {
+        strategy_ = there.front();
+    }
+}
+
+void Session::show(std::size_t slot)
+{
+    if (layer_ == ViewLayer::strategy) {
+        if (slot != 0 || !strategies_ || strategies_->renderer().samples() == 0) {
+            return;
+        }
+        const RenderResult& part = strategies_->renderer().result();
+        const std::vector<Strategy>& there = part.strategies.strategies();
+        if (std::find(there.begin(), there.end(), strategy_) != there.end()) {
+            const PixelRect& region = part.film.region();
+            send(0, part.strategies.weighted(strategy_), {},
+                 {.width = region.width(), .height = region.height()}, region,
+                 part.samples.count());
+        }
+        return;
+    }
+    const std::optional<LiveRender>& render = renders_[slot];
+    if (!render || render->renderer().samples() == 0) {
+        return;
+    }
+    const Film& film = render->renderer().result().film;
+    const Size grid = scene_.stage().size;
+    const std::int64_t samples = render->renderer().samples();
+    if (layer_ == ViewLayer::noise) {
+        send(slot, noise_image(film), {}, grid, film.region(), samples);
+    } else if (layer_ == ViewLayer::rates) {
+        if (const auto& rates = render->renderer().options().sampling.rates) {
+            send(slot, rates_image(*rates, film.region()), {}, grid, film.region(), samples);
+        }
+    } else {
+        const Image image = shown_image(render->arguments(), render->renderer().result());
+        if (slot == 0) {
+            meter(image, &*render);
+            tell(true);
+        }
+        const Matte matte = shown_matte(render->arguments(), render->renderer().result());
+        send(slot, image, {.alpha = matte.alpha, .shadow = matte.shadow}, grid, film.region(),
+             samples);
+    }
+}
+
+void Session::show_all()
+{
+    show(0);
+    show(1);
+}
+
+void Session::send(std::size_t slot, const Image& image, const Cover& cover, const Size& grid,
+                   const PixelRect& region, std::int64_t samples)
+{
+    auto frame = std::make_shared<Frame>();
+    frame->slot = static_cast<std::uint32_t>(slot);
+    frame->generation = generation_;
+    frame->grid_width = static_cast<std::uint32_t>(grid.width);
+    frame->grid_height = static_cast<std::uint32_t>(grid.height);
+    frame->x = static_cast<std::uint32_t>(region.x0);
+    frame->y = static_cast<std::uint32_t>(region.y0);
+    frame->width = static_cast<std::uint32_t>(image.width);
+    frame->height = static_cast<std::uint32_t>(image.height);
+    frame->samples = static_cast<std::uint32_t>(
+        std::min<std::int64_t>(samples, std::numeric_limits<std::uint32_t>::max()));
+    frame->channels = cover.alpha.empty() ? 3 : 5;
+    frame->pixels = half_pixels(image, cover);
+    frame->sequences = clients_;
+    shown_samples_.at(slot) = samples;
+    audience_.show(std::move(frame));
+}
+
+void Session::meter(const Image& image, const LiveRender* render)
+{
+    const std::optional<Exposure>& asked = scene_.arguments().display.exposure;
+    if (render != nullptr && !(asked && asked->base == ExposureBase::radiance)) {
+        automatic_exposure_ = compute_exposure(*render, scene_.stage(), image);
+    } else {
+        automatic_exposure_ = io::automatic_exposure(image);
+    }
+    is_metered_ = true;
+}
+
+void Session::tell(bool now)
+{
+    constexpr std::chrono::milliseconds interval{100};
+    const auto time = std::chrono::steady_clock::now();
+    if (!now && time - told_ < interval) {
+        is_untold_ = true;
+        return;
+    }
+    is_untold_ = false;
+    told_ = time;
+    audience_.tell(ordered_json{{"state", state()}}.dump(-1, ' ', false,
+                                                         ordered_json::error_handler_t::replace));
+}
+
+nlohmann::ordered_json Session::state()
+{
+    const auto text_or_null = [](const std::string& text) {
+        return text.empty() ? ordered_json() : ordered_json(text);
+    };
+    const std::string file = words_.text("file");
+    ordered_json state{{"loading", !scene_.is_there() && file_message_.empty()},
+                       {"file", file},
+                       {"title", std::filesystem::path(file).filename().string()},
+                       {"message", text_or_null(file_message_.empty() ? message_ : file_message_)}};
+    if (!scene_.is_there()) {
+        return state;
+    }
+    const PreparedScene& stage = scene_.stage();
+    const RenderArguments& arguments = scene_.arguments();
+    const Pose pose = pose_ ? *pose_ : scene_.pose();
+    if (!is_stale_) {
+        pose_ = pose;  // otherwise it belongs to a moving camera
+    }
+    const DVec3& origin = stage.scene.description().origin;
+    const bool has_fov = stage.camera.projection != Projection::orthographic;
+    state["size"] = {stage.size.width, stage.size.height};
+    state["camera"] = {
+        {"name", stage.camera.name},
+        {"from", to_json(pose.from, origin)},
+        {"look_at", to_json(pose.look_at, origin)},
+        {"fov", has_fov ? ordered_json(degrees(stage.camera.vertical_fov)) : ordered_json()}};
+    for (const IntegratorInfo& integrator : integrators()) {
+        state["integrators"].push_back(integrator.name);
+    }
+    state["integrator_a"] = to_name(arguments.options.integrator);
+    state["integrator_b"] = text_or_null(integrator_b_);
+    std::vector<std::string> environments{"scene", "default", "studio", "none"};
+    if (const std::string own = first_words_.text("--env");
+        !own.empty() && is_file_of_environment(own)) {
+        environments.insert(environments.begin(), own);
+    }
+    state["environments"] = environments;
+    const std::string environment = shown_words_.text("--env");
+    state["environment"] = environment.empty() ? "scene" : environment;
+    state["rotation"] = arguments.environment_change.rotation;
+    state["intensity"] = static_cast<double>(arguments.environment_change.intensity);
+    const std::optional<Exposure>& exposure = arguments.display.exposure;
+    const bool is_automatic = !(exposure && exposure->base == ExposureBase::radiance);
+    state["exposure"] = static_cast<double>(is_automatic ? automatic_exposure_ : exposure->value);
+    state["exposure_auto"] = static_cast<double>(automatic_exposure_);
+    state["exposure_is_auto"] = is_automatic;
+    state["curve"] = io::tone_curve_name(arguments.display.curve);
+    state["background"] = arguments.display.backdrop
+                              ? ordered_json(backdrop_text(*arguments.display.backdrop))
+                              : ordered_json();
+    for (const ViewLayer layer :
+         {ViewLayer::picture, ViewLayer::noise, ViewLayer::rates, ViewLayer::strategy}) {
+        if (layer != ViewLayer::rates || arguments.rates) {
+            state["layers"].push_back(layer_name(layer));
+        }
+    }
+    state["layer"] = layer_name(layer_);
+    state["scale"] = layer_ == ViewLayer::noise   ? scale_json(noise_scale())
+                     : layer_ == ViewLayer::rates ? scale_json(rates_scale())
+                                                  : ordered_json();
+    state["strategies"] = ordered_json::array();
+    for (const Strategy& strategy : known_strategies()) {
+        state["strategies"].push_back({strategy.s, strategy.t});
+    }
+    state["strategy"] = {strategy_.s, strategy_.t};
+    state["paused"] = is_paused_;
+    state["slots"] = ordered_json::array({slot_state(0)});
+    if (!integrator_b_.empty()) {
+        state["slots"].push_back(slot_state(1));
+    }
+    state["warnings"] = stage.warnings;
+    for (const Note& note : stage.notes) {
+        state["warnings"].push_back(note.text);
+    }
+    const auto samples = state["slots"][0]["samples"].get<std::int64_t>();
+    const ViewWords words = words_of_slot(0);
+    state["command"] = words.command(samples > 0 ? samples : arguments.samples.end);
+    state["final_command"] = words.final_command();
+    return state;
+}
+
+nlohmann::ordered_json Session::slot_state(std::size_t slot) const
+{
+    const std::optional<LiveRender>& render = renders_[slot];
+    ordered_json state{
+        {"integrator", render      ? std::string(to_name(render->renderer().options().integrator))
+                       : slot == 1 ? integrator_b_
+                                   : std::string(to_name(scene_.arguments().options.integrator))},
+        {"samples", render ? render->renderer().samples() : 0},
+        {"target", scene_.arguments().samples.end}};
+    state["noise"] = render ? noise_json(render->noise()) : ordered_json();
+    state["seconds"] = render ? render->renderer().seconds() : 0.0;
+    // Pages relate the state to the picture that they have.
+    const bool is_shown = layer_ == ViewLayer::strategy ||
+                          shown_samples_[slot] == state["samples"].get<std::int64_t>();
+    state["done"] = render && render->is_done() && is_shown && !is_stale_;
+    return state;
+}
+
+}  // namespace bdpt::view

@@ -1,0 +1,130 @@
+#include "state/view_words.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "messages/text.h"
+#include "options/job_file.h"
+
+namespace bdpt::view {
+
+ViewWords::ViewWords(const OptionList& given)
+{
+    const RenderOptionList render;
+    for (const Option& option : given.all()) {
+        if (option.given() && render.list.find(option.name()) != nullptr) {
+            texts_[option.name()] = option.texts;
+        }
+    }
+    // Views show any number of samples, and rates that auto chooses need multiples of a group.
+    sets_adaptive_ = !has("--adaptive") && !has("--rates");
+    if (sets_adaptive_) {
+        set("--adaptive", "false");
+    }
+}
+
+void ViewWords::set(std::string_view option, std::string text)
+{
+    texts_.insert_or_assign(std::string(option), std::vector{std::move(text)});
+    arguments_.reset();
+}
+
+void ViewWords::remove(std::string_view option)
+{
+    if (const auto found = texts_.find(option); found != texts_.end()) {
+        texts_.erase(found);
+        arguments_.reset();
+    }
+}
+
+bool ViewWords::has(std::string_view option) const
+{
+    return texts_.find(option) != texts_.end();
+}
+
+std::string ViewWords::text(std::string_view option) const
+{
+    const auto found = texts_.find(option);
+    return found != texts_.end() ? found->second.back() : "";
+}
+
+void ViewWords::give_to(OptionList& options) const
+{
+    for (Option& option : options.all()) {
+        if (const auto found = texts_.find(option.name()); found != texts_.end()) {
+            option.texts = found->second;
+        }
+    }
+    options.store_given();
+}
+
+const RenderArguments& ViewWords::arguments() const
+{
+    if (!arguments_) {
+        RenderOptionList render;
+        const bool is_unlimited = !has("--spp") && !has("--noise");
+        (is_unlimited ? ending_after(view_samples) : *this).give_to(render.list);
+        arguments_ = std::make_shared<const RenderArguments>(checked(render.request, render.list));
+    }
+    return *arguments_;
+}
+
+ViewWords ViewWords::ending_after(std::int64_t samples) const
+{
+    ViewWords result = *this;
+    result.remove("--noise");
+    result.set("--spp", std::to_string(samples));
+    return result;
+}
+
+ViewWords ViewWords::final_words() const
+{
+    ViewWords result = *this;
+    if (sets_adaptive_) {
+        result.remove("--adaptive");
+    }
+    return result;
+}
+
+std::string ViewWords::command(std::int64_t samples) const
+{
+    return ending_after(samples).line();
+}
+
+std::string ViewWords::final_command() const
+{
+    return final_words().line();
+}
+
+std::string ViewWords::line() const
+{
+    RenderOptionList render;
+    give_to(render.list);
+    std::string line = "bdpt render";
+    for (const std::string& word : to_words(render.list)) {
+        line += " " + shell_word(word);
+    }
+    return line;
+}
+
+std::string ViewWords::final_job() const
+{
+    RenderOptionList render;
+    ViewWords absolute = final_words();
+    for (const Option& option : render.list.all()) {
+        const auto found = absolute.texts_.find(option.name());
+        if (found == absolute.texts_.end() || !option.info.is_path) {
+            continue;
+        }
+        for (std::string& text : found->second) {
+            const bool is_word = std::find(option.info.words.begin(), option.info.words.end(),
+                                           text) != option.info.words.end();
+            text = is_word ? text : std::filesystem::absolute(text).lexically_normal().string();
+        }
+    }
+    absolute.give_to(render.list);
+    return job_text(render.list, "job.json");
+}
+
+}  // namespace bdpt::view

@@ -14,7 +14,7 @@
 #include "commands/commands.h"
 #include "machine/machine_limits.h"
 #include "options/option_list.h"
-#include "plan/planned_tasks.h"
+#include "plan/plan.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {

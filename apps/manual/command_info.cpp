@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace bdpt::manual {
 namespace {
@@ -40,31 +41,45 @@ bool is_word(const std::string& choice)
     });
 }
 
-OptionInfo option_info(const app::Option& option)
+constexpr std::string_view command_value = "COMMAND";  // of an argument
+
+job::Option make_flag(std::string names, std::string help)
 {
-    OptionInfo info{.names = split(option.names, ','),
-                    .value = option.value,
-                    .value_may_be_left_out = option.is_flag(),
-                    .repeats = option.repeats,
-                    .text = option.help,
-                    .group = option.is_argument()     ? ""
-                             : option.section.empty() ? "Options"
-                                                      : option.section,
-                    .choices = {}};
-    for (const std::string& choice : split(info.value, '|')) {
-        if (is_word(choice)) {
-            info.choices.push_back(choice);
-        }
-        if (choice == "FILE" || choice == "PART") {
-            info.paths = Paths::files;
-        } else if ((choice == "DIR" || choice == "FOLDER") && info.paths == Paths::none) {
-            info.paths = Paths::folders;
-        }
-    }
-    return info;
+    job::Option flag;
+    flag.names = std::move(names);
+    flag.help = std::move(help);
+    return flag;
 }
 
 }  // namespace
+
+std::vector<std::string> list_names(const job::Option& option)
+{
+    return split(option.names, ',');
+}
+
+std::vector<std::string> list_choices(const job::Option& option)
+{
+    if (!option.info.words.empty() && option.value == command_value) {
+        return option.info.words;
+    }
+    std::vector<std::string> choices = split(option.value, '|');
+    std::erase_if(choices, [](const std::string& choice) { return !is_word(choice); });
+    return choices;
+}
+
+Paths find_paths(const job::Option& option)
+{
+    Paths paths = Paths::none;
+    for (const std::string& choice : split(option.value, '|')) {
+        if (choice == "FILE" || choice == "PART") {
+            paths = Paths::files;
+        } else if ((choice == "DIR" || choice == "FOLDER") && paths == Paths::none) {
+            paths = Paths::folders;
+        }
+    }
+    return paths;
+}
 
 std::string extract_summary(const std::string& text)
 {
@@ -83,21 +98,13 @@ std::string extract_summary(const std::string& text)
 
 CommandInfo describe_program(const app::Program& program)
 {
-    const OptionInfo help{.names = {"-h", "--help"},
-                          .value = "",
-                          .text = "Print this help message and exit",
-                          .group = "Options",
-                          .choices = {}};
-    const OptionInfo version{.names = {"--version"},
-                             .value = "",
-                             .text =
-                                 "Print the versions of bdpt and libraries, and the instruction "
-                                 "set",
-                             .group = "Options",
-                             .choices = {}};
+    std::vector<job::Option> flags{
+        make_flag("-h,--help", "Print this help message and exit"),
+        make_flag("--version",
+                  "Print the versions of bdpt and libraries, and the instruction set")};
     return {.name = program.name,
             .text = program.summary,
-            .options = {help, version},
+            .options = std::move(flags),
             .arguments = {},
             .footer = paragraphs(program.footer)};
 }
@@ -111,25 +118,17 @@ std::vector<CommandInfo> describe_commands(const app::Program& program)
         info.text = command.summary;
         info.options.push_back(describe_program(program).options.front());
         if (!command.essentials.empty()) {
-            info.options.push_back({.names = {"--help-all"},
-                                    .value = "",
-                                    .text = "Print the help of all options",
-                                    .group = "Options",
-                                    .choices = {}});
+            info.options.push_back(make_flag("--help-all", "Print the help of all options"));
         }
         info.footer = paragraphs(command.footer);
-        for (const app::Option& option : command.options.all()) {
-            (option.is_argument() ? info.arguments : info.options).push_back(option_info(option));
+        for (const job::Option& option : command.options.all()) {
+            (option.is_argument() ? info.arguments : info.options).push_back(option);
         }
     }
-    std::vector<std::string> names;
-    for (const CommandInfo& command : commands) {
-        names.push_back(command.name);
-    }
     for (CommandInfo& command : commands) {
-        for (OptionInfo& argument : command.arguments) {
-            if (argument.value == "COMMAND") {
-                argument.choices = names;
+        for (job::Option& argument : command.arguments) {
+            for (std::size_t i = 0; argument.value == command_value && i < commands.size(); ++i) {
+                argument.info.words.push_back(commands[i].name);
             }
         }
     }

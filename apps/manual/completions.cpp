@@ -10,19 +10,19 @@ namespace bdpt::manual {
 namespace {
 
 /// A line of _bdpt_values; empty for flags.
-std::string values(const CommandInfo& command, const OptionInfo& option)
+std::string values(const CommandInfo& command, const job::Option& option)
 {
     if (option.value.empty()) {
         return "";
     }
-    std::string words = fmt::format("{}", fmt::join(option.choices, " "));
-    words += option.paths == Paths::files     ? " @files"
-             : option.paths == Paths::folders ? " @folders"
-                                              : "";
+    std::string words = fmt::format("{}", fmt::join(list_choices(option), " "));
+    words += find_paths(option) == Paths::files     ? " @files"
+             : find_paths(option) == Paths::folders ? " @folders"
+                                                    : "";
     std::string patterns;
-    for (const std::string& name : option.names) {
+    for (const std::string& name : list_names(option)) {
         patterns += fmt::format("{}{}:{}", patterns.empty() ? "" : "|", command.name,
-                                option.group.empty() ? "" : name);
+                                option.is_argument() ? "" : name);
     }
     return fmt::format("    {}) echo \"{}\" ;;\n", patterns, words);
 }
@@ -37,11 +37,11 @@ std::string bash_completion(std::span<const CommandInfo> commands)
     for (const CommandInfo& command : commands) {
         names += (names.empty() ? "" : " ") + command.name;
         std::string own;
-        for (const OptionInfo& option : command.options) {
-            own += (own.empty() ? "" : " ") + option.names.back();
+        for (const job::Option& option : command.options) {
+            own += (own.empty() ? "" : " ") + option.name();
             words += values(command, option);
         }
-        for (const OptionInfo& argument : command.arguments) {
+        for (const job::Option& argument : command.arguments) {
             words += values(command, argument);
         }
         options += fmt::format("    {}) echo \"{}\" ;;\n", command.name, own);
@@ -73,18 +73,20 @@ std::string zsh_quoted(const std::string& text)
 }
 
 /// "message:action" of a value.
-std::string action(const OptionInfo& option)
+std::string action(const job::Option& option)
 {
     std::string words;
-    if (option.paths != Paths::none && !option.choices.empty()) {
+    if (find_paths(option) != Paths::none && !list_choices(option).empty()) {
         // _alternative takes each as one word in double quotes.
         return fmt::format("{}:{{_alternative \"words\\:word\\:({})\" \"files\\:file\\:_files\"}}",
-                           zsh_quoted(option.value), fmt::join(option.choices, " "));
+                           zsh_quoted(option.value), fmt::join(list_choices(option), " "));
     }
-    if (option.paths != Paths::none) {
-        words = option.paths == Paths::folders ? "_files -/" : "_files";
+    if (find_paths(option) != Paths::none) {
+        words = find_paths(option) == Paths::folders ? "_files -/" : "_files";
     } else {
-        words = option.choices.empty() ? " " : fmt::format("({})", fmt::join(option.choices, " "));
+        words = list_choices(option).empty()
+                    ? " "
+                    : fmt::format("({})", fmt::join(list_choices(option), " "));
     }
     return fmt::format("{}:{}", zsh_quoted(option.value), words);
 }
@@ -92,19 +94,16 @@ std::string action(const OptionInfo& option)
 std::string arguments(const CommandInfo& command)
 {
     std::string result;
-    for (const OptionInfo& option : command.options) {
+    for (const job::Option& option : command.options) {
         const std::string value = option.value.empty() ? "" : ":" + action(option);
-        for (const std::string& name : option.names) {
+        for (const std::string& name : list_names(option)) {
             const bool is_long = name.starts_with("--");
-            const char* equals = option.value.empty()           ? ""
-                                 : option.value_may_be_left_out ? "=-"
-                                 : is_long                      ? "="
-                                                                : "";
+            const char* equals = !option.is_flag() && is_long ? "=" : "";
             result += fmt::format("        '*{}{}[{}]{}' \\\n", name, equals,
-                                  zsh_quoted(extract_summary(option.text)), value);
+                                  zsh_quoted(extract_summary(option.help)), value);
         }
     }
-    for (const OptionInfo& argument : command.arguments) {
+    for (const job::Option& argument : command.arguments) {
         result +=
             fmt::format("        '{}:{}' \\\n", argument.repeats ? "*" : "", action(argument));
     }
@@ -142,26 +141,23 @@ std::string fish_quoted(const std::string& text)
     return result + "'";
 }
 
-std::string option_line(const CommandInfo& command, const OptionInfo& option)
+std::string option_line(const CommandInfo& command, const job::Option& option)
 {
     std::string line =
         fmt::format("complete -c bdpt -n '__fish_seen_subcommand_from {}'", command.name);
-    for (const std::string& name : option.names) {
+    for (const std::string& name : list_names(option)) {
         line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
     }
     // -x: a value, and no files; -r -F: a value, and files too.
     if (!option.value.empty()) {
-        line += option.paths == Paths::files     ? " -r -F"
-                : option.paths == Paths::folders ? " -x"
-                : option.value_may_be_left_out   ? ""
-                                                 : " -x";
+        line += find_paths(option) == Paths::files ? " -r -F" : " -x";
     }
-    std::string words = fmt::format("{}", fmt::join(option.choices, " "));
-    words += option.paths == Paths::folders ? "(__fish_complete_directories)" : "";
+    std::string words = fmt::format("{}", fmt::join(list_choices(option), " "));
+    words += find_paths(option) == Paths::folders ? "(__fish_complete_directories)" : "";
     if (!words.empty()) {
         line += " -a " + fish_quoted(words);
     }
-    return line + " -d " + fish_quoted(extract_summary(option.text)) + "\n";
+    return line + " -d " + fish_quoted(extract_summary(option.help)) + "\n";
 }
 
 }  // namespace
@@ -176,15 +172,16 @@ std::string fish_completion(std::span<const CommandInfo> commands)
                               command.name, fish_quoted(command.text));
     }
     for (const CommandInfo& command : commands) {
-        for (const OptionInfo& option : command.options) {
+        for (const job::Option& option : command.options) {
             result += option_line(command, option);
         }
-        for (const OptionInfo& argument : command.arguments) {
-            result += fmt::format("complete -c bdpt -n '__fish_seen_subcommand_from {}'{}{}\n",
-                                  command.name, argument.paths == Paths::files ? " -F" : "",
-                                  argument.choices.empty()
-                                      ? ""
-                                      : fmt::format(" -a '{}'", fmt::join(argument.choices, " ")));
+        for (const job::Option& argument : command.arguments) {
+            result +=
+                fmt::format("complete -c bdpt -n '__fish_seen_subcommand_from {}'{}{}\n",
+                            command.name, find_paths(argument) == Paths::files ? " -F" : "",
+                            list_choices(argument).empty()
+                                ? ""
+                                : fmt::format(" -a '{}'", fmt::join(list_choices(argument), " ")));
         }
     }
     return result;

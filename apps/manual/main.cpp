@@ -9,7 +9,7 @@
 
 #include "commands/commands.h"
 #include "manual.h"
-#include "options/job_file.h"
+#include "options/option_list.h"
 
 namespace bdpt::manual {
 namespace {

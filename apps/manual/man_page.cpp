@@ -60,27 +60,26 @@ std::string header(const std::string& title, const std::string& text)
 }
 
 /// ".TP" with names and value of an option, and its text.
-std::string entry(const OptionInfo& option)
+std::string entry(const job::Option& option)
 {
     std::string names;
-    for (const std::string& name : option.names) {
+    for (const std::string& name : list_names(option)) {
         names += (names.empty() ? "\\fB" : ", \\fB") + escaped(name) + "\\fR";
     }
-    if (!option.value.empty() && !option.group.empty()) {
-        const bool optional = option.value_may_be_left_out;
-        names += fmt::format("{}\\fI{}\\fR{}", optional ? "[=" : " ", escaped(option.value),
-                             optional ? "]" : "");
+    if (!option.is_flag() && !option.is_argument()) {
+        names += fmt::format(" \\fI{}\\fR", escaped(option.value));
     }
-    return fmt::format(".TP\n{}\n{}.\n", names, escaped(option.text));
+    return fmt::format(".TP\n{}\n{}.\n", names, escaped(option.help));
 }
 
 std::string options(const CommandInfo& command)
 {
     std::string result;
     std::string group;
-    for (const OptionInfo& option : command.options) {
-        if (option.group != group) {
-            group = option.group;
+    for (const job::Option& option : command.options) {
+        const std::string own = option.section.empty() ? "Options" : option.section;
+        if (own != group) {
+            group = own;
             result += fmt::format(".SH \"{}\"\n", in_capitals(group));
         }
         result += entry(option);
@@ -91,10 +90,8 @@ std::string options(const CommandInfo& command)
 std::string format_synopsis(const CommandInfo& command)
 {
     std::string result = fmt::format("\\fBbdpt {}\\fR [\\fIOPTION\\fR]...", command.name);
-    for (const OptionInfo& argument : command.arguments) {
-        const bool optional = argument.value_may_be_left_out;
-        result += fmt::format(" {}\\fI{}\\fR{}{}", optional ? "[" : "",
-                              escaped(in_capitals(argument.names.front())), optional ? "]" : "",
+    for (const job::Option& argument : command.arguments) {
+        result += fmt::format(" \\fI{}\\fR{}", escaped(in_capitals(argument.names)),
                               argument.repeats ? "..." : "");
     }
     return ".SH SYNOPSIS\n" + result + "\n";
@@ -158,9 +155,9 @@ std::string man_page(const CommandInfo& command)
     result += format_synopsis(command) + description(command);
     if (!command.arguments.empty()) {
         result += ".SH ARGUMENTS\n";
-        for (const OptionInfo& argument : command.arguments) {
-            OptionInfo shown = argument;
-            shown.names = {in_capitals(argument.names.front())};
+        for (const job::Option& argument : command.arguments) {
+            job::Option shown = argument;
+            shown.names = in_capitals(argument.names);
             result += entry(shown);
         }
     }

@@ -13,26 +13,22 @@ namespace bdpt::manual {
 /// What a shell offers as the value of an option beside its words.
 enum class Paths : std::uint8_t { none, files, folders };
 
-/// An option of a command, or an argument without a name before it.
-struct OptionInfo {
-    std::vector<std::string> names;  ///< "-o", "--output"; of an argument its word, "file"
-    std::string value;               ///< "FILE"; empty: a flag
-    bool value_may_be_left_out = false;
-    bool repeats = false;
-    std::string text;                  ///< what it does
-    std::string group;                 ///< title in the help text; empty for arguments
-    std::vector<std::string> choices;  ///< words that the value may be
-    Paths paths = Paths::none;
-};
-
 /// A command of bdpt, as its help text tells of it.
 struct CommandInfo {
     std::string name;  ///< "render"
     std::string text;  ///< what it does, in a line
-    std::vector<OptionInfo> options;
-    std::vector<OptionInfo> arguments;
+    std::vector<job::Option> options;
+    std::vector<job::Option> arguments;
     std::vector<std::string> footer;  ///< paragraphs after the options
 };
+
+/// Returns the names of an option: "-o", "--output"; of an argument its word, "file".
+[[nodiscard]] std::vector<std::string> list_names(const job::Option& option);
+
+/// Returns the words that the value of `option` may be.
+[[nodiscard]] std::vector<std::string> list_choices(const job::Option& option);
+
+[[nodiscard]] Paths find_paths(const job::Option& option);
 
 /// The first sentence of `text`, without what is in brackets: a line of a menu.
 [[nodiscard]] std::string extract_summary(const std::string& text);

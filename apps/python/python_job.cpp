@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "interpreter_lock.h"
-#include "options/job_file.h"
+#include "options/option_list.h"
 #include "python_scene.h"
 #include "words.h"
 

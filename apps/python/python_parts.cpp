@@ -20,7 +20,7 @@
 #include "arrays.h"
 #include "attributes.h"
 #include "machine/machine_limits.h"
-#include "options/groups/camera_arguments.h"
+#include "options/groups/view_arguments.h"
 #include "python_scene.h"
 
 namespace bdpt::python {

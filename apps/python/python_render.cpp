@@ -22,14 +22,12 @@
 #include "messages/console.h"
 #include "options/groups/sequence_arguments.h"
 #include "options/output_files.h"
-#include "options/part_arguments.h"
-#include "output/image/denoised.h"
-#include "output/image/display_sources.h"
-#include "output/image/image_files.h"
-#include "output/part/part_collection.h"
+#include "options/render_arguments.h"
+#include "output/image_files.h"
+#include "output/parts.h"
 #include "output/render_report.h"
 #include "python_render.h"
-#include "stage/render_preparation.h"
+#include "stage/prepared_scene.h"
 
 namespace bdpt::python {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "options/groups/display_arguments.h"
+#include "options/groups/image_arguments.h"
 #include "options/render_arguments.h"
 #include "python_scene.h"
 

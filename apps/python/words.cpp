@@ -10,8 +10,8 @@
 #include <map>
 
 #include "messages/text.h"
-#include "options/groups/camera_arguments.h"
-#include "options/job_file.h"
+#include "options/groups/view_arguments.h"
+#include "options/option_list.h"
 #include "options/value_types.h"
 
 namespace bdpt::python {

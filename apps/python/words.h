@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "options/groups/display_arguments.h"
+#include "options/groups/image_arguments.h"
 #include "options/render_arguments.h"
 
 namespace bdpt::python {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "options/groups/display_arguments.h"
+#include "options/groups/image_arguments.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"

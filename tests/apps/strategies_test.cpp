@@ -324,7 +324,7 @@ TEST_CASE("images of strategies are made of as long paths as memory is allowed f
     options.film.width = 100;
     options.film.height = 10;
     const CameraDesc camera;
-    StrategyFiles files{.layers = "a.exr", .sheet = "a.png", .depth = {}};
+    StrategyFiles files{.layers = "a.exr", .depth = {}};
     constexpr std::uint64_t of_one = 1000 * 120;  // strategy
     CHECK(strategy_depth(files, options, camera).edges == 5);
     CHECK_FALSE(strategy_depth(files, options, camera).warning);

@@ -1,4 +1,4 @@
-#include "options/groups/camera_arguments.h"
+#include "options/groups/view_arguments.h"
 
 #include <bdpt/error.h>
 

@@ -1,6 +1,6 @@
 // What a denoiser is given where pixels show something in part.
 
-#include "output/image/denoised.h"
+#include "output/image_files.h"
 
 #include <cstddef>
 #include <utility>

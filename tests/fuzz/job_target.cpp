@@ -4,7 +4,7 @@
 
 #include "fuzz_target.h"
 #include "input_file.h"
-#include "options/job_file.h"
+#include "options/option_list.h"
 #include "options/render_arguments.h"
 #include "promises.h"
 

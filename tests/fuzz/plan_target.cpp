@@ -7,11 +7,9 @@
 
 #include "fuzz_target.h"
 #include "input_file.h"
-#include "options/part_arguments.h"
 #include "options/render_arguments.h"
 #include "parser/command_parser.h"
 #include "plan/plan.h"
-#include "plan/planned_tasks.h"
 #include "promises.h"
 
 using namespace bdpt;
@@ -49,7 +47,7 @@ void check_render(const std::string& file)
 
 void check_merge(const std::string& file)
 {
-    MergeRequest request;
+    MergeArguments request;
     OptionList options;
     add_merge_options(options, request);
     parse_with_plan(options, {"bdpt", "merge", "--plan", file});

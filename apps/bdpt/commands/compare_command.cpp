@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "options/output_files.h"
-#include "options/part_arguments.h"
-#include "report/eval_text.h"
+#include "options/render_arguments.h"
+#include "report/reports.h"
 
 namespace bdpt::app {
 namespace {
@@ -27,17 +27,12 @@ struct CompareArguments {
     std::filesystem::path image{};  ///< an image, or a folder of images
     std::filesystem::path reference{};
     std::optional<std::string> layer{};
+    std::optional<std::vector<eval::Metric>> metrics{};  ///< none: all
     eval::ComparisonOptions options{};
     std::vector<eval::Threshold> thresholds{};
     std::optional<std::filesystem::path> error_image{};
     double scale = 1.0;  ///< scale of the error image
     Printed printed{};
-};
-
-/// Options of `bdpt compare`, as given.
-struct CompareRequest {
-    CompareArguments arguments{};
-    std::optional<std::vector<eval::Metric>> metrics{};  ///< none: all
 };
 
 constexpr int threshold_exceeded = 10;  // exit code
@@ -74,12 +69,11 @@ ValueType<double> positive()
     return number_above(0.0, std::numeric_limits<double>::max(), "a number above 0");
 }
 
-void add_measures(OptionList& options, CompareRequest& request)
+void add_measures(OptionList& options, CompareArguments& arguments)
 {
-    CompareArguments& arguments = request.arguments;
     eval::MetricOptions& scale = arguments.options.scale;
     options.section("What to measure");
-    options.add("--metrics", "LIST", "Metrics, comma-separated. Default: all", request.metrics,
+    options.add("--metrics", "LIST", "Metrics, comma-separated. Default: all", arguments.metrics,
                 parsed_by(parse_metrics,
                           "a comma-separated list of relmse, relmse_scales, mse, rmse, mape, "
                           "smape, psnr, flip and flip_ldr"));
@@ -156,9 +150,8 @@ Exit codes: 0 done, 10 a threshold was exceeded (all output has been written), 2
 not found, 4 invalid input (also: sizes that differ, NaN, infinity), 5 unsupported file, 6 output
 cannot be written, 7 out of memory.)";
 
-void add_compare_options(OptionList& options, CompareRequest& request)
+void add_compare_options(OptionList& options, CompareArguments& arguments)
 {
-    CompareArguments& arguments = request.arguments;
     options
         .add("image", "FILE|DIR",
              "The image to evaluate (.exr, .hdr, .png, .jpg or .webp), or a folder",
@@ -166,15 +159,16 @@ void add_compare_options(OptionList& options, CompareRequest& request)
         .required = true;
     options.add("reference", "FILE", "The reference image", arguments.reference, any_text())
         .required = true;
-    add_measures(options, request);
+    add_measures(options, arguments);
     add_output(options, arguments);
 }
 
-CompareArguments checked(const CompareRequest& request, const OptionList& /*options*/)
+/// Adds the metrics of thresholds to those that are measured.
+CompareArguments checked(const CompareArguments& arguments, const OptionList& /*options*/)
 {
-    CompareArguments result = request.arguments;
+    CompareArguments result = arguments;
     std::vector<eval::Metric>& metrics = result.options.metrics;
-    metrics = request.metrics.value_or(
+    metrics = arguments.metrics.value_or(
         std::vector<eval::Metric>(eval::all_metrics.begin(), eval::all_metrics.end()));
     for (const eval::Threshold& threshold : result.thresholds) {
         if (threshold.kind == eval::ThresholdKind::metric &&
@@ -264,9 +258,9 @@ int run_compare(const CompareArguments& arguments)
 
 void add_compare_command(Program& program)
 {
-    add_command<CompareRequest>(program, "compare",
-                                "Measure the error of images against a reference", compare_footer,
-                                add_compare_options, checked_by(run_compare));
+    add_command<CompareArguments>(program, "compare",
+                                  "Measure the error of images against a reference", compare_footer,
+                                  add_compare_options, checked_by(run_compare));
 }
 
 }  // namespace bdpt::app

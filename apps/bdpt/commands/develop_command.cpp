@@ -11,13 +11,10 @@
 #include <vector>
 
 #include "options/output_files.h"
-#include "options/part_arguments.h"
-#include "output/image/denoised.h"
-#include "output/image/display_sources.h"
-#include "output/image/image_files.h"
+#include "options/render_arguments.h"
+#include "output/image_files.h"
 #include "output/values.h"
 #include "terminal/console.h"
-#include "terminal/interrupt.h"
 
 namespace bdpt::app {
 namespace {

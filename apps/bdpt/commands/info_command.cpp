@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "machine/machine_limits.h"
-#include "options/groups/scene_arguments.h"
+#include "options/groups/view_arguments.h"
 #include "options/value_types.h"
-#include "report/scene_report.h"
+#include "report/reports.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {

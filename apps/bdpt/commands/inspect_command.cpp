@@ -12,27 +12,20 @@
 
 #include "options/groups/transport_arguments.h"
 #include "options/output_files.h"
-#include "output/inspect_report.h"
+#include "output/render_report.h"
 #include "stage/prepared_scene.h"
-#include "stage/render_preparation.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {
 namespace {
 
-/// Arguments of `bdpt inspect`.
-struct InspectArguments {
-    RenderArguments stage{};  ///< scene, view and render options
+/// Options of `bdpt inspect`, as given.
+struct InspectRequest {
+    RenderRequest render{};  ///< options shared with `bdpt render`; the rest is unused
     PixelSample sample{};
     std::optional<std::filesystem::path> directions{};  ///< .png or .exr
     int vertex = 1;   ///< index of the vertex whose directions are shown
     int width = 512;  ///< width of images of directions [pixels]
-};
-
-/// Options of `bdpt inspect`, as given.
-struct InspectRequest {
-    RenderRequest render{};  ///< options shared with `bdpt render`; the rest is unused
-    InspectArguments arguments{};
 };
 
 constexpr int widest = 8192;
@@ -49,7 +42,7 @@ std::optional<std::pair<int, int>> parse_pixel(const std::string& text)
                : std::nullopt;
 }
 
-void add_what(OptionList& options, InspectArguments& arguments)
+void add_what(OptionList& options, InspectRequest& arguments)
 {
     options.section("What to inspect");
     PixelSample& sample = arguments.sample;
@@ -96,7 +89,7 @@ void add_inspect_options(OptionList& options, InspectRequest& request)
     RenderRequest& render = request.render;
     RenderOptions& render_options = render.arguments.options;
     add_scene_file(options, render);
-    add_what(options, request.arguments);
+    add_what(options, request);
     options.section("How to render");
     add_fields(options, render_options, std::array<std::string_view, 2>{"seed", "threads"});
     add_transport_options(options, render_options, render.only);
@@ -109,17 +102,7 @@ void add_inspect_options(OptionList& options, InspectRequest& request)
                     "Print one JSON object on stdout instead of text");
 }
 
-InspectArguments checked(const InspectRequest& request, const OptionList& options)
-{
-    InspectArguments result = request.arguments;
-    result.stage = checked(request.render, options);
-    if (result.width % 2 != 0) {
-        options.reject_value("--width", "an even number");
-    }
-    return result;
-}
-
-void write_directions(const InspectArguments& arguments, const PreparedScene& stage,
+void write_directions(const InspectRequest& arguments, const PreparedScene& stage,
                       const RenderOptions& options)
 {
     const DirectionMaps maps = inspect_directions(
@@ -139,9 +122,12 @@ void write_directions(const InspectArguments& arguments, const PreparedScene& st
     static_cast<void>(io::write_exr(file, maps.product, direction_layers(maps), exr));
 }
 
-int run_inspect(const InspectArguments& arguments)
+int run_inspect(const InspectRequest& arguments, const OptionList& given, const Words& /*words*/)
 {
-    const RenderArguments& what = arguments.stage;
+    const RenderArguments what = checked(arguments.render, given);
+    if (arguments.width % 2 != 0) {
+        given.reject_value("--width", "an even number");
+    }
     const auto check_directions = [&](const FileSet& inputs) {
         if (arguments.directions) {
             check_outputs(std::array{*arguments.directions}, inputs);
@@ -181,7 +167,7 @@ int run_inspect(const InspectArguments& arguments)
 void add_inspect_command(Program& program)
 {
     add_command<InspectRequest>(program, "inspect", "Print the paths of one sample of a pixel",
-                                inspect_footer, add_inspect_options, checked_by(run_inspect));
+                                inspect_footer, add_inspect_options, run_inspect);
 }
 
 }  // namespace bdpt::app

@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "messages/text.h"
-#include "options/job_file.h"
+#include "options/option_list.h"
 #include "options/output_files.h"
 #include "output/render_report.h"
-#include "parser/foreign_words.h"
+#include "parser/command_parser.h"
 #include "run/run_render.h"
-#include "stage/render_preparation.h"
-#include "terminal/interrupt.h"
+#include "stage/prepared_scene.h"
+#include "terminal/console.h"
 
 namespace bdpt::app {
 namespace {

@@ -8,10 +8,9 @@
 
 #include "messages/text.h"
 #include "options/groups/transport_arguments.h"
-#include "report/eval_text.h"
+#include "report/reports.h"
 #include "stage/prepared_scene.h"
-#include "stage/render_preparation.h"
-#include "terminal/interrupt.h"
+#include "terminal/console.h"
 
 namespace bdpt::app {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <string>
 
-#include "options/job_file.h"
+#include "options/option_list.h"
 #include "options/render_arguments.h"
 #include "options/value_types.h"
 #include "terminal/console.h"
@@ -17,17 +17,11 @@
 namespace bdpt::app {
 namespace {
 
-/// Arguments of `bdpt view`.
-struct ViewArguments {
-    NetworkAddress listen{.host = "127.0.0.1", .port = "0"};
-    bool opens_browser = false;
-    RenderArguments stage{};
-};
-
 /// Options of `bdpt view`, as given.
 struct ViewRequest {
     RenderRequest render{};  ///< options shared with `bdpt render`; the rest is unused
-    ViewArguments arguments{};
+    NetworkAddress listen{.host = "127.0.0.1", .port = "0"};  ///< port 0: any free one
+    bool opens_browser = false;
 };
 
 /// Options of `bdpt render` about its files, its processes and its sequences.
@@ -85,10 +79,9 @@ void add_view_options(OptionList& options, ViewRequest& request)
     options.section("Server", {.stated_in = StatedIn::command_line});
     options.add("--listen", "HOST[:PORT]|PORT",
                 "Address to listen on. Default: 127.0.0.1 (this machine only) and any free port",
-                request.arguments.listen,
+                request.listen,
                 parsed_by(parse_listen_address, "HOST, HOST:PORT or PORT, like 127.0.0.1:8080"));
-    options.add_flag("--open", "Show the page in the browser (xdg-open)",
-                     request.arguments.opens_browser);
+    options.add_flag("--open", "Show the page in the browser (xdg-open)", request.opens_browser);
 }
 
 /// Stores the picture's options of the job in `file` into `options`, those of `bdpt view`, except
@@ -96,31 +89,11 @@ void add_view_options(OptionList& options, ViewRequest& request)
 /// Throws `Error` like `load_job`.
 void load_viewed_job(const std::filesystem::path& file, OptionList& options)
 {
-    const auto copy_texts = [](const OptionList& from, OptionList& to) {
-        for (Option& option : to.all()) {
-            if (const Option* same = from.find(option.name())) {
-                option.texts = same->texts;
-            }
-        }
-    };
     RenderOptionList render;
-    copy_texts(options, render.list);
+    render.list.take_texts(options);
     load_job(file, render.list);
-    copy_texts(render.list, options);
+    options.take_texts(render.list);
     options.store_given();
-}
-
-ViewArguments checked(const ViewRequest& request, const OptionList& options)
-{
-    ViewArguments result = request.arguments;
-    result.stage = checked(request.render, options);
-    for (const std::string& file :
-         {result.stage.file.string(), result.stage.environment.value_or("")}) {
-        if (file == "-") {
-            throw OptionError("-: the standard input cannot be read again; name a file");
-        }
-    }
-    return result;
 }
 
 /// Opens `url` in the desktop's browser; returns false on failure.
@@ -139,12 +112,15 @@ int run_view(ViewRequest& request, OptionList& options, const Words& /*words*/)
     if (const std::filesystem::path file = request.render.arguments.file; is_job(file)) {
         load_viewed_job(file, options);
     }
-    const ViewArguments arguments = checked(request, options);
-    TerminalConsole console(Format::text, arguments.stage.printed.verbosity);
-    view::serve(options, arguments.listen, console, [&](const view::PageAddress& page) {
+    const RenderArguments shown = checked(request.render, options);
+    if (shown.file == "-" || shown.environment == "-") {
+        throw OptionError("-: the standard input cannot be read again; name a file");
+    }
+    TerminalConsole console(Format::text, shown.printed.verbosity);
+    view::serve(options, request.listen, console, [&](const view::PageAddress& page) {
         print_text(page.url + "\n");
         std::fflush(stdout);
-        if (arguments.opens_browser && !open_in_browser(page.url_once)) {
+        if (request.opens_browser && !open_in_browser(page.url_once)) {
             console.warning("there is no xdg-open: open the address in a browser");
         }
     });

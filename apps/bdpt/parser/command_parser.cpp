@@ -12,7 +12,6 @@
 
 #include "messages/text.h"
 #include "options/value_types.h"
-#include "parser/foreign_words.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {

@@ -1,4 +1,4 @@
-#include "parser/foreign_words.h"
+#include "parser/command_parser.h"
 
 #include <fmt/core.h>
 

@@ -1,8 +1,9 @@
-#include "report/eval_text.h"
+#include "report/reports.h"
 
 #include <bdpt/eval/bench_report.h>
 #include <bdpt/eval/verify.h>
 #include <bdpt/options/option_fields.h>
+#include <bdpt/options/option_text.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -91,7 +92,7 @@ std::string tiles_text(const ComparisonReport& report)
     std::string result = fmt::format("worst tiles of {0} x {0} by {1}\n", report.tile_size,
                                      to_string(report.map_metric));
     for (const eval::TileError& tile : report.worst_tiles) {
-        result += fmt::format("  {:<24}{:>12.4g}\n", rect_text(tile.tile), tile.value);
+        result += fmt::format("  {:<24}{:>12.4g}\n", option_text(tile.tile), tile.value);
     }
     if (report.biased_tiles.empty()) {
         return result;
@@ -99,10 +100,10 @@ std::string tiles_text(const ComparisonReport& report)
     result += fmt::format("\n{:<26}{:<8}{:>12}{:>16}{:>8}{:>10}\n", "tiles by bias", "channel",
                           "bias", "standard error", "t", "p (Holm)");
     for (const eval::TileBias& tile : report.biased_tiles) {
-        result +=
-            fmt::format("  {:<24}{:<8}{:>12.4g}{:>16.4g}{:>8.3g}{:>10.3g}\n", rect_text(tile.tile),
-                        channel_names[static_cast<std::size_t>(tile.channel)], tile.bias,
-                        tile.standard_error, tile.t, tile.p);
+        result += fmt::format("  {:<24}{:<8}{:>12.4g}{:>16.4g}{:>8.3g}{:>10.3g}\n",
+                              option_text(tile.tile),
+                              channel_names[static_cast<std::size_t>(tile.channel)], tile.bias,
+                              tile.standard_error, tile.t, tile.p);
     }
     return result;
 }
@@ -256,7 +257,7 @@ void add_failures(const std::string& name, const MeanComparison& whole,
     }
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         if (fails(tiles[i], report)) {
-            lines.push_back(line("tile " + rect_text(report.tiles[i]), tiles[i]));
+            lines.push_back(line("tile " + option_text(report.tiles[i]), tiles[i]));
         }
     }
 }

@@ -1,4 +1,4 @@
-#include "report/scene_report.h"
+#include "report/reports.h"
 
 #include <bdpt/default_lights.h>
 #include <fmt/core.h>
@@ -142,8 +142,7 @@ struct LightJson {
     }
 };
 
-}  // namespace
-
+/// Returns `light` without the pixels of an environment.
 LightDesc without_pixels(const LightDesc& light)
 {
     if (const auto* environment = std::get_if<EnvironmentLightDesc>(&light)) {
@@ -154,15 +153,19 @@ LightDesc without_pixels(const LightDesc& light)
     return light;
 }
 
+/// Returns a light as a line for people.
 std::string light_text(const LightDesc& light, const DVec3& origin)
 {
     return std::visit(LightText{origin}, light);
 }
 
+/// Returns a light as an object: "kind" and its properties by kind.
 ordered_json light_json(const LightDesc& light, const DVec3& origin)
 {
     return std::visit(LightJson{origin}, light);
 }
+
+}  // namespace
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "terminal/interrupt.h"
+#include "terminal/console.h"
 
 #include <poll.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "options/groups/film_arguments.h"
+#include "options/groups/image_arguments.h"
 
 #include <bdpt/options/option_fields.h>
 

@@ -15,12 +15,9 @@
 #include "live/frame.h"
 #include "live/live_render.h"
 #include "live/live_scene.h"
-#include "live/mailbox.h"
 #include "scratch_folder.h"
-#include "server/access.h"
 #include "server/server.h"
-#include "state/page_request.h"
-#include "state/view_camera.h"
+#include "state/view_state.h"
 
 namespace bdpt::view::live_view_parts_test {
 namespace {
@@ -258,7 +255,8 @@ TEST_CASE("requests of pages are checked", "[live_view]")
     REQUIRE(set.settings);
     CHECK_FALSE(set.changes_picture());
     CHECK(set.settings->integrator_b == "");
-    CHECK(set.settings->exposure == "1.5");
+    CHECK(set.settings->options ==
+          std::vector<std::pair<std::string, std::string>>{{"--exposure", "1.5"}});
     CHECK(set.settings->layer == ViewLayer::noise);
     CHECK(parse_request(R"({"inspect": [3, 4], "sample": 9})").inspect->index == 9);
 

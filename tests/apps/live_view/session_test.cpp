@@ -19,7 +19,7 @@
 
 #include "catch.hpp"
 #include "commands/commands.h"
-#include "options/job_file.h"
+#include "options/option_list.h"
 #include "options/render_arguments.h"
 #include "scene_files.h"
 #include "scratch_folder.h"

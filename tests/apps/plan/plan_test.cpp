@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -411,6 +412,23 @@ TEST_CASE("words about plans that make no sense are refused, and nothing is writ
     write_text(folder / "job" / "plan.json", "");
     check_refused(render_task(folder, "0"), 4,
                   {"plan.json: JSON: ends in the middle, after 0 bytes"});
+}
+
+TEST_CASE("a template takes the place of the file of its name, and gets the values of the plan")
+{
+    const ScratchFolder folder;
+    fs::create_directory(folder / "mine");
+    std::ofstream(folder / "mine/Makefile") << "@COUNT@ to @LAST@:@TASKS@ @OTHER@\n";
+    checked(plan(folder, {"--template", path(folder, "mine/Makefile"), "--quiet"}));
+    std::ifstream written(folder / "job/Makefile");
+    std::string line;
+    std::getline(written, line);
+    CHECK(line == "3 to 2: task-0 task-1 task-2 @OTHER@");
+    const Outcome other = plan(folder, {"--template", path(folder, "mine/tasks.sbatch")});
+    CHECK(other.exit_code == 2);
+    CHECK(contains(other.err, "expected a file with the name Makefile"));
+    fs::remove(folder / "mine/Makefile");
+    checked(plan(folder, {"--template", path(folder, "mine/Makefile")}), 3);
 }
 
 }  // namespace

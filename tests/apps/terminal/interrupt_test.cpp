@@ -18,7 +18,6 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 #include "terminal/console.h"
-#include "terminal/interrupt.h"
 
 namespace bdpt::test::interrupt_test {
 namespace {

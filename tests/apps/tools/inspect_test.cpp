@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "image_files.h"
-#include "output/inspect_report.h"
+#include "output/render_report.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "report/eval_text.h"
+#include "report/reports.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"

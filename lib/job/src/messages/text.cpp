@@ -124,11 +124,6 @@ std::string shell_word(const std::string& word)
     return result + "'";
 }
 
-std::string rect_text(const PixelRect& rect)
-{
-    return fmt::format("{},{},{},{}", rect.x0, rect.y0, rect.x1, rect.y1);
-}
-
 std::string clock_time(double seconds)
 {
     // Longer times are shown as a week; also excludes infinity from the conversion.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <bdpt/pixel_rect.h>
-
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -20,9 +18,6 @@ namespace bdpt::job {
 
 /// Quotes `word` for a shell.
 [[nodiscard]] std::string shell_word(const std::string& word);
-
-/// Returns "x0,y0,x1,y1".
-[[nodiscard]] std::string rect_text(const PixelRect& rect);
 
 /// Wraps the words of `text` to lines of up to `columns`.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t columns);

@@ -1,4 +1,4 @@
-#include "options/job_file.h"
+#include "options/option_list.h"
 
 #include <fmt/core.h>
 

@@ -187,6 +187,15 @@ void OptionList::reject_value(std::string_view name, std::string_view expected) 
     reject(name, at(name).texts.back(), expected);
 }
 
+void OptionList::take_texts(const OptionList& other)
+{
+    for (Option& option : options_) {
+        if (const Option* same = other.find(option.name())) {
+            option.texts = same->texts;
+        }
+    }
+}
+
 void OptionList::store_given()
 {
     for (Option& option : options_) {

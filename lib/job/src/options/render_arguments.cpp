@@ -2,8 +2,10 @@
 
 #include <bdpt/options/option_text.h>
 #include <bdpt/part/sample_rates.h>
+#include <fmt/core.h>
 
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "machine/machine_limits.h"
@@ -11,6 +13,7 @@
 #include "options/value_types.h"
 
 namespace bdpt::job {
+
 namespace {
 
 constexpr OptionUses of_render{.plan_render = true, .python_render = true};
@@ -360,6 +363,70 @@ RenderArguments render_arguments(const std::vector<std::string>& words)
 bool is_file_of_environment(const std::string& environment)
 {
     return environment != "none" && environment != "default" && environment != "studio";
+}
+
+void add_part_options(OptionList& options, PartChoice& part)
+{
+    options
+        .add("--part", "FILE",
+             "Checkpoint file (.exr): written while rendering; if it exists, the render resumes "
+             "from it (after a crash, or with more --spp). bdpt merge reads it, too. Without -o "
+             "only this file is written",
+             part.file, file_named({".exr"}, "a file name that ends in .exr, best in .part.exr"))
+        .uses.stated_in = StatedIn::own_folder;
+    options
+        .add_flag("--restart", "Replace the file of --part instead of resuming from it",
+                  part.existing, on_or_off(ExistingPart::restart, ExistingPart::go_on))
+        .uses.stated_in = StatedIn::programs;
+    options
+        .add("--plan", "FILE",
+             "Render one task of this plan (bdpt plan), which sets all but --threads, "
+             "--max-memory, --stats, --ktx-library, --allow-folder, --restart, --quiet, --verbose "
+             "and "
+             "--json",
+             part.plan, any_text())
+        .uses.stated_in = StatedIn::command_line;
+    options
+        .add("--task", "N|env:NAME",
+             "Task of --plan, counted from 0, or the environment variable that holds its number",
+             part.task, any_text())
+        .uses.stated_in = StatedIn::command_line;
+}
+
+std::optional<PartChoice> checked(const PartChoice& part, const OptionList& options)
+{
+    static constexpr std::array needs{Need{"--task", "--plan"}, Need{"--restart", "--part"}};
+    if (options.find("--part") != nullptr) {  // the --restart of bdpt plan is a different option
+        check(needs, options);
+    }
+    return options.given("--part") ? std::optional(part) : std::nullopt;
+}
+
+void add_half_option(OptionList& options, ExrFormat& exr)
+{
+    options.add_flag("--half", "Store .exr as 16-bit floats", exr.channel_type,
+                     on_or_off(io::ExrChannelType::half_float, io::ExrChannelType::single_float));
+}
+
+void add_tiled_option(OptionList& options, ExrFormat& exr)
+{
+    options.add_flag("--tiled", "Store .exr in tiles, for programs that read parts of it",
+                     exr.storage, on_or_off(io::ExrStorage::tiles, io::ExrStorage::scanlines));
+}
+
+void add_quiet_option(OptionList& options, Printed& printed, std::string help)
+{
+    options
+        .add_flag("-q,--quiet", std::move(help), printed.verbosity,
+                  on_or_off(Verbosity::quiet, Verbosity::normal))
+        .uses = {.stated_in = StatedIn::command_line};
+}
+
+void add_json_option(OptionList& options, Printed& printed, std::string help)
+{
+    options
+        .add_flag("--json", std::move(help), printed.format, on_or_off(Format::json, Format::text))
+        .uses = {.stated_in = StatedIn::command_line};
 }
 
 }  // namespace bdpt::job

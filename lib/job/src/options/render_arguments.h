@@ -2,11 +2,14 @@
 
 #include <bdpt/io/gltf.h>
 #include <bdpt/io/read_limits.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/isa.h>
 #include <bdpt/medium_desc.h>
+#include <bdpt/part/sample_set.h>
 #include <bdpt/render.h>
 #include <bdpt/render_options.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -14,17 +17,84 @@
 #include <vector>
 
 #include "messages/console.h"
-#include "options/groups/camera_arguments.h"
-#include "options/groups/display_arguments.h"
-#include "options/groups/film_arguments.h"
-#include "options/groups/scene_arguments.h"
+#include "options/groups/image_arguments.h"
 #include "options/groups/sequence_arguments.h"
 #include "options/groups/transport_arguments.h"
+#include "options/groups/view_arguments.h"
 #include "options/option_list.h"
-#include "options/part_arguments.h"
 #include "options/value_types.h"
 
 namespace bdpt::job {
+
+/// Treatment of an existing part file by the render that would write it.
+enum class ExistingPart : std::uint8_t { go_on, restart };
+
+/// The part file that a render continues.
+struct PartChoice {
+    std::filesystem::path file{};
+    ExistingPart existing = ExistingPart::go_on;
+    std::optional<std::filesystem::path> plan{};  ///< plan that the render must belong to
+    std::string task{};  ///< task in the plan: its number, or where to find it
+};
+
+/// Adds --part, --restart, --plan and --task.
+void add_part_options(OptionList& options, PartChoice& part);
+
+/// Returns `part` if --part is given. Throws `OptionError`.
+[[nodiscard]] std::optional<PartChoice> checked(const PartChoice& part, const OptionList& options);
+
+/// Storage of .exr files.
+struct ExrFormat {
+    io::ExrChannelType channel_type = io::ExrChannelType::single_float;
+    io::ExrStorage storage = io::ExrStorage::scanlines;
+};
+
+/// Adds --half.
+void add_half_option(OptionList& options, ExrFormat& exr);
+/// Adds --tiled.
+void add_tiled_option(OptionList& options, ExrFormat& exr);
+
+/// Output of a command on its streams.
+struct Printed {
+    Format format = Format::text;
+    Verbosity verbosity = Verbosity::normal;
+};
+
+/// Adds -q,--quiet; `help` says what is still printed.
+void add_quiet_option(OptionList& options, Printed& printed,
+                      std::string help = "Print errors only");
+/// Adds --json; `help` says what is printed.
+void add_json_option(OptionList& options, Printed& printed, std::string help);
+
+/// Treatment of a merge with missing samples.
+enum class Incomplete : std::uint8_t { refuse, write };
+
+/// Arguments of `bdpt merge`.
+struct MergeArguments {
+    std::vector<std::filesystem::path> parts{};
+    std::vector<std::filesystem::path> outputs{};
+    StrategyFiles strategies{};
+    std::optional<std::filesystem::path> plan{};  ///< plan of the parts
+    std::size_t image = 0;                        ///< index in the plan
+    std::optional<SampleSet> goal{};              ///< goal of the plan for each image
+    std::optional<double> wait{};                 ///< time to wait for parts [s]; may be infinite
+    std::optional<std::int64_t> samples{};        ///< requested samples per pixel of the render
+    std::optional<double> noise{};                ///< requested noise, as by estimate_noise()
+    Incomplete incomplete = Incomplete::refuse;
+    DisplayArguments display{};
+    DenoiseArguments denoise{};
+    ExrFormat exr{};
+    Printed printed{};
+};
+
+/// Tests whether `file` is named as a part of a render: NAME.part.exr.
+[[nodiscard]] bool is_part_name(const std::filesystem::path& file);
+
+/// Adds the options of `bdpt merge`.
+void add_merge_options(OptionList& options, MergeArguments& arguments);
+
+/// Returns the arguments. Throws `OptionError` for incompatible options.
+[[nodiscard]] MergeArguments checked(const MergeArguments& arguments, const OptionList& options);
 
 /// Source and destination of sample rates.
 struct RatesChoice {
@@ -101,8 +171,9 @@ void for_each_written_file(Arguments& arguments, const Visitor& visit)
         visit("--output", output);
     }
     if (arguments.strategies && !arguments.strategies->layers.empty()) {
+        auto sheet = arguments.strategies->sheet();
         visit("--strategies", arguments.strategies->layers);
-        visit("--strategies", arguments.strategies->sheet);
+        visit("--strategies", sheet);
     }
     if (arguments.part) {
         visit("--part", arguments.part->file);
@@ -174,5 +245,44 @@ struct RenderOptionList {
 
 /// Tests whether --env `environment` is the path of a file; else it is a word.
 [[nodiscard]] bool is_file_of_environment(const std::string& environment);
+
+/// System that starts the tasks of a plan.
+enum class Engine : std::uint8_t { slurm, kubernetes, make };
+
+/// Treatment of an existing plan.
+enum class ExistingPlan : std::uint8_t { must_be_equal, replace };
+
+/// Arguments of `bdpt plan`.
+struct PlanArguments {
+    RenderArguments render{};
+    std::vector<std::string> render_options{};  ///< as words, without files, samples and threads
+    std::vector<std::string> merge_options{};   ///< as words, without files
+    std::optional<std::int64_t> parts{};
+    double minutes = 0.0;  ///< maximum time of a task, without `parts`
+    Engine engine = Engine::make;
+    std::vector<std::filesystem::path> templates{};  ///< in place of files of the engine
+    std::filesystem::path folder{};
+    ExistingPlan existing = ExistingPlan::must_be_equal;
+};
+
+/// Names, such as "--size", of the options that a plan may have for the commands of its tasks. They
+/// exclude options that name files (which the plan stores separately), loaded code or machines.
+struct PlannableOptions {
+    std::vector<std::string> render;
+    std::vector<std::string> merge;
+};
+[[nodiscard]] PlannableOptions plannable_options();
+
+/// Options of `bdpt plan`, as given.
+struct PlanRequest {
+    RenderRequest render{};
+    PlanArguments arguments{};
+};
+
+/// Adds the options of `bdpt plan`.
+void add_plan_options(OptionList& options, PlanRequest& request);
+
+/// Checks and converts the options. Throws `OptionError` for incompatible ones.
+[[nodiscard]] PlanArguments checked(const PlanRequest& request, const OptionList& options);
 
 }  // namespace bdpt::job

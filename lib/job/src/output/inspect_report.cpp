@@ -1,4 +1,4 @@
-#include "output/inspect_report.h"
+#include "output/render_report.h"
 
 #include <bdpt/eval/drawing.h>
 #include <fmt/core.h>
@@ -220,6 +220,25 @@ double max_value(const Image& density)
     return static_cast<double>(greatest);
 }
 
+/// Returns the integral of each channel over all directions.
+Rgb sphere_integral(const Image& map)
+{
+    const double square = std::numbers::pi / map.height;
+    double sums[3]{};
+    for (int y = 0; y < map.height; ++y) {
+        const double top = std::cos(square * y);
+        const double solid_angle = (top - std::cos(square * (y + 1))) * 2.0 * std::numbers::pi /
+                                   map.width;  // of one pixel of the row
+        for (int x = 0; x < map.width; ++x) {
+            const Rgb& value = map.at(x, y);
+            sums[0] += static_cast<double>(value.r) * solid_angle;
+            sums[1] += static_cast<double>(value.g) * solid_angle;
+            sums[2] += static_cast<double>(value.b) * solid_angle;
+        }
+    }
+    return {static_cast<float>(sums[0]), static_cast<float>(sums[1]), static_cast<float>(sums[2])};
+}
+
 /// Returns the density that is proportional to the mean of the channels.
 Image ideal_density(const Image& product)
 {
@@ -255,24 +274,6 @@ Layer map_layer(const Image& map, const char* name)
 }
 
 }  // namespace
-
-Rgb sphere_integral(const Image& map)
-{
-    const double square = std::numbers::pi / map.height;
-    double sums[3]{};
-    for (int y = 0; y < map.height; ++y) {
-        const double top = std::cos(square * y);
-        const double solid_angle = (top - std::cos(square * (y + 1))) * 2.0 * std::numbers::pi /
-                                   map.width;  // of one pixel of the row
-        for (int x = 0; x < map.width; ++x) {
-            const Rgb& value = map.at(x, y);
-            sums[0] += static_cast<double>(value.r) * solid_angle;
-            sums[1] += static_cast<double>(value.g) * solid_angle;
-            sums[2] += static_cast<double>(value.b) * solid_angle;
-        }
-    }
-    return {static_cast<float>(sums[0]), static_cast<float>(sums[1]), static_cast<float>(sums[2])};
-}
 
 io::DisplayImage direction_sheet(const DirectionMaps& maps, int light_samples)
 {

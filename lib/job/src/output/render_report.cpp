@@ -19,8 +19,8 @@
 #include <system_error>
 
 #include "messages/text.h"
-#include "options/groups/camera_arguments.h"
-#include "options/groups/film_arguments.h"
+#include "options/groups/image_arguments.h"
+#include "options/groups/view_arguments.h"
 #include "options/value_types.h"
 #include "output/values.h"
 
@@ -298,7 +298,7 @@ void write_strategy_files(const StrategyFiles& files, const Image& image,
                           float exposure)
 {
     io::write_exr(files.layers, image, strategies.develop(), options);
-    io::write_png(files.sheet, eval::contact_sheet(strategies, exposure),
+    io::write_png(files.sheet(), eval::contact_sheet(strategies, exposure),
                   {.exposure = exposure, .metadata = options.metadata});
 }
 
@@ -318,6 +318,9 @@ void save_rates(const std::filesystem::path& file, const SampleRates& rates,
                   {.metadata = metadata});
 }
 
+namespace {
+
+/// Returns all files of images, strategy images included.
 std::vector<std::filesystem::path> all_image_files(const RenderArguments& arguments)
 {
     std::vector<std::filesystem::path> files = arguments.outputs;
@@ -327,8 +330,6 @@ std::vector<std::filesystem::path> all_image_files(const RenderArguments& argume
     }
     return files;
 }
-
-namespace {
 
 /// Checks that a part file is no device or pipe, as it is read back.
 void check_part_file(const std::filesystem::path& file)

@@ -2,6 +2,8 @@
 
 #include <bdpt/film/film.h>
 #include <bdpt/image.h>
+#include <bdpt/inspect.h>
+#include <bdpt/io/display.h>
 #include <bdpt/io/write_image.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
@@ -74,9 +76,6 @@ void write_strategy_files(const StrategyFiles& files, const Image& image,
 void save_rates(const std::filesystem::path& file, const SampleRates& rates,
                 const io::ImageMetadata& metadata);
 
-/// Returns all files of images, strategy images included.
-[[nodiscard]] std::vector<std::filesystem::path> all_image_files(const RenderArguments& arguments);
-
 /// Throws `Error` if the job of `arguments`, whose author may be a stranger, names files to write:
 /// invalid_input for those that are not in its folder or below, output for those that exist and
 /// were not written by bdpt.
@@ -87,5 +86,25 @@ void check_files_of_job(const RenderArguments& arguments);
 /// not write, output for places where nothing can be written.
 [[nodiscard]] std::vector<std::filesystem::path> check_files(const RenderArguments& arguments,
                                                              const FileSet& inputs);
+
+// `origin`: that of the world, in the coordinates of the file, which positions are told in.
+
+/// Returns tables of the vertices and of the contributions of strategies, for people.
+[[nodiscard]] std::string inspect_text(const InspectedSample& sample, const PixelSample& which,
+                                       const DVec3& origin);
+
+/// Returns the complete data of the sample, for programs.
+[[nodiscard]] nlohmann::ordered_json inspect_json(const InspectedSample& sample,
+                                                  const PixelSample& which, const DVec3& origin);
+
+/// Draws six labelled spheres of directions: incident light and the BSDF, tone-mapped; the
+/// zero-variance density (the product of the two over its integral), the densities of BSDF sampling
+/// and of light sampling, and their mean with `light_samples` of the latter, as heat colours of one
+/// scale of four decades.
+[[nodiscard]] io::DisplayImage direction_sheet(const DirectionMaps& maps, int light_samples);
+
+/// Returns the maps as layers of an EXR file beside the product: incident, scattering, bsdf_pdf,
+/// light_pdf.
+[[nodiscard]] std::vector<Layer> direction_layers(const DirectionMaps& maps);
 
 }  // namespace bdpt::job

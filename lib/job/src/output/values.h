@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "options/groups/camera_arguments.h"
+#include "options/groups/view_arguments.h"
 
 namespace bdpt::job {
 

@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -14,13 +13,27 @@
 
 #include "messages/text.h"
 #include "options/output_files.h"
-#include "options/plan_arguments.h"
+#include "options/render_arguments.h"
 
 namespace bdpt::job {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view part_start = "task-";
+constexpr std::string_view frame_place = ".####";
+constexpr std::string_view camera_suffix = ".{camera}";
+constexpr std::string_view part_end = ".part.exr";
+
+/// Returns the name of the part of task `task` of `count`: with #### and {camera} if images like
+/// `image` have a frame and a camera.
+std::string part_name(const PlanImage& image, std::size_t task, std::size_t count)
+{
+    const std::size_t digits = std::to_string(count - 1).size();
+    return fmt::format("{}{:0{}}{}{}{}", part_start, task, digits, image.frame ? frame_place : "",
+                       image.camera ? camera_suffix : "", part_end);
+}
 
 /// A run of consecutive numbers.
 struct Run {
@@ -236,14 +249,6 @@ std::int64_t tasks_of_time(std::size_t images, SampleRange samples, double secon
 
 namespace {
 
-constexpr std::array<std::string_view, 5> engine_file_names{
-    "submit.sh", "tasks.sbatch", "merge.sbatch", "kubernetes.yaml", "Makefile"};
-
-constexpr std::string_view part_start = "task-";
-constexpr std::string_view frame_place = ".####";
-constexpr std::string_view camera_suffix = ".{camera}";
-constexpr std::string_view part_end = ".part.exr";
-
 /// Removes `start` from the front of `text`; returns false if it is not there.
 bool take(std::string_view& text, std::string_view start)
 {
@@ -252,15 +257,7 @@ bool take(std::string_view& text, std::string_view start)
     return is_there;
 }
 
-}  // namespace
-
-std::string part_name(const PlanImage& image, std::size_t task, std::size_t count)
-{
-    const std::size_t digits = std::to_string(count - 1).size();
-    return fmt::format("{}{:0{}}{}{}{}", part_start, task, digits, image.frame ? frame_place : "",
-                       image.camera ? camera_suffix : "", part_end);
-}
-
+/// Tests whether `name` is the name of a part of some task.
 bool is_part_of_task(std::string_view name)
 {
     if (!take(name, part_start)) {
@@ -273,11 +270,7 @@ bool is_part_of_task(std::string_view name)
     return digits > 0 && name == part_end;
 }
 
-bool is_engine_file(std::string_view name)
-{
-    return std::find(engine_file_names.begin(), engine_file_names.end(), name) !=
-           engine_file_names.end();
-}
+}  // namespace
 
 fs::path file_of_plan(const fs::path& name, const fs::path& folder)
 {

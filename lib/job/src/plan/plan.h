@@ -7,12 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "messages/console.h"
+#include "options/render_arguments.h"
 
 namespace bdpt::job {
 
@@ -118,13 +120,6 @@ struct Plan {
 inline constexpr const char* plan_name = "plan.json";
 inline constexpr const char* rates_name = "rates.exr";
 
-/// Returns the name of the part of task `task` of `count`: with #### and {camera} if images like
-/// `image` have a frame and a camera.
-[[nodiscard]] std::string part_name(const PlanImage& image, std::size_t task, std::size_t count);
-
-/// Tests whether `name` is the name of a part of some task.
-[[nodiscard]] bool is_part_of_task(std::string_view name);
-
 /// Tests whether `name` is the name of a file of an engine.
 [[nodiscard]] bool is_engine_file(std::string_view name);
 
@@ -153,5 +148,84 @@ inline constexpr std::size_t max_planned_parts = 1'000'000;
 /// Returns a path of a plan as an absolute one.
 [[nodiscard]] std::filesystem::path resolved(const std::filesystem::path& path,
                                              const std::filesystem::path& plan_file);
+
+/// Completes `render --plan FILE --task I` and `merge --plan FILE` in `words` of a command line by
+/// the plan; other command lines are unchanged. Throws `Error`: those of `read_plan`, and usage for
+/// words that contradict the plan.
+[[nodiscard]] std::vector<std::string> with_planned_words(std::vector<std::string> words);
+
+/// Returns the requested task of `plan`, which is in `file`: by its index, or by "env:NAME", an
+/// environment variable with the index. Throws `OptionError`.
+[[nodiscard]] const PlanTask& find_task(const Plan& plan, const std::filesystem::path& file,
+                                        const std::string& asked);
+
+/// Returns the words after `bdpt render` that all tasks of `plan`, which is in `file`, share: the
+/// scene and the options, without samples and files that are written.
+[[nodiscard]] std::vector<std::string> shared_words(const Plan& plan,
+                                                    const std::filesystem::path& file);
+
+/// Planned identity of an image: complete or, as frames are planned without loading each, some of
+/// its components.
+struct PlannedIdentity {
+    Identity identity;
+    bool whole = true;
+};
+
+/// Returns the identity of image `image`. For a sequence it has the options, the build and the seed
+/// of the image: the scene of each frame follows from these and from the files.
+[[nodiscard]] PlannedIdentity planned_identity(const Plan& plan, std::size_t image);
+
+/// Returns the difference of `planned` from `found`, as `difference()` of identities.
+[[nodiscard]] std::optional<std::string> difference(const Identity& found,
+                                                    const PlannedIdentity& planned);
+
+/// Returns the components that all images of the sequence of `asked` share, given the identity of
+/// one of them.
+[[nodiscard]] Identity common_identity(const Identity& of_one, const RenderArguments& asked);
+
+/// Returns a component "file: NAME" with the contents of each file of the scene of `asked`. Throws
+/// `Error` (not_found, invalid_input).
+[[nodiscard]] Identity identity_of_files(const RenderArguments& asked);
+
+/// Texts of the files in lib/job/src/plan/engines.
+namespace engine_texts {
+[[nodiscard]] std::string_view submit_sh();
+[[nodiscard]] std::string_view tasks_sbatch();
+[[nodiscard]] std::string_view merge_sbatch();
+[[nodiscard]] std::string_view kubernetes();
+[[nodiscard]] std::string_view makefile();
+}  // namespace engine_texts
+
+/// A file by which an engine starts tasks.
+struct EngineFile {
+    std::string name;
+    std::string text;  ///< a template has marks like \@COUNT\@ in place of values (docs/farm.md)
+};
+
+/// Returns the templates of the files of `engine`: `changed` are files of the user that replace
+/// those of the same name. Throws `Error`: usage for other names, not_found for a missing file.
+[[nodiscard]] std::vector<EngineFile> engine_templates(
+    Engine engine, const std::vector<std::filesystem::path>& changed);
+
+/// Returns `templates` with the values of `plan`, whose file is plan.json in `folder`, which is
+/// absolute.
+[[nodiscard]] std::vector<EngineFile> engine_files(std::vector<EngineFile> templates,
+                                                   const Plan& plan,
+                                                   const std::filesystem::path& folder);
+
+/// Returns the command that the user types to start the tasks.
+[[nodiscard]] std::string start_command(Engine engine, const std::filesystem::path& folder);
+
+/// Throws `Error` (output), before anything is loaded, for a folder that could not be written.
+void check_plan_folder(const std::filesystem::path& folder);
+
+/// Writes `plan` as plan.json into `folder`, which is created if necessary. Before that it writes
+/// `files`, and calls `write_rates` with the file for rates, so that a plan is always complete.
+/// `write_rates` is not called for plans without rates. Throws `Error`: output, also if another
+/// plan exists and is not to be replaced; invalid_input for a symbolic link in a file's place.
+void write_plan(const std::filesystem::path& folder, const Plan& plan,
+                const std::vector<EngineFile>& files,
+                const std::function<void(const std::filesystem::path&)>& write_rates,
+                ExistingPlan existing);
 
 }  // namespace bdpt::job

@@ -1,5 +1,6 @@
-#include "plan/plan_folder.h"
 #include "options/output_files.h"
+#include "options/value_types.h"
+#include "plan/plan.h"
 
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
@@ -7,8 +8,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstddef>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -16,7 +20,6 @@
 #include <utility>
 
 #include "messages/text.h"
-#include "plan/plan.h"
 
 namespace bdpt::job {
 
@@ -43,17 +46,6 @@ std::string filled(std::string_view text,
         }
     }
     return result;
-}
-
-std::vector<EngineFile> slurm_files(const Plan& plan)
-{
-    const std::string last = fmt::format("{}", plan.tasks.size() - 1);
-    return {
-        {.name = "submit.sh",
-         .text = std::string(engine_texts::submit_sh()),
-         .kind = FileKind::program},
-        {.name = "tasks.sbatch", .text = filled(engine_texts::tasks_sbatch(), {{"LAST", last}})},
-        {.name = "merge.sbatch", .text = std::string(engine_texts::merge_sbatch())}};
 }
 
 /// Paths of a plan in a container that has the planned files in /data.
@@ -118,35 +110,6 @@ std::string job_name(const fs::path& folder)
     return result;
 }
 
-// Of the exit codes in its policy, 143 means that the pod was evicted, and has written its part;
-// after 2 to 5, retrying in another pod would not help.
-std::vector<EngineFile> kubernetes_files(const Plan& plan, const fs::path& folder)
-{
-    using nlohmann::json;
-    const ContainerPlace place = container_place(plan, folder);
-    const std::string how_many =
-        filled(engine_texts::kubernetes_tasks(), {{"COUNT", fmt::format("{}", plan.tasks.size())}});
-    const auto format_job = [&](const std::string& name, const std::string& how, const json& args) {
-        return filled(engine_texts::kubernetes_job(),
-                      {{"HOW", how},
-                       {"NAME", name},
-                       {"VERSION", BDPT_VERSION},
-                       {"WORKING", json(place.working.string()).dump()},
-                       {"ARGS", args.dump()}});
-    };
-    // Kubernetes replaces $(...) by the index.
-    const json task{"render", "--plan", "plan.json", "--task", "$(JOB_COMPLETION_INDEX)",
-                    "--quiet"};
-    const json merge{"merge", "--plan", "plan.json", "--wait"};
-    const std::string name = job_name(folder);
-    return {{.name = "kubernetes.yaml",
-             .text = filled(engine_texts::kubernetes_head(),
-                            {{"SHARED", one_line(place.shared.string())}}) +
-                     format_job(name, how_many, task) +
-                     format_job(name + "-merge", std::string(engine_texts::kubernetes_merge()),
-                                merge)}};
-}
-
 /// Returns the path of this program, quoted for a shell in a makefile. make runs on this machine,
 /// where `bdpt` may be another program, or none.
 std::string this_program()
@@ -160,32 +123,84 @@ std::string this_program()
     return text;
 }
 
-// Tasks are phony: bdpt decides by the samples in a part whether its task is done. By time stamps
-// the checkpoint of a killed task would count as complete.
-std::vector<EngineFile> make_files(const Plan& plan)
+/// A file of an engine. Tasks of the makefile are phony: bdpt decides by the samples in a part
+/// whether its task is done. By time stamps the checkpoint of a killed task would count as
+/// complete. Of the exit codes in the policy of Kubernetes, 143 means that the pod was evicted, and
+/// has written its part; after 2 to 5, retrying in another pod would not help.
+struct EngineTemplate {
+    Engine engine;
+    std::string_view name;
+    std::string_view (*text)();
+};
+
+constexpr std::array<EngineTemplate, 5> engine_template_list{{
+    {Engine::slurm, "submit.sh", engine_texts::submit_sh},
+    {Engine::slurm, "tasks.sbatch", engine_texts::tasks_sbatch},
+    {Engine::slurm, "merge.sbatch", engine_texts::merge_sbatch},
+    {Engine::kubernetes, "kubernetes.yaml", engine_texts::kubernetes},
+    {Engine::make, "Makefile", engine_texts::makefile},
+}};
+
+std::string read_template(const fs::path& file)
 {
-    std::string tasks;
-    for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
-        tasks += fmt::format(" task-{}", i);
+    std::ifstream stream(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream || text.empty()) {
+        throw Error(ErrorCode::not_found, fmt::format("{}: cannot read this file", file.string()));
     }
-    return {{.name = "Makefile",
-             .text = filled(engine_texts::makefile(),
-                            {{"TASKS", tasks}, {"PROGRAM", this_program()}})}};
+    return text;
 }
 
 }  // namespace
 
-std::vector<EngineFile> engine_files(Engine engine, const Plan& plan, const fs::path& folder)
+bool is_engine_file(std::string_view name)
 {
-    switch (engine) {
-        case Engine::slurm:
-            return slurm_files(plan);
-        case Engine::kubernetes:
-            return kubernetes_files(plan, folder);
-        case Engine::make:
-            break;
+    return std::any_of(engine_template_list.begin(), engine_template_list.end(),
+                       [name](const EngineTemplate& known) { return known.name == name; });
+}
+
+std::vector<EngineFile> engine_templates(Engine engine, const std::vector<fs::path>& changed)
+{
+    std::vector<EngineFile> files;
+    std::vector<std::string> names;
+    for (const EngineTemplate& known : engine_template_list) {
+        if (known.engine == engine) {
+            files.push_back({.name = std::string(known.name), .text = std::string(known.text())});
+            names.emplace_back(known.name);
+        }
     }
-    return make_files(plan);
+    for (const fs::path& file : changed) {
+        const auto found = std::find(names.begin(), names.end(), file.filename());
+        if (found == names.end()) {
+            reject("--template", file.string(),
+                   fmt::format("a file with the name {}", words_text(names)));
+        }
+        files[static_cast<std::size_t>(found - names.begin())].text = read_template(file);
+    }
+    return files;
+}
+
+std::vector<EngineFile> engine_files(std::vector<EngineFile> templates, const Plan& plan,
+                                     const fs::path& folder)
+{
+    const ContainerPlace place = container_place(plan, folder);
+    std::string tasks;
+    for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
+        tasks += fmt::format(" task-{}", i);
+    }
+    const std::vector<std::pair<std::string, std::string>> values{
+        {"COUNT", fmt::format("{}", plan.tasks.size())},
+        {"LAST", fmt::format("{}", plan.tasks.size() - 1)},
+        {"TASKS", tasks},
+        {"PROGRAM", this_program()},
+        {"NAME", job_name(folder)},
+        {"VERSION", BDPT_VERSION},
+        {"SHARED", one_line(place.shared.string())},
+        {"WORKING", nlohmann::json(place.working.string()).dump()}};
+    for (EngineFile& file : templates) {
+        file.text = filled(file.text, values);
+    }
+    return templates;
 }
 
 std::string start_command(Engine engine, const fs::path& folder)
@@ -204,10 +219,10 @@ std::string start_command(Engine engine, const fs::path& folder)
 
 namespace {
 
-void write_file(const fs::path& file, const std::string& text, FileKind kind)
+void write_file(const fs::path& file, const std::string& text)
 {
     write_text(file, text);
-    if (kind == FileKind::program) {
+    if (file.extension() == ".sh") {
         std::error_code failure;  // if it fails, the user can run "bash submit.sh"
         fs::permissions(file,
                         fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
@@ -287,12 +302,12 @@ void write_plan(const fs::path& folder, const Plan& plan, const std::vector<Engi
                     fmt::format("{}: cannot write: {}", folder.string(), failure.message()));
     }
     for (const EngineFile& engine_file : files) {
-        write_file(file_of_plan(engine_file.name, folder), engine_file.text, engine_file.kind);
+        write_file(file_of_plan(engine_file.name, folder), engine_file.text);
     }
     if (plan.rates) {
         write_rates(file_of_plan(*plan.rates, folder));
     }
-    write_file(file_of_plan(plan_name, folder), text, FileKind::text);
+    write_file(file_of_plan(plan_name, folder), text);
 }
 
 }  // namespace bdpt::job

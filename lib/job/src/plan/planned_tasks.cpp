@@ -1,4 +1,4 @@
-#include "plan/planned_tasks.h"
+#include "plan/plan.h"
 
 #include <bdpt/io/gltf.h>
 #include <fmt/core.h>
@@ -11,7 +11,6 @@
 
 #include "options/option_list.h"
 #include "options/value_types.h"
-#include "plan/plan.h"
 
 namespace bdpt::job {
 

@@ -12,7 +12,6 @@
 #include "machine/machine_limits.h"
 #include "messages/console.h"
 #include "messages/text.h"
-#include "options/job_file.h"
 #include "options/option_list.h"
 #include "options/output_files.h"
 #include "options/render_arguments.h"

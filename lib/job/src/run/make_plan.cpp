@@ -26,9 +26,7 @@
 #include "options/value_types.h"
 #include "output/render_report.h"
 #include "plan/plan.h"
-#include "plan/plan_folder.h"
-#include "plan/planned_tasks.h"
-#include "stage/render_preparation.h"
+#include "stage/prepared_scene.h"
 
 namespace bdpt::job {
 namespace {
@@ -309,6 +307,7 @@ void make_plan(const PlanArguments& given, Console& console)
                         "transparent, and give the photograph to bdpt merge",
                         backdrop_text(*asked.display.backdrop)));
     }
+    std::vector<EngineFile> templates = engine_templates(arguments.engine, arguments.templates);
     check_files(arguments, input_files(asked));
     const fs::path folder =
         fs::weakly_canonical(fs::absolute(arguments.folder / "plan.json")).parent_path();
@@ -316,7 +315,8 @@ void make_plan(const PlanArguments& given, Console& console)
         console.warning(*warning);
     }
     const PreparedScene stage = load_first_image(asked, console);
-    const FileSet inputs = input_files(asked, stage);
+    FileSet inputs = input_files(asked, stage);
+    inputs.add(arguments.templates);
     check_files(arguments, inputs);
     tell_findings(console, stage);
     const std::vector<SequenceView> views = make_views(asked, camera_names(stage));
@@ -332,7 +332,7 @@ void make_plan(const PlanArguments& given, Console& console)
                             number_of_tasks(arguments, options, views.size(), stage, console),
                             min_samples_of_task(asked, options));
     identify(plan, folder / "plan.json", first, asked, stage, console);
-    const std::vector<EngineFile> files = engine_files(arguments.engine, plan, folder);
+    const std::vector<EngineFile> files = engine_files(std::move(templates), plan, folder);
     for (const EngineFile& file : files) {
         plan.engine_files.emplace_back(file.name);
     }

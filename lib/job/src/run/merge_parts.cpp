@@ -22,9 +22,8 @@
 #include "messages/text.h"
 #include "options/output_files.h"
 #include "options/value_types.h"
-#include "output/image/denoised.h"
-#include "output/image/display_sources.h"
-#include "output/part/part_collection.h"
+#include "output/image_files.h"
+#include "output/parts.h"
 #include "output/render_report.h"
 #include "output/values.h"
 #include "plan/plan.h"
@@ -135,8 +134,8 @@ std::vector<MergeArguments> split_by_image(const MergeArguments& asked,
             }
         };
         std::for_each(image.outputs.begin(), image.outputs.end(), place);
-        if (image.strategies) {
-            place(*image.strategies);
+        if (!image.strategies.layers.empty()) {
+            place(image.strategies.layers);
         }
         result.push_back(std::move(image));
     }

@@ -20,11 +20,11 @@
 #include "messages/text.h"
 #include "options/groups/transport_arguments.h"
 #include "options/output_files.h"
-#include "output/image/image_files.h"
-#include "output/part/part_collection.h"
+#include "output/image_files.h"
+#include "output/parts.h"
 #include "output/render_report.h"
 #include "output/values.h"
-#include "stage/render_preparation.h"
+#include "stage/prepared_scene.h"
 
 namespace bdpt::job {
 namespace {

@@ -14,12 +14,10 @@
 #include <vector>
 
 #include "options/output_files.h"
-#include "output/image/denoised.h"
-#include "output/image/display_sources.h"
+#include "output/image_files.h"
 #include "output/render_report.h"
 #include "plan/plan.h"
-#include "plan/planned_tasks.h"
-#include "stage/render_preparation.h"
+#include "stage/prepared_scene.h"
 
 namespace bdpt::job {
 

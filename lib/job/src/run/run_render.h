@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "messages/console.h"
-#include "options/plan_arguments.h"
 #include "options/render_arguments.h"
 #include "output/display.h"
-#include "output/part/part_keeper.h"
+#include "output/parts.h"
 #include "stage/prepared_scene.h"
 
 namespace bdpt::job {

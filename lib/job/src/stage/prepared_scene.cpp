@@ -20,7 +20,7 @@
 #include <variant>
 
 #include "messages/text.h"
-#include "options/groups/camera_arguments.h"
+#include "options/groups/view_arguments.h"
 
 namespace bdpt::job {
 namespace {
@@ -263,6 +263,11 @@ Vec3 center(const Bounds& bounds)
     return 0.5f * (bounds.min + bounds.max);
 }
 
+float aspect_of(const Size& size)
+{
+    return static_cast<float>(size.width) / static_cast<float>(size.height);
+}
+
 /// Returns the selected camera of the file; none: the scene is framed.
 std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
                                          const RenderArguments& arguments)
@@ -278,27 +283,27 @@ std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
 }
 
 /// Adds a note if the camera of the file, which nobody has chosen, shows little of the scene.
-void note_small_picture(LitScene& lit, const Scene& scene, const CameraDesc& camera, float aspect,
-                        const RenderArguments& arguments)
+void note_small_picture(PreparedScene& stage, const RenderArguments& arguments)
 {
     const ViewOverrides& view = arguments.view;
     const bool is_chosen = arguments.camera || view.from || view.look_at || view.vertical_fov;
-    const bool is_medium = arguments.fog || !scene.description().volumes.empty();
+    const bool is_medium = arguments.fog || !stage.scene.description().volumes.empty();
     if (is_chosen || is_medium || arguments.sequence || arguments.sequence_view) {
         return;
     }
     constexpr double little = 0.05;
     double share = 1.0;
     try {
-        share = filled_share(scene, camera, aspect);
+        share = filled_share(stage.scene, stage.camera, aspect_of(stage.size));
     } catch (const Error&) {
         // The renderer refuses this camera by name.
     }
     if (share < little) {
-        lit.notes.push_back(
-            {"small_scene", fmt::format("{}: camera {}: the scene fills {:.2g} % of the image "
-                                        "(--camera auto frames it)",
-                                        arguments.file.string(), camera.name, 100.0 * share)});
+        stage.notes.push_back(
+            {"small_scene",
+             fmt::format("{}: camera {}: the scene fills {:.2g} % of the image "
+                         "(--camera auto frames it)",
+                         arguments.file.string(), stage.camera.name, 100.0 * share)});
     }
 }
 
@@ -380,8 +385,6 @@ PreparedScene prepare_scene(const RenderArguments& asked)
     const std::optional<CameraDesc> from_file = camera_in_file(loaded.cameras, arguments);
     const Size size =
         arguments.size.value_or(default_size(from_file ? from_file->aspect_ratio : std::nullopt));
-    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-
     loaded.scene.texture_filter = arguments.texture_filter;
     loaded.scene.contacts = arguments.contacts;
     loaded.scene.fog = arguments.fog;
@@ -420,32 +423,29 @@ PreparedScene prepare_scene(const RenderArguments& asked)
                                    "and --look-at, choose another view)",
                                    file)});
     }
-    const DVec3 origin = scene.description().origin;
-    CameraDesc camera = from_file ? apply(arguments.view, *from_file, std::nullopt, origin)
-                                  : apply(arguments.view, framed(scene, aspect, arguments),
-                                          center(scene.bounds()), origin);
-    if (from_file) {
-        note_small_picture(lit, scene, camera, aspect, arguments);
-    }
-    camera = with_lens(arguments.lens, std::move(camera), scene);
     const auto seconds = [](std::chrono::steady_clock::duration time) {
         return std::chrono::duration<double>(time).count();
     };
     const std::size_t lights = scene.counts().lights - lit.added;
-    return {std::move(scene),
-            std::move(camera),
-            lit.environment_name,
-            size,
-            std::move(warnings),
-            std::move(lit.notes),
-            seconds(loading_end - start),
-            seconds(building_end - loading_end),
-            std::move(loaded.facts.xmp),
-            lights,
-            !from_file.has_value(),
-            std::move(loaded.cameras),
-            std::move(loaded.files),
-            *arguments.scene.memory};
+    PreparedScene stage{std::move(scene),
+                        {},
+                        lit.environment_name,
+                        size,
+                        std::move(warnings),
+                        std::move(lit.notes),
+                        seconds(loading_end - start),
+                        seconds(building_end - loading_end),
+                        std::move(loaded.facts.xmp),
+                        lights,
+                        !from_file.has_value(),
+                        std::move(loaded.cameras),
+                        std::move(loaded.files),
+                        *arguments.scene.memory};
+    stage.camera = viewpoint(stage, arguments).camera;
+    if (from_file) {
+        note_small_picture(stage, arguments);
+    }
+    return stage;
 }
 
 Viewpoint viewpoint(const PreparedScene& stage, std::size_t index, const RenderArguments& arguments)
@@ -462,11 +462,11 @@ Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments
     const std::optional<CameraDesc> from_file = camera_in_file(stage.cameras, arguments);
     const Size size =
         arguments.size.value_or(default_size(from_file ? from_file->aspect_ratio : std::nullopt));
-    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     const DVec3 origin = stage.scene.description().origin;
-    CameraDesc camera = from_file ? apply(arguments.view, *from_file, std::nullopt, origin)
-                                  : apply(arguments.view, framed(stage.scene, aspect, arguments),
-                                          center(stage.scene.bounds()), origin);
+    CameraDesc camera = from_file
+                            ? apply(arguments.view, *from_file, std::nullopt, origin)
+                            : apply(arguments.view, framed(stage.scene, aspect_of(size), arguments),
+                                    center(stage.scene.bounds()), origin);
     return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene),
             .size = size,
             .is_framed = !from_file.has_value()};

@@ -2,16 +2,21 @@
 
 #include <bdpt/io/gltf.h>
 #include <bdpt/light_desc.h>
+#include <bdpt/render_options.h>
 #include <bdpt/scene.h>
 #include <bdpt/scene_desc.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "messages/console.h"
-#include "options/groups/scene_arguments.h"
+#include "options/groups/view_arguments.h"
 #include "options/render_arguments.h"
 #include "options/value_types.h"
 
@@ -71,5 +76,82 @@ struct Viewpoint {
 /// Returns the share of the image that surfaces fill, in [0, 1]. `aspect` is width over height.
 /// Throws `Error` for a camera that is too far away to render.
 [[nodiscard]] double filled_share(const Scene& scene, const CameraDesc& camera, float aspect);
+
+/// Returns the camera of `image`, one of a sequence, which orbits on request; else `first`, the one
+/// that the scene was loaded with. Throws `Error`.
+[[nodiscard]] Viewpoint sequence_viewpoint(const PreparedScene& stage, const Viewpoint& first,
+                                           const RenderArguments& image);
+
+/// Returns `still` for a view of a turntable at `angle` [rad] around the object, with the
+/// environment turned along with the camera.
+[[nodiscard]] Scene with_turned_environment(const Scene& still, double angle);
+
+/// Returns all files that `arguments` read: no output may be one of them.
+[[nodiscard]] std::vector<std::filesystem::path> input_files(const RenderArguments& arguments);
+
+/// Returns all files that `arguments` and the scene read.
+[[nodiscard]] std::vector<std::filesystem::path> input_files(const RenderArguments& arguments,
+                                                             const PreparedScene& stage);
+
+/// Returns the files that the scene names, by its text alone: for outputs that are written before
+/// it is loaded. Empty if none of `outputs` exists, as none can then be one of them, or if the
+/// scene cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> named_files(
+    const RenderArguments& arguments, std::span<const std::filesystem::path> outputs);
+
+/// Returns the memory for decoded images kept between frames [bytes]: a quarter of the limit, but
+/// not more than 2 GiB.
+[[nodiscard]] std::uint64_t image_cache_bytes(const RenderArguments& arguments);
+
+/// Loads the scene, and shows the progress on the console. Throws `Error`.
+[[nodiscard]] PreparedScene prepare_with_progress(const RenderArguments& arguments,
+                                                  Console& console);
+
+/// Prints warnings and notes from the preparation of the scene, each once.
+void tell_findings(Console& console, const PreparedScene& stage);
+
+/// Prints notes about options that change nothing: those of files that are not written, and a
+/// ground whose shadow is not visible.
+void tell_of_no_effect(Console& console, const RenderArguments& arguments,
+                       const PreparedScene& stage);
+
+/// Charges the memory of the film of a render of `size` and its layers. Throws `Error` if that is
+/// too much.
+void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Size& size);
+
+/// Returns the layers that guide automatic denoising and that `arguments` do not ask for, and
+/// charges their memory; none if that would leave too little for the denoiser. A part has no
+/// further layers.
+[[nodiscard]] std::optional<std::vector<Aov>> spend_guides(io::MemoryBudget& memory,
+                                                           const RenderArguments& arguments);
+
+/// Loads the scene within the memory that the film and the cache of images, if any, leave of
+/// `arguments.memory`, and shows the progress on the console. Throws `Error`.
+[[nodiscard]] PreparedScene prepare_within_memory(const RenderArguments& arguments,
+                                                  Console& console);
+
+/// Estimates the fraction of the light, in [0, 1], that is lost by the maximum depth of
+/// `arguments`, which have all their options; 0 if it is below 1 % or if only emitted and direct
+/// light is requested. By a short render.
+[[nodiscard]] double light_beyond_max_depth(const RenderArguments& arguments,
+                                            const PreparedScene& stage);
+
+/// Tests whether the light is metered for the exposure of images: if `--exposure light` says so,
+/// with a background and for frames; and, unless another exposure is requested, if an environment
+/// lights the scene and the camera is outside of it.
+[[nodiscard]] bool meters_light(const RenderArguments& arguments, const PreparedScene& stage);
+
+/// Returns the exposure [EV] that makes a white card white that lies on the surfaces that the view
+/// of `arguments` shows without --size, whatever the size of the image; none if no light falls on
+/// it.
+[[nodiscard]] std::optional<float> metered_exposure(const PreparedScene& stage,
+                                                    RenderArguments arguments);
+
+/// Completes the options of `arguments`: fills in size, samples and limits of memory, chooses open
+/// options by a pilot, and adds sample rates from a file or another pilot, unless they have them
+/// already. A request of `abandon` ends the first pilot early; the result is then invalid. Throws
+/// `Error`.
+[[nodiscard]] RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stage,
+                                          Console& console, const std::stop_token& abandon = {});
 
 }  // namespace bdpt::job

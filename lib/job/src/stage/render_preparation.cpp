@@ -1,4 +1,4 @@
-#include "stage/render_preparation.h"
+#include "stage/prepared_scene.h"
 
 #include <bdpt/error.h>
 #include <bdpt/framing.h>
@@ -20,9 +20,9 @@
 #include <utility>
 #include <variant>
 
-#include "options/groups/camera_arguments.h"
-#include "options/groups/film_arguments.h"
+#include "options/groups/image_arguments.h"
 #include "options/groups/transport_arguments.h"
+#include "options/groups/view_arguments.h"
 #include "options/output_files.h"
 
 namespace bdpt::job {

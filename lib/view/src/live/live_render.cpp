@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "options/output_files.h"
-#include "output/image/image_files.h"
+#include "output/image_files.h"
 #include "output/render_report.h"
-#include "stage/render_preparation.h"
+#include "stage/prepared_scene.h"
 
 namespace bdpt::view {
 

@@ -7,8 +7,8 @@
 #include <system_error>
 #include <variant>
 
-#include "options/groups/camera_arguments.h"
-#include "stage/render_preparation.h"
+#include "options/groups/view_arguments.h"
+#include "stage/prepared_scene.h"
 
 namespace bdpt::view {
 

@@ -15,8 +15,7 @@
 
 #include "messages/console.h"
 #include "stage/prepared_scene.h"
-#include "state/view_camera.h"
-#include "state/view_words.h"
+#include "state/view_state.h"
 
 namespace bdpt::view {
 

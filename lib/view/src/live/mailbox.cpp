@@ -1,4 +1,4 @@
-#include "live/mailbox.h"
+#include "live/live_render.h"
 
 #include <algorithm>
 #include <utility>

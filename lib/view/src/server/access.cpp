@@ -1,4 +1,4 @@
-#include "server/access.h"
+#include "server/server.h"
 
 #include <bdpt/error.h>
 #include <sys/random.h>

@@ -20,7 +20,6 @@
 #include <optional>
 #include <string>
 
-#include "server/access.h"
 #include "server/server.h"
 
 namespace bdpt::view {

@@ -8,7 +8,7 @@
 
 #include "server/server.h"
 #include "session/session.h"
-#include "state/view_words.h"
+#include "state/view_state.h"
 
 namespace bdpt::view {
 namespace {

@@ -13,23 +13,13 @@
 #include <utility>
 
 #include "messages/text.h"
-#include "options/groups/camera_arguments.h"
+#include "options/groups/view_arguments.h"
 #include "output/values.h"
-#include "stage/render_preparation.h"
-#include "state/view_camera.h"
+#include "stage/prepared_scene.h"
+#include "state/view_state.h"
 
 namespace bdpt::view {
 namespace {
-
-/// Returns a point of the world as a value of --from, in coordinates of the file.
-std::string point_text(Vec3 point, const DVec3& origin)
-{
-    if (origin == DVec3(0.0)) {
-        return fmt::format("{},{},{}", point.x, point.y, point.z);
-    }
-    const DVec3 place = to_file(point, origin);
-    return fmt::format("{:.12g},{:.12g},{:.12g}", place.x, place.y, place.z);
-}
 
 double seconds_since(std::chrono::steady_clock::time_point start)
 {
@@ -53,10 +43,9 @@ std::optional<std::string> catch_failure(const Work& work)
 }  // namespace
 
 Session::Session(const ViewWords& words, Audience& audience, Console& console)
-    : audience_(audience),
+    : clients_(audience),
       console_(console),
-      first_words_(words),
-      words_(words),
+      edits_(words),
       shown_words_(words),
       scene_(console, [this] { drop_renders(); }),
       watch_([this] { mailbox_.post([this] { files_changed_ = true; }, Urgency::soon); })
@@ -65,7 +54,7 @@ Session::Session(const ViewWords& words, Audience& audience, Console& console)
 void Session::run()
 {
     tell(true);
-    watch_.watch({words_.text("file")});
+    watch_.watch({edits_.words().text("file")});
     load_first();
     tell(true);
     bool busy = true;
@@ -77,7 +66,7 @@ void Session::run()
             restart();
         }
         busy = step();
-        if (is_untold_) {
+        if (clients_.is_untold()) {
             tell(!busy);
         }
     }
@@ -86,7 +75,7 @@ void Session::run()
 void Session::load_first()
 {
     try {
-        scene_.load(words_);
+        scene_.load(edits_.words());
     } catch (const Error& error) {
         static_cast<void>(mailbox_.work_off(false));  // handles pages that were opened meanwhile
         if (clients_.empty()) {
@@ -109,12 +98,12 @@ void Session::load_first()
 
 void Session::join(ClientId client)
 {
-    mailbox_.post([this, client] { clients_.emplace(client, 0); }, Urgency::when_idle);
+    mailbox_.post([this, client] { clients_.join(client); }, Urgency::when_idle);
 }
 
 void Session::leave(ClientId client)
 {
-    mailbox_.post([this, client] { clients_.erase(client); }, Urgency::soon);
+    mailbox_.post([this, client] { clients_.leave(client); }, Urgency::soon);
 }
 
 void Session::ask(ClientId client, const std::string& message)
@@ -131,9 +120,7 @@ void Session::ask(ClientId client, const std::string& message)
                 if (sequence) {
                     reply["ack"] = *sequence;
                 }
-                audience_.answer(
-                    client,
-                    reply.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+                clients_.answer(client, reply);
             } else {
                 answer(client, request);
             }
@@ -157,100 +144,47 @@ void Session::save(const std::string& name, int slot, std::function<void(Downloa
 void Session::answer(ClientId client, const PageRequest& request)
 {
     nlohmann::ordered_json reply{{"ack", request.sequence}};
-    const ViewWords before = words_;
-    const std::optional<Pose> pose_before = pose_;
+    const ViewEdits before = edits_;
     const auto wrong = catch_failure([&] {
         if (!scene_.is_there()) {
             throw Error(ErrorCode::usage, "the scene is not loaded yet");
         }
-        change_camera(request);
+        if (request.reset) {
+            edits_.reset_camera();
+        }
+        if (request.move || request.focus) {
+            if (is_stale_ && (request.focus || !edits_.pose())) {
+                restart();  // pixels refer to the current picture
+            }
+            edits_.move_camera(request, scene_);
+        }
         if (request.settings) {
             change_settings(*request.settings);
         }
-        if (words_ != before) {
-            static_cast<void>(words_.arguments());  // throws
+        if (edits_.words() != before.words()) {
+            static_cast<void>(edits_.words().arguments());  // throws
         }
         if (request.inspect) {
             reply["inspect"] = nlohmann::ordered_json::parse(inspected(*request.inspect));
         }
     });
     if (wrong) {
-        words_ = before;
-        pose_ = pose_before;
+        edits_ = before;
         reply["error"] = *wrong;
     }
-    is_stale_ = is_stale_ || words_ != shown_words_;
-    if (const auto found = clients_.find(client); found != clients_.end()) {
-        found->second = std::max(found->second, request.sequence);
-    }
+    is_stale_ = is_stale_ || edits_.words() != shown_words_;
+    clients_.handle(client, request.sequence);
     if (request.changes_picture() && !is_stale_) {
         show_all();  // the page waits for a picture with its number
     }
-    audience_.answer(client,
-                     reply.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    clients_.answer(client, reply);
     tell(false);
-}
-
-void Session::change_camera(const PageRequest& request)
-{
-    if (request.reset) {
-        for (const char* option : {"--camera", "--view", "--margin", "--from", "--look-at",
-                                   "--ortho", "--fov", "--focal-length", "--focus-distance"}) {
-            words_.remove(option);
-            if (first_words_.has(option)) {
-                words_.set(option, first_words_.text(option));
-            }
-        }
-        pose_.reset();
-    }
-    if (!request.move && !request.focus) {
-        return;
-    }
-    if (is_stale_ && (request.focus || !pose_)) {
-        restart();  // pixels refer to the current picture
-    }
-    const RenderArguments& arguments = scene_.arguments();
-    if (arguments.view.projection == Projection::orthographic) {
-        throw Error(ErrorCode::usage, "--ortho frames the whole scene; its camera cannot be moved");
-    }
-    const CameraDesc& camera = scene_.stage().camera;
-    Pose pose = pose_ ? *pose_ : scene_.pose();
-    if (request.focus) {
-        const auto [x, y] = *request.focus;
-        const std::optional<Vec3> target = scene_.picked(x, y);
-        if (!target) {
-            throw Error(ErrorCode::usage, "there is no surface here");
-        }
-        pose.look_at = *target;
-        if (words_.has("--focus-distance")) {
-            words_.set("--focus-distance", fmt::format("{}", glm::length(*target - pose.from)));
-        }
-    }
-    if (request.move) {
-        pose =
-            moved(pose, *request.move, view_height(camera, glm::length(pose.look_at - pose.from)));
-    }
-    if (arguments.view.frames()) {
-        // Options that frame the scene exclude a camera position.
-        words_.remove("--view");
-        words_.remove("--margin");
-        words_.set("--camera", "auto");
-    }
-    const bool is_framed = arguments.view.frames() || scene_.stage().is_framed;
-    if (is_framed && !words_.has("--fov") && !words_.has("--focal-length")) {
-        // With a field of view the view is complete, so the scene need not be framed.
-        words_.set("--fov", fmt::format("{}", degrees(camera.vertical_fov)));
-    }
-    const DVec3& origin = scene_.stage().scene.description().origin;
-    words_.set("--from", point_text(pose.from, origin));
-    words_.set("--look-at", point_text(pose.look_at, origin));
-    pose_ = pose;
 }
 
 void Session::check(const ViewSettings& settings) const
 {
     if (settings.integrator_b && !settings.integrator_b->empty()) {
-        ViewWords words = words_;
+        ViewWords words = edits_.words();
         words.set("--integrator", *settings.integrator_b);
         static_cast<void>(words.arguments());  // throws
     }
@@ -269,33 +203,8 @@ void Session::check(const ViewSettings& settings) const
 void Session::change_settings(const ViewSettings& settings)
 {
     check(settings);
-    if (settings.integrator_a) {
-        words_.set("--integrator", *settings.integrator_a);
-    }
-    if (settings.environment) {
-        set_environment(*settings.environment);
-    }
-    if (settings.rotation) {
-        words_.set("--env-rotation", fmt::format("{}", *settings.rotation));
-    }
-    if (settings.intensity) {
-        words_.set("--env-intensity", fmt::format("{}", *settings.intensity));
-    }
-    if (settings.exposure) {
-        words_.set("--exposure", *settings.exposure);
-        if (*settings.exposure == "auto") {
-            const std::optional<Exposure> first = first_words_.arguments().display.exposure;
-            if (!first_words_.has("--exposure")) {
-                words_.remove("--exposure");
-            } else if (first && first->base != ExposureBase::radiance) {
-                words_.set("--exposure", first_words_.text("--exposure"));
-            }
-        }
-    }
-    if (settings.curve) {
-        words_.set("--tone-map", *settings.curve);
-    }
-    static_cast<void>(words_.arguments());  // throws, before anything else is changed
+    edits_.change(settings.options);
+    static_cast<void>(edits_.words().arguments());  // throws, before anything else is changed
     if (settings.integrator_b && *settings.integrator_b != integrator_b_) {
         renders_[1].reset();
         integrator_b_ = *settings.integrator_b;
@@ -310,18 +219,6 @@ void Session::change_settings(const ViewSettings& settings)
     if (changes_layer) {
         tell(true);
         show_all();
-    }
-}
-
-void Session::set_environment(const std::string& name)
-{
-    if (name == "scene") {
-        words_.remove("--env");
-    } else if (name == "none" || name == "default" || name == "studio" ||
-               name == first_words_.text("--env")) {
-        words_.set("--env", name);  // no other file: pages must not choose files to read
-    } else {
-        throw Error(ErrorCode::usage, fmt::format("\"environment\": there is none \"{}\"", name));
     }
 }
 
@@ -356,17 +253,17 @@ Download Session::saved(const std::string& name, int slot)
 void Session::load()
 {
     files_changed_ = false;
-    if (const auto wrong = catch_failure([&] { scene_.load(words_); })) {
+    if (const auto wrong = catch_failure([&] { scene_.load(edits_.words()); })) {
         file_message_ = *wrong;
         console_.warning(*wrong, Repeat::always);
     } else {
         file_message_.clear();
         message_.clear();
         watch_.watch(scene_.files());
-        console_.note(fmt::format("{}: loaded again", words_.text("file")));
-        shown_words_ = words_;
+        console_.note(fmt::format("{}: loaded again", edits_.words().text("file")));
+        shown_words_ = edits_.words();
         is_stale_ = false;
-        pose_.reset();
+        edits_.set_pose(std::nullopt);
         is_metered_ = false;
         coarse_.restart(scene_.stage().size);
         ++generation_;
@@ -377,38 +274,37 @@ void Session::load()
 void Session::restart()
 {
     is_stale_ = false;
-    const ViewWords before = std::exchange(shown_words_, words_);
+    const ViewWords before = std::exchange(shown_words_, edits_.words());
     const bool look_only = [&] {  // options that change no pixel
         ViewWords a = before;
-        ViewWords b = words_;
+        ViewWords b = edits_.words();
         for (const char* option : {"--exposure", "--tone-map"}) {
             a.remove(option);
             b.remove(option);
         }
         const PreparedScene& stage = scene_.stage();
-        return a == b &&
-               meters_light(before.arguments(), stage) == meters_light(words_.arguments(), stage);
+        return a == b && meters_light(before.arguments(), stage) ==
+                             meters_light(edits_.words().arguments(), stage);
     }();
     if (look_only) {
         for (std::optional<LiveRender>& render : renders_) {
             if (render) {
-                render->set_display(words_.arguments().display);
+                render->set_display(edits_.words().arguments().display);
             }
         }
         if (renders_[0] && renders_[0]->renderer().samples() > 0) {
             meter(shown_image(renders_[0]->arguments(), renders_[0]->renderer().result()),
                   &*renders_[0]);
         }
-        scene_.show(words_);
+        scene_.show(edits_.words());
         tell(false);
         return;
     }
     drop_renders();
-    if (const auto wrong = catch_failure([&] { scene_.show(words_); })) {
+    if (const auto wrong = catch_failure([&] { scene_.show(edits_.words()); })) {
         message_ = *wrong;
-        words_ = before;
+        edits_.give_up(before);
         shown_words_ = before;
-        pose_.reset();
     } else {
         message_.clear();
         watch_.watch(scene_.files());

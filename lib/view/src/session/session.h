@@ -13,10 +13,9 @@
 #include "live/frame.h"
 #include "live/live_render.h"
 #include "live/live_scene.h"
-#include "live/mailbox.h"
 #include "messages/console.h"
-#include "state/page_request.h"
-#include "state/view_words.h"
+#include "session/view_edits.h"
+#include "state/view_state.h"
 
 namespace bdpt::view {
 
@@ -29,6 +28,30 @@ public:
     virtual void show(std::shared_ptr<const Frame> frame) = 0;
     /// Sends an answer to one page.
     virtual void answer(ClientId client, std::string text) = 0;
+};
+
+/// The pages of a session. Used on the render thread.
+class Clients {
+public:
+    explicit Clients(Audience& audience) : audience_(audience) {}
+
+    void join(ClientId client) { handled_.emplace(client, 0); }
+    void leave(ClientId client) { handled_.erase(client); }
+    [[nodiscard]] bool empty() const { return handled_.empty(); }
+    /// Notes that a request is handled: pictures from now on reflect it.
+    void handle(ClientId client, std::uint32_t sequence);
+    void answer(ClientId client, const nlohmann::ordered_json& reply);
+    void show(std::shared_ptr<Frame> frame);
+    /// Sends the state, now or, if one was sent just before, when `tell` is called again.
+    void tell(bool now, const std::function<nlohmann::ordered_json()>& state);
+    /// Tests whether a state was not sent.
+    [[nodiscard]] bool is_untold() const { return is_untold_; }
+
+private:
+    Audience& audience_;
+    std::map<ClientId, std::uint32_t> handled_;  // last request of each
+    std::chrono::steady_clock::time_point told_{};
+    bool is_untold_ = false;
 };
 
 /// The session of `bdpt view`: one scene, one camera, rendered by one or two integrators, for all
@@ -52,11 +75,9 @@ public:
 
 private:
     void answer(ClientId client, const PageRequest& request);
-    void change_camera(const PageRequest& request);
     /// Throws `Error` for invalid settings.
     void check(const ViewSettings& settings) const;
     void change_settings(const ViewSettings& settings);
-    void set_environment(const std::string& name);
     [[nodiscard]] std::string inspected(const PixelSample& pixel);
     [[nodiscard]] Download saved(const std::string& name, int slot);
     /// Loads the scene for the first time. Throws `Error` if it cannot be loaded, unless an open
@@ -81,7 +102,6 @@ private:
     void show_all();
     void send(std::size_t slot, const Image& image, const Cover& cover, const Size& grid,
               const PixelRect& region, std::int64_t samples);
-    /// Sends the state to pages, now or shortly if it was sent just before.
     void tell(bool now);
     /// Returns the state for pages: all but pixels. Before a scene is loaded it has no picture.
     [[nodiscard]] nlohmann::ordered_json state();
@@ -89,12 +109,11 @@ private:
     [[nodiscard]] nlohmann::ordered_json slot_state(std::size_t slot) const;
     void meter(const Image& image, const LiveRender* render);
 
-    Audience& audience_;
+    Clients clients_;
     Console& console_;
     Console quiet_;  ///< for messages that would be repeated
     Mailbox mailbox_;
-    const ViewWords first_words_;
-    ViewWords words_;        ///< requested by pages
+    ViewEdits edits_;
     ViewWords shown_words_;  ///< words of the scene as last shown
     LiveScene scene_;
     std::array<std::optional<LiveRender>, 2> renders_;
@@ -110,12 +129,8 @@ private:
     std::string message_;         ///< reason why the last change was refused
     std::string file_message_;    ///< reason why the file was not reloaded
     float automatic_exposure_ = 0.0f;
-    bool is_metered_ = false;   ///< `automatic_exposure_` belongs to this scene
-    std::optional<Pose> pose_;  ///< pose of the camera, if known
+    bool is_metered_ = false;  ///< `automatic_exposure_` belongs to this scene
     std::uint32_t generation_ = 0;
-    std::map<ClientId, std::uint32_t> clients_;  ///< with their last handled request
-    std::chrono::steady_clock::time_point told_{};
-    bool is_untold_ = false;
     SceneWatch watch_;  // last: its thread uses the mailbox
 };
 

@@ -14,7 +14,7 @@
 #include "output/render_report.h"
 #include "output/values.h"
 #include "session/session.h"
-#include "stage/render_preparation.h"
+#include "stage/prepared_scene.h"
 
 namespace bdpt::view {
 namespace {
@@ -33,6 +33,11 @@ ordered_json scale_json(const Scale& scale)
     return {{"label", scale.label}, {"ticks", std::move(ticks)}};
 }
 
+std::string to_line(const ordered_json& message)
+{
+    return message.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 /// Returns the strategies with a vertex on the lens, for paths of up to `edges`.
 std::vector<Strategy> strategies_up_to(int edges)
 {
@@ -46,6 +51,35 @@ std::vector<Strategy> strategies_up_to(int edges)
 }
 
 }  // namespace
+
+void Clients::tell(bool now, const std::function<ordered_json()>& state)
+{
+    constexpr std::chrono::milliseconds interval{100};
+    const auto time = std::chrono::steady_clock::now();
+    is_untold_ = !now && time - told_ < interval;
+    if (!is_untold_) {
+        told_ = time;
+        audience_.tell(to_line({{"state", state()}}));
+    }
+}
+
+void Clients::show(std::shared_ptr<Frame> frame)
+{
+    frame->sequences = handled_;
+    audience_.show(std::move(frame));
+}
+
+void Clients::handle(ClientId client, std::uint32_t sequence)
+{
+    if (const auto found = handled_.find(client); found != handled_.end()) {
+        found->second = std::max(found->second, sequence);
+    }
+}
+
+void Clients::answer(ClientId client, const ordered_json& reply)
+{
+    audience_.answer(client, to_line(reply));
+}
 
 std::vector<Strategy> Session::known_strategies() const
 {
@@ -147,9 +181,8 @@ void Session::send(std::size_t slot, const Image& image, const Cover& cover, con
         std::min<std::int64_t>(samples, std::numeric_limits<std::uint32_t>::max()));
     frame->channels = cover.alpha.empty() ? 3 : 5;
     frame->pixels = half_pixels(image, cover);
-    frame->sequences = clients_;
     shown_samples_.at(slot) = samples;
-    audience_.show(std::move(frame));
+    clients_.show(std::move(frame));
 }
 
 void Session::meter(const Image& image, const LiveRender* render)
@@ -165,16 +198,7 @@ void Session::meter(const Image& image, const LiveRender* render)
 
 void Session::tell(bool now)
 {
-    constexpr std::chrono::milliseconds interval{100};
-    const auto time = std::chrono::steady_clock::now();
-    if (!now && time - told_ < interval) {
-        is_untold_ = true;
-        return;
-    }
-    is_untold_ = false;
-    told_ = time;
-    audience_.tell(ordered_json{{"state", state()}}.dump(-1, ' ', false,
-                                                         ordered_json::error_handler_t::replace));
+    clients_.tell(now, [this] { return state(); });
 }
 
 nlohmann::ordered_json Session::state()
@@ -182,7 +206,7 @@ nlohmann::ordered_json Session::state()
     const auto text_or_null = [](const std::string& text) {
         return text.empty() ? ordered_json() : ordered_json(text);
     };
-    const std::string file = words_.text("file");
+    const std::string file = edits_.words().text("file");
     ordered_json state{{"loading", !scene_.is_there() && file_message_.empty()},
                        {"file", file},
                        {"title", std::filesystem::path(file).filename().string()},
@@ -192,9 +216,9 @@ nlohmann::ordered_json Session::state()
     }
     const PreparedScene& stage = scene_.stage();
     const RenderArguments& arguments = scene_.arguments();
-    const Pose pose = pose_ ? *pose_ : scene_.pose();
+    const Pose pose = edits_.pose() ? *edits_.pose() : scene_.pose();
     if (!is_stale_) {
-        pose_ = pose;  // otherwise it belongs to a moving camera
+        edits_.set_pose(pose);  // otherwise it belongs to a moving camera
     }
     const DVec3& origin = stage.scene.description().origin;
     const bool has_fov = stage.camera.projection != Projection::orthographic;
@@ -210,7 +234,7 @@ nlohmann::ordered_json Session::state()
     state["integrator_a"] = to_name(arguments.options.integrator);
     state["integrator_b"] = text_or_null(integrator_b_);
     std::vector<std::string> environments{"scene", "default", "studio", "none"};
-    if (const std::string own = first_words_.text("--env");
+    if (const std::string own = edits_.first_words().text("--env");
         !own.empty() && is_file_of_environment(own)) {
         environments.insert(environments.begin(), own);
     }

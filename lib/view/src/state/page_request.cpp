@@ -1,9 +1,10 @@
-#include "state/page_request.h"
+#include "state/view_state.h"
 
 #include <bdpt/error.h>
 #include <bdpt/options/integrators.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -129,20 +130,23 @@ ViewSettings parse_settings(const Json& value)
         fail("set", "an object");
     }
     for (const auto& [key, member] : value.items()) {
+        const auto set = [&settings](const char* option, std::string text) {
+            settings.options.emplace_back(option, std::move(text));
+        };
         if (key == "integrator_a") {
-            settings.integrator_a = text(member, key);
+            set("--integrator", text(member, key));
         } else if (key == "integrator_b") {
             settings.integrator_b = member.is_null() ? "" : text(member, key);
         } else if (key == "environment") {
-            settings.environment = text(member, key);
+            set("--env", text(member, key));
         } else if (key == "rotation") {
-            settings.rotation = number(member, key, -1e6, 1e6);
+            set("--env-rotation", fmt::format("{}", number(member, key, -1e6, 1e6)));
         } else if (key == "intensity") {
-            settings.intensity = number(member, key, 0.0, 1e6);
+            set("--env-intensity", fmt::format("{}", number(member, key, 0.0, 1e6)));
         } else if (key == "exposure") {
-            settings.exposure = parse_ev(member);
+            set("--exposure", parse_ev(member));
         } else if (key == "curve") {
-            settings.curve = text(member, key);
+            set("--tone-map", text(member, key));
         } else if (key == "paused") {
             settings.paused = truth(member, key);
         } else if (key == "layer") {
@@ -176,9 +180,11 @@ std::string_view layer_name(ViewLayer layer)
 
 bool PageRequest::changes_picture() const
 {
+    const auto changes = [](const auto& option) {
+        return option.first != "--exposure" && option.first != "--tone-map";
+    };
     return move || focus || reset ||
-           (settings && (settings->integrator_a || settings->environment || settings->rotation ||
-                         settings->intensity));
+           (settings && std::any_of(settings->options.begin(), settings->options.end(), changes));
 }
 
 std::optional<std::uint32_t> parse_sequence(std::string_view text)

@@ -1,4 +1,4 @@
-#include "state/view_camera.h"
+#include "state/view_state.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "options/groups/transport_arguments.h"
-#include "output/inspect_report.h"
+#include "output/render_report.h"
 
 namespace bdpt::view {
 

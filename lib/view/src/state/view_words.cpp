@@ -1,11 +1,11 @@
-#include "state/view_words.h"
+#include "state/view_state.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "messages/text.h"
-#include "options/job_file.h"
+#include "options/option_list.h"
 
 namespace bdpt::view {
 

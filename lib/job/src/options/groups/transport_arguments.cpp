@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "options/groups/film_arguments.h"
+#include "options/groups/image_arguments.h"
 #include "options/output_files.h"
 #include "options/value_types.h"
 
@@ -303,16 +303,9 @@ void add_strategy_options(OptionList& options, StrategyFiles& strategies)
 
 void add_strategy_file_option(OptionList& options, StrategyFiles& strategies, std::string help)
 {
-    const auto parse = [](const std::string& text) -> std::optional<StrategyFiles> {
-        if (!has_extension(text, ".exr")) {
-            return std::nullopt;
-        }
-        return StrategyFiles::named(text);
-    };
-    Option& option = options.add("--strategies", "FILE", std::move(help), strategies,
-                                 parsed_by(parse, "a file name that ends in .exr"));
+    Option& option = options.add("--strategies", "FILE", std::move(help), strategies.layers,
+                                 file_named({".exr"}, "a file name that ends in .exr"));
     option.uses = {.stated_in = StatedIn::own_folder};
-    option.info.is_path = true;
 }
 
 std::optional<StrategyFiles> checked(const StrategyFiles& strategies, const RenderOptions& render,
@@ -335,14 +328,9 @@ std::optional<StrategyFiles> checked(const StrategyFiles& strategies, const Rend
     return strategies;
 }
 
-StrategyFiles StrategyFiles::named(const fs::path& layers)
-{
-    return {.layers = layers, .sheet = fs::path(layers).replace_extension(".png")};
-}
-
 std::vector<fs::path> StrategyFiles::both() const
 {
-    return layers.empty() ? std::vector<fs::path>() : std::vector<fs::path>{layers, sheet};
+    return layers.empty() ? std::vector<fs::path>() : std::vector<fs::path>{layers, sheet()};
 }
 
 namespace {

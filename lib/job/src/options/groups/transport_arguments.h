@@ -51,11 +51,13 @@ constexpr int default_strategy_depth = 5;
 /// Destination of strategy images: files, or only the part that is rendered.
 struct StrategyFiles {
     std::filesystem::path layers{};  ///< .exr; empty: no files
-    std::filesystem::path sheet{};   ///< .png file with the same stem
     std::optional<int> depth{};      ///< maximum path length [edges], if the user chose one
 
-    /// Returns the files beside the file `layers`.
-    [[nodiscard]] static StrategyFiles named(const std::filesystem::path& layers);
+    /// Returns the .png file with the same stem.
+    [[nodiscard]] std::filesystem::path sheet() const
+    {
+        return std::filesystem::path(layers).replace_extension(".png");
+    }
     /// Returns both files; none if there are no files.
     [[nodiscard]] std::vector<std::filesystem::path> both() const;
 };

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <bdpt/framing.h>
+#include <bdpt/io/gltf.h>
+#include <bdpt/io/volume.h>
+#include <bdpt/medium_desc.h>
 #include <bdpt/scene.h>
 #include <bdpt/scene_desc.h>
 #include <bdpt/types.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -100,5 +105,38 @@ void add_lens_options(OptionList& options, LensChoice& lens);
 /// camera.
 [[nodiscard]] Vec3 orbit_center(const CameraDesc& camera, const std::optional<Vec3>& look_at,
                                 Vec3 middle);
+
+/// Adds --scene, --variant, --frame-time, --animation and --shutter, which select the part of a
+/// file to load, --ktx-library, --allow-folder, --ignore-required and --strict, which control
+/// loading, and
+/// --max-memory [bytes].
+void add_scene_options(OptionList& options, io::GltfOptions& scene,
+                       std::optional<std::uint64_t>& max_memory);
+
+/// Changes of a scene's environment, whatever its source.
+struct EnvironmentChange {
+    double rotation = 0.0;   ///< about +y, counter-clockwise as seen from above [deg]
+    float intensity = 1.0f;  ///< factor of the radiance, >= 0
+
+    [[nodiscard]] bool operator==(const EnvironmentChange&) const = default;
+};
+
+/// Adds --env-rotation and --env-intensity.
+void add_environment_options(OptionList& options, EnvironmentChange& change);
+
+/// A volume of an OpenVDB file to put into the scene.
+struct VolumeChoice {
+    std::filesystem::path file{};
+    io::VolumeOptions options{};  ///< without limits
+};
+
+/// Adds --fog, --fog-albedo and --fog-anisotropy.
+void add_fog_options(OptionList& options, MediumDesc& fog);
+
+/// Adds --volume and the options whose names begin with it.
+void add_volume_options(OptionList& options, VolumeChoice& volume);
+
+/// Throws `OptionError` if one of them is given without --fog or --volume.
+void check_medium_options(const OptionList& options);
 
 }  // namespace bdpt::job

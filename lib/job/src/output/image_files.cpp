@@ -1,4 +1,4 @@
-#include "output/image/image_files.h"
+#include "output/image_files.h"
 
 #include <bdpt/io/display.h>
 #include <bdpt/io/write_image.h>
@@ -10,8 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "options/output_files.h"
-#include "output/image/denoised.h"
-#include "output/image/display_sources.h"
 
 namespace bdpt::job {
 

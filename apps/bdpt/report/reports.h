@@ -1,6 +1,9 @@
 #pragma once
 
 #include <bdpt/error.h>
+#include <bdpt/eval/bench.h>
+#include <bdpt/eval/comparison.h>
+#include <bdpt/eval/verify.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene.h>
 #include <bdpt/scene_desc.h>
@@ -8,6 +11,7 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,15 +20,7 @@
 
 namespace bdpt::app {
 
-/// Returns `light` without the pixels of an environment.
-[[nodiscard]] LightDesc without_pixels(const LightDesc& light);
-
 // `origin`: that of the world, in the coordinates of the file, which positions are told in.
-
-/// Returns a light as a line for people.
-[[nodiscard]] std::string light_text(const LightDesc& light, const DVec3& origin);
-/// Returns a light as an object: "kind" and its properties by kind.
-[[nodiscard]] nlohmann::ordered_json light_json(const LightDesc& light, const DVec3& origin);
 
 /// A material that emits.
 struct EmissiveMaterial {
@@ -79,5 +75,17 @@ struct SceneReport {
 [[nodiscard]] std::string info_text(const SceneReport& report);
 /// Formats the report for programs.
 [[nodiscard]] nlohmann::ordered_json info_json(const SceneReport& report);
+
+/// Returns the results of a scene as a table for people. `seconds` is the CPU time of runs at equal
+/// time.
+[[nodiscard]] std::string bench_text(const eval::SceneResult& scene, double seconds);
+
+/// Returns the report as tables for people.
+[[nodiscard]] std::string compare_text(const eval::ComparisonReport& report,
+                                       std::span<const eval::ThresholdResult> thresholds);
+
+/// Returns the report as tables for people, the verdict last.
+[[nodiscard]] std::string verify_text(const eval::VerifyReport& report,
+                                      const eval::VerifyOptions& options);
 
 }  // namespace bdpt::app

@@ -1,4 +1,4 @@
-#include "output/image/denoised.h"
+#include "output/image_files.h"
 
 #include <bdpt/error.h>
 

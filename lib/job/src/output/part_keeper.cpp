@@ -1,4 +1,4 @@
-#include "output/part/part_keeper.h"
+#include "output/parts.h"
 
 #include <bdpt/error.h>
 #include <fmt/core.h>

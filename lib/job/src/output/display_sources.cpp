@@ -1,4 +1,4 @@
-#include "output/image/display_sources.h"
+#include "output/image_files.h"
 
 #include <bdpt/error.h>
 #include <bdpt/io/read_image.h>
@@ -11,8 +11,6 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
-
-#include "output/image/denoised.h"
 
 namespace bdpt::job {
 namespace {
@@ -228,8 +226,10 @@ Rgb weighted(const Image& image, std::size_t begin, std::size_t stride, const Ta
     return sum;
 }
 
-}  // namespace
-
+/// Fits `image` to a full frame: scales it uniformly until it covers the frame, crops two sides if
+/// its proportions differ, and returns the part that lies behind the frame's region from x and y.
+/// Filtered in linear light; an image of the frame's size is unchanged. Values are limited to [0,
+/// 1], what a screen shows.
 Image behind_frame(const Image& image, const io::ExrPlacement& frame, int width, int height)
 {
     const double step = std::min(static_cast<double>(image.width) / frame.full_width,
@@ -262,6 +262,8 @@ Image behind_frame(const Image& image, const io::ExrPlacement& frame, int width,
     }
     return result;
 }
+
+}  // namespace
 
 std::optional<Image> backplate(const DisplayArguments& display, const Image& image,
                                const std::optional<io::ExrPlacement>& frame)

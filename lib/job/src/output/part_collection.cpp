@@ -1,4 +1,4 @@
-#include "output/part/part_collection.h"
+#include "output/parts.h"
 
 #include <bdpt/error.h>
 #include <bdpt/io/json_value.h>
@@ -18,11 +18,9 @@
 #include "messages/text.h"
 #include "options/groups/transport_arguments.h"
 #include "options/output_files.h"
-#include "output/image/display_sources.h"
-#include "output/image/image_files.h"
+#include "output/image_files.h"
 #include "output/render_report.h"
 #include "plan/plan.h"
-#include "plan/planned_tasks.h"
 
 namespace bdpt::job {
 
@@ -385,9 +383,7 @@ void check_merged_files(std::span<const MergeArguments> images)
     }
     for (const MergeArguments& image : images) {
         check_outputs(image.outputs, inputs);
-        if (image.strategies) {
-            check_strategy_files(StrategyFiles::named(*image.strategies), inputs, image.outputs);
-        }
+        check_strategy_files(image.strategies, inputs, image.outputs);
     }
 }
 
@@ -398,21 +394,19 @@ void check_strategies(const MergeArguments& arguments, const io::PartInfo& part)
         std::any_of(components.begin(), components.end(), [](const IdentityComponent& component) {
             return component.name == "option: strategy_depth" && component.value != "0";
         });
-    if (arguments.strategies && !has_images) {
+    if (!arguments.strategies.layers.empty() && !has_images) {
         throw Error(ErrorCode::invalid_input,
                     fmt::format("--strategies \"{}\": {} has no strategy images; render the parts "
                                 "with --strategy-depth",
-                                arguments.strategies->string(), part.file.string()));
+                                arguments.strategies.layers.string(), part.file.string()));
     }
 }
 
 std::vector<fs::path> merged_files(const MergeArguments& arguments)
 {
     std::vector<fs::path> files = arguments.outputs;
-    if (arguments.strategies) {
-        const std::vector<fs::path> more = StrategyFiles::named(*arguments.strategies).both();
-        files.insert(files.end(), more.begin(), more.end());
-    }
+    const std::vector<fs::path> more = arguments.strategies.both();
+    files.insert(files.end(), more.begin(), more.end());
     return files;
 }
 
@@ -433,7 +427,8 @@ std::vector<fs::path> write_merged_files(const MergeArguments& arguments,
             images.push_back(output);
         }
     }
-    if (images.empty() && !arguments.strategies) {
+    const bool writes_strategies = !arguments.strategies.layers.empty();
+    if (images.empty() && !writes_strategies) {
         attempts.finish();
         return {};
     }
@@ -441,10 +436,9 @@ std::vector<fs::path> write_merged_files(const MergeArguments& arguments,
     const ImageFileOptions options = image_file_options(
         part, std::move(notes.metadata), arguments.exr, display, denoiser, arguments.denoise);
     WrittenImages written = write_image_files(images, image, options, attempts);
-    if (arguments.strategies) {
+    if (writes_strategies) {
         attempts.run([&] {
-            write_strategy_files(StrategyFiles::named(*arguments.strategies), image,
-                                 part.strategies, options.exr,
+            write_strategy_files(arguments.strategies, image, part.strategies, options.exr,
                                  shown_exposure(display.exposure, options.exr.metadata, image));
         });
     }
@@ -465,7 +459,7 @@ std::set<fs::path> planned_files(const Plan& plan, const fs::path& file, std::si
         result.insert(name(output));
     }
     if (plan.strategies) {
-        const std::vector<fs::path> both = StrategyFiles::named(name(*plan.strategies)).both();
+        const std::vector<fs::path> both = StrategyFiles{.layers = name(*plan.strategies)}.both();
         result.insert(both.begin(), both.end());
     }
     return result;

@@ -92,11 +92,11 @@ function bindPointer(stage, moves, { click, focus }) {
   });
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
-    const lines = event.deltaMode === 1 ? 16 : 1;
     if (event.ctrlKey || event.metaKey) {
-      stage.view.zoomAt(2 ** (-lines * event.deltaY / 240), ...stage.place(event));
+      stage.zoomByWheel(event);
       stage.requestDraw();
     } else {
+      const lines = event.deltaMode === 1 ? 16 : 1;
       moves.approach(2 ** (lines * event.deltaY / 480));
     }
   }, { passive: false });

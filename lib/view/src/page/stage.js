@@ -61,12 +61,7 @@ class Stage extends Pane {
   }
 
   requestDraw() {
-    if (!this.pending) {
-      this.pending = requestAnimationFrame(() => {
-        this.pending = 0;
-        this.drawAll();
-      });
-    }
+    drawSoon(this, () => this.drawAll());
   }
 
   drawAll() {
@@ -88,12 +83,6 @@ class Stage extends Pane {
       context.restore();
     }
     this.drawn();
-  }
-
-  /** Returns the image pixel under the pointer, or null outside of the image. */
-  pixel(event) {
-    const [x, y] = this.place(event);
-    return x >= 0 && y >= 0 && x < 1 && y < 1 ? [Math.floor(x * this.size[0]), Math.floor(y * this.size[1])] : null;
   }
 
   /** Converts a position in the image [pixels] to CSS pixels of the box. */

@@ -36,6 +36,16 @@ class View {
   }
 }
 
+/** Calls `draw` before the next repaint, once however often `owner` asks. */
+function drawSoon(owner, draw) {
+  if (!owner.pending) {
+    owner.pending = requestAnimationFrame(() => {
+      owner.pending = 0;
+      draw();
+    });
+  }
+}
+
 /** A canvas that shows an image through a View. */
 class Pane {
   constructor(view, width, height, label) {
@@ -94,10 +104,21 @@ class Pane {
       y + ((event.clientY - box.top) / box.height - 0.5) / zoom];
   }
 
+  /** Returns the image pixel under the pointer, or null outside of the image. */
+  pixel(event) {
+    const [x, y] = this.place(event);
+    return x >= 0 && y >= 0 && x < 1 && y < 1 ? [Math.floor(x * this.size[0]), Math.floor(y * this.size[1])] : null;
+  }
+
+  /** Magnifies by a turn of the wheel. */
+  zoomByWheel(event) {
+    const lines = event.deltaMode === 1 ? 16 : 1;
+    this.view.zoomAt(2 ** (-lines * event.deltaY / 240), ...this.place(event));
+  }
+
   /** Handles zoom, pan and pointer moves; calls `changed(cursor)` after each. */
   listen(changed) {
     const canvas = this.canvas;
-    const pixel = ([x, y]) => [Math.floor(x * this.size[0]), Math.floor(y * this.size[1])];
     let drag = null;
     canvas.addEventListener("pointerdown", (event) => {
       drag = this.place(event);
@@ -108,20 +129,20 @@ class Pane {
         const now = this.place(event);
         this.view.pan(drag[0] - now[0], drag[1] - now[1]);
       }
-      changed(pixel(this.place(event)));
+      changed(this.pixel(event));
     });
     canvas.addEventListener("pointerup", () => { drag = null; });
     canvas.addEventListener("pointerleave", () => changed(null));
     canvas.addEventListener("dblclick", (event) => {
       this.view.zoomAt(event.shiftKey ? 0.5 : 2, ...this.place(event));
-      changed(pixel(this.place(event)));
+      changed(this.pixel(event));
     });
     canvas.addEventListener("wheel", (event) => {
       // Without a modifier key the wheel scrolls the page, unless the image has the focus.
       if (event.ctrlKey || event.metaKey || document.activeElement === canvas) {
         event.preventDefault();
-        this.view.zoomAt(2 ** (-event.deltaY / 240), ...this.place(event));
-        changed(pixel(this.place(event)));
+        this.zoomByWheel(event);
+        changed(this.pixel(event));
       }
     }, { passive: false });
   }

@@ -41,8 +41,7 @@ class Viewer {
   /** Creates the elements; `more` is placed beside the large image. */
   element(more) {
     const redraw = (cursor) => {
-      this.cursor = cursor && cursor[0] >= 0 && cursor[1] >= 0 && cursor[0] < this.scene.width &&
-        cursor[1] < this.scene.height ? cursor : null;
+      this.cursor = cursor;
       this.requestDraw();
     };
     for (const pane of [this.stage, ...this.tiles]) {
@@ -129,11 +128,8 @@ class Viewer {
   }
 
   requestDraw() {
-    if (!this.pending && this.visible) {
-      this.pending = requestAnimationFrame(() => {
-        this.pending = 0;
-        this.draw();
-      });
+    if (this.visible) {
+      drawSoon(this, () => this.draw());
     }
   }
 

@@ -51,11 +51,15 @@ struct FrameOptions {
 /// A view for a scene without a camera.
 struct FramedView {
     CameraDesc camera;
+    /// True if the view is from the inside of a closed room: of 32 pairs of an eye and a lamp, the
+    /// one whose picture is deep and lit, as a pilot of 64 paths each sees it. The choice does not
+    /// depend on the aspect ratio and the field of view.
+    bool inside = false;
     /// True if hardly any ray leaves the space around the camera, so that light from infinity would
     /// not reach it.
     bool enclosed = false;
-    /// A point in free space well above the camera's target, where a point light illuminates the
-    /// view.
+    /// A point in free space, where a point light illuminates the view: well above the camera's
+    /// target, or in a closed room that of the pair.
     Vec3 lamp_position{0.0f};
 };
 

@@ -1,4 +1,5 @@
 #include <bdpt/framing.h>
+#include <bdpt/tools/ray_query.h>
 
 #include "camera/camera.h"
 #include "catch.hpp"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace bdpt::framing_test {
@@ -51,6 +53,40 @@ Extent extent_of(const SceneDesc& desc, const CameraDesc& view, float aspect)
         }
     }
     return extent;
+}
+
+/// A closed ring of tunnel with bumpy walls, 16 m wide, whose front is inside.
+SceneDesc bumpy_tunnel()
+{
+    constexpr int around = 96;
+    constexpr int sides = 32;
+    constexpr float turn = 6.2831853f;
+    MeshDesc mesh;
+    for (int i = 0; i < around; ++i) {
+        for (int j = 0; j < sides; ++j) {
+            const float u = turn * static_cast<float>(i) / around;
+            const float v = turn * static_cast<float>(j) / sides;
+            const float bumps = 0.3f * std::sin(5.0f * u + v) +
+                                0.2f * std::sin(11.0f * u - 3.0f * v) +
+                                0.1f * std::sin(23.0f * u + 5.0f * v);
+            const float radius = 1.6f * (1.0f + bumps);
+            const float away = 8.0f * (1.0f + 0.3f * std::sin(2.0f * u)) + radius * std::cos(v);
+            mesh.positions.emplace_back(away * std::cos(u), radius * std::sin(v),
+                                        away * std::sin(u));
+        }
+    }
+    for (int i = 0; i < around; ++i) {
+        for (int j = 0; j < sides; ++j) {
+            const auto at = [&](int du, int dv) {
+                return static_cast<std::uint32_t>((i + du) % around * sides + (j + dv) % sides);
+            };
+            mesh.triangles.emplace_back(at(0, 0), at(1, 0), at(1, 1));
+            mesh.triangles.emplace_back(at(0, 0), at(1, 1), at(0, 1));
+        }
+    }
+    SceneBuilder builder;
+    builder.place(builder.add_mesh(std::move(mesh)), test::lambertian(Rgb(0.5f)), Mat4(1.0f));
+    return std::move(builder.desc);
 }
 
 /// A flat board that stands askew, 4 m wide and 1 m high, far from the origin, and a ball.
@@ -232,6 +268,40 @@ TEST_CASE("a closed room is framed from inside, with a lamp above", "[framing]")
         }
     }
     CHECK(view.lamp_position.y > 0.3f);
+}
+
+TEST_CASE("a cave is seen from where its lamp shines", "[framing]")
+{
+    const Scene scene(bumpy_tunnel());
+    const FramedView view = frame_scene(scene, 1.5f);
+    CHECK(view.inside);
+    CHECK(view.enclosed);
+    const CameraDesc& camera = view.camera;
+    int lit = 0;
+    int deep = 0;
+    constexpr int side = 16;
+    for (int i = 0; i < side * side; ++i) {
+        const float x = (static_cast<float>(i % side) + 0.5f) / side - 0.5f;
+        const float y = (static_cast<float>(i / side) + 0.5f) / side - 0.5f;
+        const Vec3 direction = normalize(Mat3(camera.world_from_camera) * Vec3(x, y, -1.0f));
+        const auto hit = first_hit(scene, eye(view), direction);
+        REQUIRE(hit);
+        const Vec3 before = hit->position - 1e-3f * direction;
+        lit += is_visible(scene, before, view.lamp_position) ? 1 : 0;
+        deep += hit->distance > 1.0f ? 1 : 0;  // the tunnel is 3 m wide
+    }
+    CHECK(lit > side * side / 3);
+    CHECK(deep > side * side / 2);
+
+    SECTION("whatever the aspect ratio and the field of view of the image")
+    {
+        for (const float aspect : {0.4f, 1.0f, 3.0f}) {
+            const FramedView other = frame_scene(scene, aspect, {.vertical_fov = 0.5f});
+            CHECK(other.camera.world_from_camera == camera.world_from_camera);
+            CHECK(other.lamp_position == view.lamp_position);
+            CHECK(other.camera.vertical_fov == 0.5f);
+        }
+    }
 }
 
 TEST_CASE("a room without its front wall is looked into from there", "[framing]")

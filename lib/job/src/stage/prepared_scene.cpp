@@ -240,11 +240,11 @@ Scene build(LitScene& lit, const RenderArguments& arguments)
 
 /// Returns the camera that frames the scene as requested. A complete view (--from, --look-at and
 /// --fov) needs no framing, which takes longer than a coarse picture.
-CameraDesc framed(const Scene& scene, float aspect, const RenderArguments& arguments)
+FramedView framed(const Scene& scene, float aspect, const RenderArguments& arguments)
 {
     const ViewOverrides& view = arguments.view;
     if (view.from && view.look_at && view.vertical_fov && !view.frames()) {
-        return {.name = "auto", .vertical_fov = *view.vertical_fov};
+        return {.camera = {.name = "auto", .vertical_fov = *view.vertical_fov}};
     }
     FrameOptions options{.direction = view.direction,
                          .margin = view.margin,
@@ -253,9 +253,9 @@ CameraDesc framed(const Scene& scene, float aspect, const RenderArguments& argum
     if (!view.from && !view.look_at) {
         options.vertical_fov = view.vertical_fov;
     }
-    CameraDesc camera = frame_scene(scene, aspect, options).camera;
-    camera.name = "auto";
-    return camera;
+    FramedView result = frame_scene(scene, aspect, options);
+    result.camera.name = "auto";
+    return result;
 }
 
 Vec3 center(const Bounds& bounds)
@@ -417,12 +417,6 @@ PreparedScene prepare_scene(const RenderArguments& asked)
                                                         "the others",
                                                         bonds))});
     }
-    if (!from_file && !arguments.camera && !arguments.view.from && !arguments.view.frames()) {
-        lit.notes.push_back(
-            {"framed", fmt::format("{}: no camera: the whole scene is framed (--view, or --from "
-                                   "and --look-at, choose another view)",
-                                   file)});
-    }
     const auto seconds = [](std::chrono::steady_clock::duration time) {
         return std::chrono::duration<double>(time).count();
     };
@@ -441,7 +435,18 @@ PreparedScene prepare_scene(const RenderArguments& asked)
                         std::move(loaded.cameras),
                         std::move(loaded.files),
                         *arguments.scene.memory};
-    stage.camera = viewpoint(stage, arguments).camera;
+    const Viewpoint seen = viewpoint(stage, arguments);
+    stage.camera = seen.camera;
+    if (seen.is_framed && !arguments.camera && !arguments.view.from && !arguments.view.frames()) {
+        const Vec3 eye(seen.camera.world_from_camera[3]);
+        const std::string place = place_text(eye, stage.scene.description().origin, 3);
+        stage.notes.push_back(
+            {"framed",
+             fmt::format("{}: no camera: {} (--view, or --from and --look-at, choose another view)",
+                         file,
+                         seen.is_inside ? "a closed room, seen from " + place
+                                        : "the whole scene is framed")});
+    }
     if (from_file) {
         note_small_picture(stage, arguments);
     }
@@ -463,13 +468,15 @@ Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments
     const Size size =
         arguments.size.value_or(default_size(from_file ? from_file->aspect_ratio : std::nullopt));
     const DVec3 origin = stage.scene.description().origin;
-    CameraDesc camera = from_file
-                            ? apply(arguments.view, *from_file, std::nullopt, origin)
-                            : apply(arguments.view, framed(stage.scene, aspect_of(size), arguments),
-                                    center(stage.scene.bounds()), origin);
+    const FramedView view = from_file ? FramedView{.camera = *from_file}
+                                      : framed(stage.scene, aspect_of(size), arguments);
+    CameraDesc camera =
+        apply(arguments.view, view.camera,
+              from_file ? std::nullopt : std::optional(center(stage.scene.bounds())), origin);
     return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene),
             .size = size,
-            .is_framed = !from_file.has_value()};
+            .is_framed = !from_file.has_value(),
+            .is_inside = view.inside};
 }
 
 std::string size_text(const PreparedScene& stage)

@@ -56,6 +56,7 @@ struct Viewpoint {
     CameraDesc camera;  ///< with its name or index
     Size size;
     bool is_framed = false;  ///< the camera is not one of the file
+    bool is_inside = false;  ///< it is framed from inside of a closed room
 };
 
 /// Loads the file, and fills in defaults by the rules that `bdpt render --help` states. Memory is

@@ -12,8 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -41,6 +41,13 @@ constexpr int box_places = 30;
 constexpr float box_agreement = 0.5f;  // minimum agreement of the free directions on the missing
                                        // wall
 constexpr float enclosed_escape = 0.02f;
+
+// Candidates for a view from inside.
+constexpr float inside_aspect = 16.0f / 9.0f;  // whatever that of the image is
+constexpr std::size_t eyes_of_room = 8;
+constexpr std::size_t lamps_of_eye = 4;
+constexpr float view_ahead = 2.0f;  // distance of what is seen, in clearances of the eye
+constexpr float well_lit = 0.6f;    // share of light that suffices
 
 // Thresholds that distinguish flat and long objects from others, tuned on models of both kinds.
 constexpr float board_depth = 0.26f;  // relative to the smaller of the other two extents: labels,
@@ -161,51 +168,117 @@ std::optional<Vec3> missing_wall(const std::vector<VisibilityProbe>& room)
     return std::max(std::abs(level.x), std::abs(level.z)) > 0.9f ? glm::round(level) : level;
 }
 
-/// Returns the view from a place of a room that sees farthest with nothing right in front of the
-/// lens.
-CameraDesc frame_from_inside(const World& world, const std::vector<VisibilityProbe>& room,
-                             float aspect, float fov)
+/// Returns how well a place of a room suits an eye by its height, in [0.5, 1].
+float eye_height_score(const World& world, Vec3 p)
 {
-    constexpr int azimuths = 16;
-    constexpr float pitch = -0.12f;  // slightly downwards
     const Bounds& bounds = world.bounds();
     const float eye_height = bounds.min.y + 0.55f * (bounds.max.y - bounds.min.y);
     const float height = std::max(bounds.max.y - bounds.min.y, 1e-6f);
-    CameraDesc best = look_at(room.front().p, room.front().p + Vec3(0.0f, 0.0f, -1.0f), fov);
-    float best_score = -1.0f;
-    for (const VisibilityProbe& place : room) {
-        for (int i = 0; i < azimuths; ++i) {
-            const SinCos azimuth = sin_cos(2.0f * pi * static_cast<float>(i) / azimuths);
-            const SinCos tilt = sin_cos(pitch);
-            const Vec3 forward(tilt.cos * azimuth.sin, tilt.sin, -tilt.cos * azimuth.cos);
-            const CameraDesc camera = look_at(place.p, place.p + forward, fov);
-            const float off_height = std::abs(place.p.y - eye_height) / height;
-            const float score = view_depth(world, camera, aspect) * (1.0f - 0.5f * off_height);
-            if (score > best_score) {
-                best_score = score;
-                best = camera;
-            }
+    return 1.0f - 0.5f * std::abs(p.y - eye_height) / height;
+}
+
+/// A view from inside and its score.
+struct ScoredView {
+    CameraDesc camera;
+    float score = 0.0f;
+};
+
+/// Returns the view from a place that sees farthest with nothing right in front of the lens.
+ScoredView farthest_view(const World& world, Vec3 eye)
+{
+    constexpr int azimuths = 16;
+    constexpr float pitch = -0.12f;  // slightly downwards
+    ScoredView best{.camera = look_at(eye, eye + Vec3(0.0f, 0.0f, -1.0f), inside_fov)};
+    for (int i = 0; i < azimuths; ++i) {
+        const SinCos azimuth = sin_cos(2.0f * pi * static_cast<float>(i) / azimuths);
+        const SinCos tilt = sin_cos(pitch);
+        const Vec3 forward(tilt.cos * azimuth.sin, tilt.sin, -tilt.cos * azimuth.cos);
+        const CameraDesc camera = look_at(eye, eye + forward, inside_fov);
+        const float score = view_depth(world, camera, inside_aspect) * eye_height_score(world, eye);
+        if (score > best.score) {
+            best = {.camera = camera, .score = score};
         }
     }
     return best;
 }
 
+/// Returns the places of a room that suit a lamp, the best first: the highest near `target`, with
+/// some room around.
+std::vector<VisibilityProbe> lamp_places(const World& world, std::vector<VisibilityProbe> room,
+                                         Vec3 target)
+{
+    const float size = glm::length(world.bounds().max - world.bounds().min);
+    const auto score = [&](const VisibilityProbe& place) {
+        const Vec3 offset = place.p - target;
+        const float aside = std::sqrt(offset.x * offset.x + offset.z * offset.z);
+        return offset.y - aside - (place.clearance < 0.02f * size ? size : 0.0f);
+    };
+    std::stable_sort(room.begin(), room.end(),
+                     [&](const auto& a, const auto& b) { return score(a) > score(b); });
+    return room;
+}
+
 /// Returns the highest free point of a room, near its centre.
 Vec3 lamp_in(const World& world, const std::vector<VisibilityProbe>& room)
 {
-    const Bounds& bounds = world.bounds();
-    const Vec3 center = 0.5f * (bounds.min + bounds.max);
-    const float size = glm::length(bounds.max - bounds.min);
-    Vec3 best = center;
-    float best_score = -std::numeric_limits<float>::infinity();
+    return lamp_places(world, room, 0.5f * (world.bounds().min + world.bounds().max)).front().p;
+}
+
+/// Returns four places for a lamp in the view from an eye: that of the whole room, the best two
+/// that the eye sees, and one right above the eye, whose light reaches all that is seen.
+std::vector<Vec3> lamps_for(const World& world, const std::vector<VisibilityProbe>& room,
+                            const VisibilityProbe& eye, Vec3 forward)
+{
+    std::vector<Vec3> lamps{lamp_in(world, room)};
+    const float ahead = view_ahead * eye.clearance;
+    for (const VisibilityProbe& place : lamp_places(world, room, eye.p + ahead * forward)) {
+        const bool is_seen =
+            place.p != eye.p &&
+            world.transmission({.p = eye.p}, {.p = place.p}, SegmentKey{}).has_value();
+        if (is_seen && lamps.size() < lamps_of_eye - 1) {
+            lamps.push_back(place.p);
+        }
+    }
+    lamps.resize(lamps_of_eye, eye.p + Vec3(0.0f, 0.5f * eye.clearance, 0.0f));
+    return lamps;
+}
+
+/// A view from inside, and the lamp for it.
+struct InsideView {
+    CameraDesc camera;
+    Vec3 lamp{0.0f};
+};
+
+/// Chooses among the eyes that see farthest, and lamps for each, by what a pilot sees. Its cost
+/// does not depend on the size of the scene, but for that of a ray.
+InsideView frame_from_inside(const World& world, const std::vector<VisibilityProbe>& room)
+{
+    struct Eye {
+        const VisibilityProbe* place;
+        ScoredView view;
+    };
+    std::vector<Eye> eyes;
     for (const VisibilityProbe& place : room) {
-        const Vec3 offset = place.p - center;
-        const float aside = std::sqrt(offset.x * offset.x + offset.z * offset.z);
-        const float crowded = place.clearance < 0.02f * size ? size : 0.0f;
-        const float score = offset.y - aside - crowded;
-        if (score > best_score) {
-            best_score = score;
-            best = place.p;
+        eyes.push_back({.place = &place, .view = farthest_view(world, place.p)});
+    }
+    std::stable_sort(eyes.begin(), eyes.end(),
+                     [](const Eye& a, const Eye& b) { return a.view.score > b.view.score; });
+    eyes.resize(std::min(eyes.size(), eyes_of_room));
+    InsideView best{.camera = eyes.front().view.camera, .lamp = lamp_in(world, room)};
+    float best_score = 0.0f;
+    for (const Eye& eye : eyes) {
+        const CameraDesc& camera = eye.view.camera;
+        const Vec3 forward = -Vec3(camera.world_from_camera[2]);
+        for (const Vec3 lamp : lamps_for(world, room, *eye.place, forward)) {
+            const ViewPilot pilot = pilot_view(world, camera, inside_aspect, lamp);
+            // A view is as deep as half of it: a hole alone does not count.
+            const float depth = std::min(eye.view.score, 2.0f * pilot.median_distance *
+                                                             eye_height_score(world, eye.place->p));
+            const float score = depth * std::min(1.0f, pilot.lit / well_lit);
+            if (score > best_score) {
+                best_score = score;
+                best = {.camera = camera, .lamp = lamp};
+            }
         }
     }
     return best;
@@ -247,9 +320,11 @@ FramedView frame_scene(const Scene& scene, float aspect, const FrameOptions& opt
     }
     const auto closed = places_with(places, closed_front, closed_shell, closed_escape);
     if (closed.size() >= closed_places) {
-        view.camera =
-            frame_from_inside(world, closed, aspect, options.vertical_fov.value_or(inside_fov));
-        view.lamp_position = lamp_in(world, closed);
+        InsideView inside = frame_from_inside(world, closed);
+        view.camera = std::move(inside.camera);
+        view.camera.vertical_fov = options.vertical_fov.value_or(inside_fov);
+        view.lamp_position = inside.lamp;
+        view.inside = true;
         view.enclosed = probe_visibility(world, Vec3(view.camera.world_from_camera[3])).escaped <
                         enclosed_escape;
     }

@@ -23,4 +23,17 @@ struct VisibilityProbe {
 /// scene's size.
 [[nodiscard]] float view_depth(const World& world, const CameraDesc& camera, float aspect);
 
+/// What 64 diffuse paths from a camera meet.
+struct ViewPilot {
+    /// Median distance of the first surfaces [m]; a ray that leaves the scene counts as its size.
+    float median_distance = 0.0f;
+    /// How well light reaches what the camera sees, in [0, 1]: mean over the paths of 1 if the
+    /// first surface faces the lamp and nothing is between them, 1/2 if only the second does, 1/4
+    /// for the third. A path that leaves the scene meets light in the same way.
+    float lit = 0.0f;
+};
+
+[[nodiscard]] ViewPilot pilot_view(const World& world, const CameraDesc& camera, float aspect,
+                                   Vec3 lamp);
+
 }  // namespace bdpt

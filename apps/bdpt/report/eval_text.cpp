@@ -21,8 +21,12 @@ std::string bench_text(const eval::SceneResult& scene, double seconds)
 {
     std::string result = fmt::format("{}: {} x {} pixels, reference with relMSE {:.2g}\n",
                                      scene.name, scene.width, scene.height, scene.reference_noise);
-    result += fmt::format("  {:<6}{:>8}{:>11}{:>24}{:>12}{:>12}\n", "", "samples", "relMSE",
-                          "(least .. greatest)", "efficiency", "speed-up");
+    result +=
+        fmt::format("  {:<6}{:>8}{:>11}{:>24}{:>12}{:>12}{:>9}{:>10}\n", "", "samples", "relMSE",
+                    "(least .. greatest)", "efficiency", "speed-up", "FLIP", "denoised");
+    const auto flip_text = [](const std::optional<eval::Spread>& flip) {
+        return flip ? fmt::format("{:.4f}", flip->median) : "-";
+    };
     for (const eval::IntegratorSummary& one : eval::summarize(scene, seconds)) {
         const eval::Spread& error = one.equal_time.error;
         const std::string range = fmt::format("({:.2e} .. {:.2e})", error.least, error.greatest);
@@ -31,8 +35,9 @@ std::string bench_text(const eval::SceneResult& scene, double seconds)
                                        one.speed_up->factor)
                          : "-";
         result +=
-            fmt::format("  {:<6}{:>8}{:>11.2e}{:>24}{:>12.3g}{:>12}{}\n", to_name(one.integrator),
-                        one.equal_time.samples, error.median, range, one.efficiency, factor,
+            fmt::format("  {:<6}{:>8}{:>11.2e}{:>24}{:>12.3g}{:>12}{:>9}{:>10}{}\n",
+                        to_name(one.integrator), one.equal_time.samples, error.median, range,
+                        one.efficiency, factor, flip_text(one.flip), flip_text(one.denoised_flip),
                         one.equal_time.near_noise ? "  reference too noisy"
                         : one.floor               ? "  cannot find all light"
                                                   : "");

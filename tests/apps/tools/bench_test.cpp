@@ -75,6 +75,19 @@ TEST_CASE("a benchmark writes a page, JSON and CSV, and prints a table")
     }
 }
 
+TEST_CASE("a benchmark compares denoised images where there is a denoiser")
+{
+    const ScratchFolder folder;
+    const Outcome outcome =
+        run({.arguments = tiny(folder), .environment = {{"BDPT_DENOISER", BDPT_FAKE_OIDN}}});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    const json one =
+        json::parse(read_text(folder / "out/bench.json"))["scenes"][0]["integrators"][1];
+    CHECK(one["flip_denoised"]["median"].get<double>() >= 0.0);
+    CHECK(one["flip_denoised"]["median"] != one["flip"]["median"]);
+}
+
 TEST_CASE("scenes of one name are kept apart")
 {
     const ScratchFolder folder;

@@ -128,6 +128,23 @@ TEST_CASE("a benchmark keeps runs, images and the reference, in turn")
         CHECK(point->relmse == error(Metric::relmse));
         CHECK(point->relmse_scales == error(Metric::relmse_scales));
     }
+    SECTION("what people see is FLIP of all seeds at equal time")
+    {
+        const Image reference = io::read_image(result.reference_file).image;
+        std::vector<double> flips;
+        for (const std::uint64_t seed : {0U, 1U}) {
+            const fs::path file =
+                image_file(bench.folder.path(), "floor", IntegratorKind::bdpt, seed);
+            flips.push_back(evaluate(Metric::flip, io::read_image(file).image, reference));
+        }
+        REQUIRE(result.visible.size() == 2);
+        CHECK(result.visible[1].integrator == IntegratorKind::bdpt);
+        CHECK(result.visible[1].flip.median == Approx(0.5 * (flips[0] + flips[1])));
+        CHECK(result.visible[1].flip.greatest == Approx(std::max(flips[0], flips[1])));
+        CHECK_FALSE(result.visible[1].denoised_flip);  // tests have no denoiser
+        const auto summaries = summarize(result, bench.options.seconds);
+        CHECK(summaries[1].flip->median == result.visible[1].flip.median);
+    }
     SECTION("checkpoints rise in samples and time, and rays are those of all samples")
     {
         for (const BenchRun& run : result.runs) {
@@ -334,6 +351,8 @@ TEST_CASE("JSON, CSV and page have all runs and what is needed to repeat them")
     CHECK(scene["integrators"][1]["equal_time"]["relmse"]["median"].get<double>() > 0.0);
     CHECK(scene["integrators"][1]["equal_time"]["relmse_scales"]["median"].get<double>() > 0.0);
     CHECK(scene["integrators"][0]["speed_up"]["factor"] == 1.0);
+    CHECK(scene["integrators"][1]["flip"]["median"].get<double>() > 0.0);
+    CHECK(scene["integrators"][1]["flip_denoised"].is_null());
 
     const std::string csv = bench_csv(record);
     std::size_t points = 0;

@@ -3,10 +3,12 @@
 #include <bdpt/error.h>
 #include <bdpt/eval/bench_report.h>
 #include <bdpt/eval/statistics.h>
+#include <bdpt/io/denoise.h>
 #include <bdpt/io/read_image.h>
 #include <bdpt/io/write_image.h>
 #include <bdpt/options/integrators.h>
 #include <bdpt/options/option_fields.h>
+#include <bdpt/render.h>
 #include <bdpt/version.h>
 #include <nlohmann/json.hpp>
 
@@ -152,11 +154,68 @@ bool run_all(const BenchScene& scene, const BenchOptions& options, const BenchFi
     return true;
 }
 
-/// Returns the error floor of each integrator that has one.
-std::vector<ErrorFloor> find_floors(const SceneResult& result, const BenchFiles& files,
-                                    const Reference& reference)
+/// Opens Open Image Denoise; returns none where it is not found.
+std::optional<io::Denoiser> open_denoiser(int threads)
 {
-    std::vector<ErrorFloor> floors;
+    try {
+        return io::Denoiser({}, threads);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::unsupported) {
+            throw;
+        }
+        return std::nullopt;
+    }
+}
+
+/// Compares images as people see them, raw and denoised.
+class Viewer {
+public:
+    Viewer(const BenchScene& scene, const BenchOptions& options, const Image& reference)
+        : reference_(reference),
+          exposures_(flip_exposures(reference)),
+          denoiser_(open_denoiser(options.render.system.threads))
+    {
+        if (denoiser_) {
+            RenderOptions guides = options.render;
+            guides.integrator = IntegratorKind::mis;
+            guides.film = {
+                .width = scene.width, .height = scene.height, .aovs = {Aov::albedo, Aov::normal}};
+            guides.transport.max_depth = 1;
+            guides.sampling.samples = {0, 16};
+            const RenderResult result = render(scene.scene, scene.camera, guides);
+            layers_ = result.aovs.develop(result.film);
+        }
+    }
+
+    [[nodiscard]] VisibleErrors judge(IntegratorKind kind, std::span<const Image> images) const
+    {
+        std::vector<double> raw;
+        std::vector<double> denoised;
+        for (const Image& image : images) {
+            raw.push_back(mean(hdr_flip(image, reference_, exposures_)));
+            if (denoiser_) {
+                const Image clean = denoiser_->denoise(
+                    {.image = image, .albedo = &layers_.at(0), .normal = &layers_.at(1)});
+                denoised.push_back(mean(hdr_flip(clean, reference_, exposures_)));
+            }
+        }
+        return {.integrator = kind,
+                .flip = spread(raw),
+                .denoised_flip = denoiser_ ? std::optional(spread(denoised)) : std::nullopt};
+    }
+
+private:
+    const Image& reference_;
+    FlipExposures exposures_;
+    std::optional<io::Denoiser> denoiser_;
+    std::vector<Layer> layers_;  ///< albedo and normals, if there is a denoiser
+};
+
+/// Finds what the images of each integrator have in common: error floors, and what people see.
+void judge_images(const BenchScene& scene, const BenchOptions& options, const BenchFiles& files,
+                  const Reference& reference, SceneResult& result)
+{
+    const Viewer viewer(scene, options, reference.image);
     for (const BenchGoals& goals : result.goals) {
         std::vector<Image> images;
         for (const BenchRun& run : result.runs) {
@@ -166,14 +225,17 @@ std::vector<ErrorFloor> find_floors(const SceneResult& result, const BenchFiles&
                 check_size(images.back(), result.width, result.height, file);
             }
         }
+        if (images.empty()) {
+            continue;
+        }
+        result.visible.push_back(viewer.judge(goals.integrator, images));
         const auto floor = images.size() < 2
                                ? std::nullopt
                                : error_floor(images, reference.image, reference.noise);
         if (floor) {
-            floors.push_back({.integrator = goals.integrator, .relmse = *floor});
+            result.floors.push_back({.integrator = goals.integrator, .relmse = *floor});
         }
     }
-    return floors;
 }
 
 }  // namespace
@@ -250,7 +312,7 @@ std::optional<SceneResult> run_scene(const BenchScene& scene, const BenchOptions
         result.goals.push_back(plan->goals(kind));
     }
     result.complete = run_all(scene, options, files, reference, meter, control, result);
-    result.floors = find_floors(result, files, reference);
+    judge_images(scene, options, files, reference, result);
     if (result.complete && options.strategy_depth > 0) {
         measure_strategies(scene, options, files, reference, meter, control);
     }

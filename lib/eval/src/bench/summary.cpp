@@ -177,6 +177,12 @@ std::vector<IntegratorSummary> summarize(const SceneResult& result, double secon
                 summary.floor = floor.relmse;
             }
         }
+        for (const VisibleErrors& visible : result.visible) {
+            if (visible.integrator == goals.integrator) {
+                summary.flip = visible.flip;
+                summary.denoised_flip = visible.denoised_flip;
+            }
+        }
         summaries.push_back(std::move(summary));
     }
     add_speed_ups(summaries);

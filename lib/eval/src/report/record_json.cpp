@@ -69,6 +69,9 @@ ordered_json summary_json(const IntegratorSummary& summary)
                               {"extrapolated", summary.speed_up->extrapolated}};
     }
     result["relmse_floor"] = summary.floor ? ordered_json(*summary.floor) : ordered_json();
+    result["flip"] = summary.flip ? spread_json(*summary.flip) : ordered_json();
+    result["flip_denoised"] =
+        summary.denoised_flip ? spread_json(*summary.denoised_flip) : ordered_json();
     result["samples_per_second"] = summary.samples_per_second;
     result["rays_per_second"] = {{"camera", summary.camera_rays_per_second},
                                  {"light", summary.light_rays_per_second},

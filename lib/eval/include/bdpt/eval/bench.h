@@ -24,6 +24,7 @@
 /// @endcode
 
 #include <bdpt/eval/metric.h>
+#include <bdpt/eval/statistics.h>
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 #include <bdpt/render_options.h>
@@ -185,6 +186,16 @@ struct ErrorFloor {
     double relmse = 0.0;
 };
 
+/// What people see of an integrator's errors at equal time: the mean HDR-FLIP of the images of all
+/// seeds.
+struct VisibleErrors {
+    IntegratorKind integrator = IntegratorKind::bdpt;
+    Spread flip;
+    /// FLIP of the same images denoised by `io::Denoiser`, with albedo and normals; none where that
+    /// library is not found.
+    std::optional<Spread> denoised_flip{};
+};
+
 /// The result of a scene's benchmark, finished or stopped.
 struct SceneResult {
     std::string name;
@@ -199,9 +210,10 @@ struct SceneResult {
     std::string reference_origin;
     std::filesystem::path reference_file;
     std::vector<BenchGoals> goals;
-    std::vector<BenchRun> runs;        ///< by seed, then in the order of the integrators
-    std::vector<ErrorFloor> floors{};  ///< floors of the integrators that cannot find all light
-    bool complete = false;             ///< true if all runs were made
+    std::vector<BenchRun> runs;            ///< by seed, then in the order of the integrators
+    std::vector<ErrorFloor> floors{};      ///< floors of the integrators that cannot find all light
+    std::vector<VisibleErrors> visible{};  ///< of the integrators that have runs
+    bool complete = false;                 ///< true if all runs were made
 };
 
 /// Returns the approximate CPU time for a scene, including its reference [s].

@@ -73,8 +73,10 @@ struct IntegratorSummary {
     GoalSummary equal_time;
     GoalSummary equal_samples;
     std::vector<CurvePoint> curve;
-    double efficiency = 0.0;            ///< 1 / (error x CPU time) at equal time [1/s]
-    std::optional<SpeedUp> speed_up{};  ///< none without runs of pt
+    double efficiency = 0.0;                ///< 1 / (error x CPU time) at equal time [1/s]
+    std::optional<SpeedUp> speed_up{};      ///< none without runs of pt
+    std::optional<Spread> flip{};           ///< HDR-FLIP at equal time
+    std::optional<Spread> denoised_flip{};  ///< HDR-FLIP of the denoised images
     /// Error floor; none: the integrator finds all light.
     std::optional<double> floor{};
     double samples_per_second = 0.0;  ///< samples of all pixels per second of wall-clock time

@@ -29,13 +29,14 @@ function range(spread) {
 function sceneTable(scene) {
   const rows = scene.integrators.map((one) => [
     html("span", { class: `series-${one.integrator}` }, html("span", { class: "dot" }), one.integrator),
-    thousands(one.equal_time.samples), range(one.equal_time.relmse), range(one.equal_samples.relmse),
+    thousands(one.equal_time.samples), range(one.equal_time.relmse), one.flip ? range(one.flip) : "–",
+    one.flip_denoised ? range(one.flip_denoised) : "–", range(one.equal_samples.relmse),
     seconds(one.equal_samples.cpu_seconds), digits(one.efficiency), html("span", null, times(one.speed_up), one.relmse_floor === null ? "" : " †"), digits(one.samples_per_second),
     thousands(one.rays_per_second.camera), thousands(one.rays_per_second.light), thousands(one.rays_per_second.shadow),
     bytes(one.peak_memory_bytes)]);
   const spp = scene.integrators.length ? thousands(scene.integrators[0].equal_samples.samples) : "–";
   return table(`What was measured in ${scene.name}: medians over ${scene.integrators.length ? scene.integrators[0].seeds : 0} seeds`,
-    ["Integrator", "Samples at equal time", "relMSE at equal time", `relMSE at ${spp} samples`, `CPU time of ${spp} samples`,
+    ["Integrator", "Samples at equal time", "relMSE at equal time", "FLIP at equal time", "FLIP, denoised", `relMSE at ${spp} samples`, `CPU time of ${spp} samples`,
       "Efficiency [1/s]", "Speed-up", "Samples/s", "Camera rays/s", "Light rays/s", "Shadow rays/s", "Memory"], rows);
 }
 

@@ -16,6 +16,12 @@
 
 namespace bdpt {
 
+[[nodiscard]] inline Bounds empty_bounds()
+{
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    return {.min = Vec3(infinite), .max = Vec3(-infinite)};
+}
+
 [[nodiscard]] inline Bounds joined(const Bounds& a, const Bounds& b)
 {
     return {.min = min(a.min, b.min), .max = max(a.max, b.max)};
@@ -54,7 +60,7 @@ public:
         while (leaves_ * leaf_size < boxes_.size()) {
             leaves_ *= 2;
         }
-        nodes_.assign(2 * leaves_, nothing());
+        nodes_.assign(2 * leaves_, empty_bounds());
         for (std::size_t i = 0; i < order_.size(); ++i) {
             Bounds& leaf = nodes_[leaves_ + i / leaf_size];
             leaf = joined(leaf, boxes_[order_[i]]);
@@ -104,11 +110,6 @@ private:
     };
     static constexpr std::size_t leaf_size = 4;
 
-    [[nodiscard]] static Bounds nothing()
-    {
-        constexpr float infinite = std::numeric_limits<float>::infinity();
-        return {.min = Vec3(infinite), .max = Vec3(-infinite)};
-    }
     [[nodiscard]] static std::uint32_t morton_code(Vec3 p, const Bounds& all)
     {
         constexpr float steps = 1023.0f;

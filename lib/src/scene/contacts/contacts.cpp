@@ -5,6 +5,7 @@
 #include "scene/contacts/box_tree.h"
 #include "scene/contacts/contact_face.h"
 #include "scene/contacts/mesh_topology.h"
+#include "scene/contacts/shell_neighbors.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -24,13 +25,6 @@
 namespace bdpt {
 namespace {
 
-/// Returns the error of points in a box [m].
-float error_in(const Bounds& box)
-{
-    const Vec3 farthest = max(abs(box.min), abs(box.max));
-    return position_error(std::max({farthest.x, farthest.y, farthest.z}));
-}
-
 /// A displacement of a face.
 struct Shift {
     Vec3 direction;  ///< unit
@@ -49,7 +43,8 @@ public:
 
 private:
     [[nodiscard]] std::vector<Bounds> instance_boxes() const;
-    /// Appends the faces of an instance that are near another movable shell.
+    /// Returns the faces of an instance that are near another movable shell, and all those of
+    /// shells that may be thin.
     [[nodiscard]] std::vector<ContactFace> near_faces(std::uint32_t instance) const;
     /// Finds the faces that move where they touch, and then those which they may touch.
     void find_faces();
@@ -57,11 +52,13 @@ private:
     /// Returns the distance to the nearest face of the same shell that looks the other way, up to
     /// `farthest`.
     [[nodiscard]] float thickness(const ContactFace& face, float farthest) const;
-    /// Tests whether faces of the instance may touch each other, or be too near to be told apart.
-    [[nodiscard]] bool may_touch_itself(std::uint32_t instance, const Bounds& box) const;
-    [[nodiscard]] const Shells& shells_of(const ContactFace& face) const
+    [[nodiscard]] bool is_movable(std::uint32_t instance) const
     {
-        return *shells_.at(static_cast<std::size_t>(desc_.instances[face.instance].mesh));
+        return parts_[instance].role != ContactRole::sheet;
+    }
+    [[nodiscard]] const Shells& shells_of(std::uint32_t instance) const
+    {
+        return *shells_.at(static_cast<std::size_t>(desc_.instances[instance].mesh));
     }
     [[nodiscard]] bool is_body(const ContactFace& face) const
     {
@@ -69,7 +66,7 @@ private:
     }
     [[nodiscard]] bool is_closed(const ContactFace& face) const
     {
-        return shells_of(face).are_closed[face.shell];
+        return shells_of(face.instance).are_closed[face.shell];
     }
     /// Returns how far `face` moves because it touches `other` [m].
     [[nodiscard]] float shift(const ContactFace& face, const ContactFace& other) const;
@@ -94,7 +91,6 @@ private:
     /// The faces of an instance.
     struct Group {
         std::uint32_t begin = 0;  // index of the first
-        bool touches_itself = false;
         BoxTree tree;
     };
     std::vector<Group> groups_;               // by instance
@@ -106,9 +102,8 @@ std::vector<Bounds> ContactSearch::instance_boxes() const
 {
     std::vector<Bounds> boxes(placed_.size());
     tbb::parallel_for(std::size_t{0}, placed_.size(), [&](std::size_t i) {
-        constexpr float infinite = std::numeric_limits<float>::infinity();
         Bounds& box = boxes[i];
-        box = {.min = Vec3(infinite), .max = Vec3(-infinite)};
+        box = empty_bounds();
         for (std::size_t v = 0; v < placed_[i].mesh().positions.size(); ++v) {
             const Vec3 p = placed_[i].world_point_at(0, v);
             box = {.min = min(box.min, p), .max = max(box.max, p)};
@@ -119,45 +114,45 @@ std::vector<Bounds> ContactSearch::instance_boxes() const
 
 std::vector<ContactFace> ContactSearch::near_faces(std::uint32_t instance) const
 {
-    constexpr float margin = 32.0f;  // errors: opposite faces of a thin body belong to it
+    constexpr float margin = 32.0f;  // [errors] opposite faces of a thin body belong to it
     constexpr std::uint32_t block_size = 65536;
     const PlacedMesh& placed = placed_[instance];
-    const bool is_movable = parts_[instance].role != ContactRole::sheet;
-    const bool all = groups_[instance].touches_itself;
+    const ShellNeighbors shells = is_movable(instance)
+                                      ? ShellNeighbors(placed, shells_of(instance), margin)
+                                      : ShellNeighbors();
     const Bounds& own = boxes_.boxes()[instance];
     const float far = margin * error_in(own);
     std::optional<Bounds> region;  // around all that the instance may touch
     boxes_.find({.min = own.min - far, .max = own.max + far}, [&](std::uint32_t other) {
-        if (other != instance && (is_movable || parts_[other].role != ContactRole::sheet)) {
+        if (other == instance ? shells.any() : is_movable(instance) || is_movable(other)) {
             const Bounds& box = boxes_.boxes()[other];
             region = region ? joined(*region, box) : box;
         }
         return true;
     });
-    if (!region && !all) {
+    if (!region) {
         return {};
     }
     const auto find_in = [&](std::uint32_t begin, std::uint32_t end) {
         std::vector<ContactFace> faces;
         for (std::uint32_t t = begin; t < end; ++t) {
             const auto corners = placed.corners(t, 0.0f);
-            if (!all && !overlap(box_around(corners, far), *region)) {
+            if (!overlap(box_around(corners, far), *region)) {
                 continue;
             }
             auto face = make_face(placed, instance, t);
             if (!face) {
                 continue;
             }
-            bool is_near = all;
-            if (!all) {
+            face->shell = is_movable(instance) ? shells_of(instance).of_triangles[t] : 0;
+            bool is_near = shells.is_near(*face);
+            if (!is_near) {
                 boxes_.find(face->box(margin), [&](std::uint32_t other) {
-                    is_near = other != instance &&
-                              (is_movable || parts_[other].role != ContactRole::sheet);
+                    is_near = other != instance && (is_movable(instance) || is_movable(other));
                     return !is_near;
                 });
             }
             if (is_near) {
-                face->shell = is_movable ? shells_of(*face).of_triangles[t] : 0;
                 faces.push_back(*face);
             }
         }
@@ -176,17 +171,6 @@ std::vector<ContactFace> ContactSearch::near_faces(std::uint32_t instance) const
     return faces;
 }
 
-bool ContactSearch::may_touch_itself(std::uint32_t instance, const Bounds& box) const
-{
-    constexpr float max_exact = 1e-5f;  // error in sizes of a body whose thickness is asked for
-    if (parts_[instance].role == ContactRole::sheet) {
-        return false;
-    }
-    const auto mesh = static_cast<std::size_t>(desc_.instances[instance].mesh);
-    return shells_.at(mesh)->are_closed.size() > 1 ||
-           error_in(box) > max_exact * distance(box.min, box.max);
-}
-
 void ContactSearch::find_faces()
 {
     boxes_ = BoxTree(instance_boxes());
@@ -194,7 +178,6 @@ void ContactSearch::find_faces()
     groups_.resize(count);
     std::vector<std::vector<ContactFace>> near(count);
     tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t i) {
-        groups_[i].touches_itself = may_touch_itself(i, boxes_.boxes()[i]);
         near[i] = near_faces(i);
         std::vector<Bounds> boxes;
         boxes.reserve(near[i].size());
@@ -204,8 +187,8 @@ void ContactSearch::find_faces()
         groups_[i].tree = BoxTree(std::move(boxes));
     });
     const auto append = [&](bool movable) {
-        for (std::size_t i = 0; i < count; ++i) {
-            if ((parts_[i].role != ContactRole::sheet) == movable) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (is_movable(i) == movable) {
                 groups_[i].begin = static_cast<std::uint32_t>(faces_.size());
                 faces_.insert(faces_.end(), near[i].begin(), near[i].end());
             }
@@ -243,12 +226,10 @@ std::vector<Touch> ContactSearch::find_touches()
         boxes_.find(face.box(2.0f), [&](std::uint32_t instance) {
             const Group& group = groups_[instance];
             bool goes_on = true;
-            if (instance != face.instance || group.touches_itself) {
-                group.tree.find(face.box(2.0f), [&](std::uint32_t k) {
-                    goes_on = compare(group.begin + k);
-                    return goes_on;
-                });
-            }
+            group.tree.find(face.box(2.0f), [&](std::uint32_t k) {
+                goes_on = compare(group.begin + k);
+                return goes_on;
+            });
             return goes_on;
         });
     });

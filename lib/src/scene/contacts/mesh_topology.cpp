@@ -1,12 +1,19 @@
 #include "scene/contacts/mesh_topology.h"
 
+#include "math/random_numbers.h"
+
 #include <glm/geometric.hpp>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -29,27 +36,41 @@ struct HalfEdge {
 /// Returns the edges of all triangles with three vertices, equal ones side by side.
 std::vector<HalfEdge> sorted_edges(const MeshDesc& mesh, const std::vector<std::uint32_t>& first)
 {
-    std::vector<HalfEdge> edges;
-    edges.reserve(3 * mesh.triangles.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const UVec3& triangle = mesh.triangles[t];
-        const std::array v{first[triangle.x], first[triangle.y], first[triangle.z]};
-        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
-            continue;
+    // A counting sort by the lower vertex, as a mesh may have millions.
+    const auto for_each_half_edge = [&](const auto& visit) {
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            const UVec3& triangle = mesh.triangles[t];
+            const std::array v{first[triangle.x], first[triangle.y], first[triangle.z]};
+            if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
+                continue;
+            }
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::uint32_t a = v[i];
+                const std::uint32_t b = v[(i + 1) % 3];
+                visit(HalfEdge{.low = std::min(a, b),
+                               .high = std::max(a, b),
+                               .triangle = static_cast<std::uint32_t>(t),
+                               .apex = v[(i + 2) % 3],
+                               .way = a < b ? 1 : -1});
+            }
         }
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = v[i];
-            const std::uint32_t b = v[(i + 1) % 3];
-            edges.push_back({.low = std::min(a, b),
-                             .high = std::max(a, b),
-                             .triangle = static_cast<std::uint32_t>(t),
-                             .apex = v[(i + 2) % 3],
-                             .way = a < b ? 1 : -1});
-        }
-    }
-    tbb::parallel_sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-    });
+    };
+    std::vector<std::size_t> ends(mesh.positions.size() + 1);  // by lower vertex
+    for_each_half_edge([&](const HalfEdge& edge) { ++ends[edge.low + 1]; });
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<HalfEdge> edges(ends.back());
+    for_each_half_edge([&](const HalfEdge& edge) { edges[ends[edge.low]++] = edge; });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, mesh.positions.size(), 4096), [&](const auto& range) {
+            for (std::size_t v = range.begin(); v != range.end(); ++v) {
+                const auto begin = static_cast<std::ptrdiff_t>(v > 0 ? ends[v - 1] : 0);
+                std::sort(edges.begin() + begin,
+                          edges.begin() + static_cast<std::ptrdiff_t>(ends[v]),
+                          [](const HalfEdge& a, const HalfEdge& b) {
+                              return std::tie(a.high, a.triangle) < std::tie(b.high, b.triangle);
+                          });
+            }
+        });
     return edges;
 }
 
@@ -150,18 +171,31 @@ void connect_wedges(const MeshDesc& mesh, std::span<const HalfEdge> group, const
 
 std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions)
 {
-    const auto place = [&](std::uint32_t i) {
-        return std::tuple(positions[i].x, positions[i].y, positions[i].z);
+    struct Place {
+        std::uint64_t hash;
+        std::uint32_t vertex;
+        auto operator<=>(const Place&) const = default;
     };
-    std::vector<std::uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0U);
-    tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return std::pair(place(a), a) < std::pair(place(b), b);
+    std::vector<Place> order(positions.size());
+    tbb::parallel_for(std::size_t{0}, positions.size(), [&](std::size_t i) {
+        const Vec3 p = positions[i] + 0.0f;  // one zero
+        std::uint64_t hash = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            hash = split_mix(hash + std::bit_cast<std::uint32_t>(p[axis]));
+        }
+        order[i] = {hash, static_cast<std::uint32_t>(i)};
     });
+    tbb::parallel_sort(order.begin(), order.end());
     std::vector<std::uint32_t> result(positions.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-        result[order[i]] = same ? result[order[i - 1]] : order[i];
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+        for (end = begin; end < order.size() && order[end].hash == order[begin].hash; ++end) {
+            // Nearly always the first of those with this hash.
+            std::size_t same = begin;
+            while (positions[order[same].vertex] != positions[order[end].vertex]) {
+                ++same;
+            }
+            result[order[end].vertex] = order[same].vertex;
+        }
     }
     return result;
 }

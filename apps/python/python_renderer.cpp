@@ -94,7 +94,7 @@ void bind_renderer(nb::module_& module)
     nb::class_<PythonRenderer>(
         module, "Renderer",
         "A progressive render: it chooses an integrator once, continues on demand, and has its "
-        "image in between. The image is bit-identical to one render() of all samples.")
+        "image in between. With `spp` samples the image is bit-identical to one render().")
         .def(
             "__init__",
             [](PythonRenderer* self, PythonScene& scene, const nb::kwargs& options) {

@@ -74,7 +74,7 @@ def test_what_a_callback_raises_ends_the_job(tmp_path):
 
 @pytest.mark.parametrize("options, code, text", [
     ({"sppp": 3}, 2, "run.. has no option sppp .did you mean spp"), ({"spp": 0}, 4, "spp: must be a whole number"),
-    ({"spp": 1, "samples": "0:1"}, 2, "--samples cannot be combined with --spp"), ({"output": "-"}, 2, "standard"),
+    ({"noise": "2%", "samples": "0:1"}, 2, "--noise cannot be combined with --samples"), ({"output": "-"}, 2, "standard"),
     ({"integrator": "ptt"}, 4, "integrator: must be pt"), ({"display": "localhost"}, 2, "has no option display"),
     ({"width": 320}, 2, "run.. has no option width .did you mean size"), ({"output": ["a.xyz"]}, 2, "a.xyz")])
 def test_wrong_options_are_errors(options, code, text):

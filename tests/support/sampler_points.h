@@ -16,6 +16,7 @@ struct SetKey {
     int y = 0;
     SampleUse use = SampleUse::camera_walk;
     std::uint32_t vertex = 2;
+    int log_samples = Sampler::open_ended;
 };
 
 /// The first four dimensions of a use at a vertex.
@@ -23,7 +24,7 @@ using SetNumbers = std::array<float, 4>;
 
 [[nodiscard]] inline SetNumbers numbers(const SetKey& key, std::int64_t sample_index)
 {
-    Sampler sampler(key.kind, key.seed, key.x, key.y, sample_index);
+    Sampler sampler(key.kind, key.seed, key.x, key.y, sample_index, key.log_samples);
     sampler.start(key.use, key.vertex);
     const Vec2 a = sampler.next_2d();
     const Vec2 b = sampler.next_2d();

@@ -59,8 +59,8 @@ struct Strategy {
 
 /// The source of random numbers.
 enum class SamplerKind : std::uint8_t {
-    /// Owen-scrambled Sobol points: evenly distributed samples in each pixel, with less noise. Best
-    /// with twice a power of two samples, one power for each half of the film.
+    /// Owen-scrambled Sobol points: evenly distributed samples in each pixel, with less noise, and
+    /// over neighbouring pixels where `planned_samples` is known. Best with a power of two samples.
     sobol,
     independent,  ///< independent random numbers
 };
@@ -127,10 +127,15 @@ struct FilmOptions {
 };
 
 /// Random numbers, sample counts, and their use in next-event estimation. Ranges: samples within
-/// [0, 2^32 - 1] and not empty; with rates within [0, 2^30] and from a multiple of
+/// [0, 2^32 - 1] and not empty; planned_samples [0, 2^31]; with rates within [0, 2^30] and from a multiple of
 /// SampleRates::group to another; light_samples [1, 1024].
 struct SamplingOptions {
     SampleRange samples{};  ///< per pixel; in the mean, with rates
+    /// Number of samples per pixel of the whole render, of which `samples` may be a part: after so
+    /// many, errors of neighbouring pixels cancel out (docs/decisions/0086-samples-in-z-order.md).
+    /// 0: not known, as for renders that go on until a time or a noise. Parts have the bits of the
+    /// whole if they have the same number.
+    std::int64_t planned_samples = 64;
     std::uint64_t seed = 0;
     SamplerKind sampler = SamplerKind::sobol;
     EnvironmentSampling environment = EnvironmentSampling::learned;

@@ -8,6 +8,8 @@
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/render_options.h>
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 
 namespace bdpt {
@@ -33,6 +35,18 @@ struct TimeAndWavelength {
     return moment;
 }
 
+/// Returns the number of samples that the whole render takes of a pixel, for `Sampler`.
+[[nodiscard]] inline int log_samples(const SamplingOptions& sampling, int x, int y)
+{
+    constexpr std::int64_t most = 65536;  // points that are fast
+    if (sampling.planned_samples == 0 || sampling.planned_samples > most) {
+        return Sampler::open_ended;
+    }
+    const auto mean =
+        static_cast<int>(std::bit_width(static_cast<std::uint64_t>(sampling.planned_samples) - 1));
+    return std::clamp(mean + (sampling.rates ? sampling.rates->exponent(x, y) : 0), 0, 31);
+}
+
 /// Start of a pixel's sample, before any of its paths; the same for all integrators.
 struct SampleStart {
     Sampler sampler;
@@ -41,7 +55,8 @@ struct SampleStart {
 
     SampleStart(const RenderOptions& options, const PixelFilter& filter, const World& world,
                 const MovingCamera& camera, int x, int y, std::int64_t index)
-        : sampler(options.sampling.sampler, options.sampling.seed, x, y, index)
+        : sampler(options.sampling.sampler, options.sampling.seed, x, y, index,
+                  log_samples(options.sampling, x, y))
     {
         sampler.start(SampleUse::film);
         raster = filter.sample_raster(x, y, sampler.next_2d());

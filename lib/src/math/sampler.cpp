@@ -26,6 +26,55 @@ constexpr std::uint32_t shuffled(std::uint32_t reversed_index, std::uint32_t see
     return (permute_upwards(reversed_index, seed) & ~block) | (reversed_index & block);
 }
 
+/// Returns the bits of x and y in turns, those of x lower [Morton 1966].
+constexpr std::uint32_t interleave(std::uint32_t x, std::uint32_t y)
+{
+    std::uint64_t bits = std::uint64_t{y} << 32U | x;  // spread in both words
+    bits = (bits | bits << 8U) & 0x00ff00ff00ff00ffU;
+    bits = (bits | bits << 4U) & 0x0f0f0f0f0f0f0f0fU;
+    bits = (bits | bits << 2U) & 0x3333333333333333U;
+    bits = (bits | bits << 1U) & 0x5555555555555555U;
+    return low_word(bits) | high_word(bits) << 1U;
+}
+
+/// A point of a sequence.
+struct SequencePoint {
+    std::uint64_t place;   ///< of the sequence: a pixel or a square of pixels
+    std::uint64_t stream;  ///< which of the sequences of that place
+    std::uint32_t index;
+};
+
+constexpr std::uint64_t place_at(std::uint32_t x, std::uint32_t y)
+{
+    return std::uint64_t{y} << 32U | x;
+}
+
+/// Returns the point of a sample whose number is not known beforehand.
+constexpr SequencePoint open_ended_point(std::uint32_t x, std::uint32_t y, std::uint64_t index)
+{
+    // Bit 0 selects the half of the film; bits beyond the 32 of a point's index select another
+    // sequence.
+    constexpr std::uint64_t point_bits = 0x1fffffffeU;
+    return {place_at(x, y), index & ~point_bits, low_word((index & point_bits) >> 1U)};
+}
+
+/// Returns the point of one of 2^log_samples samples.
+constexpr SequencePoint planned_point(std::uint32_t x, std::uint32_t y, std::uint64_t index,
+                                      int log_samples)
+{
+    // Points of one block of 65536 are fast, see `shuffled`.
+    const unsigned k = static_cast<unsigned>(log_samples);
+    const unsigned side = k < 16 ? (16 - k) / 2 : 0;  // log2 of the square's
+    const std::uint32_t in_square = (1U << side) - 1;
+    const unsigned of_half = k > 0 ? k - 1 : 0;  // log2 of the samples of a half
+    const std::uint64_t number = k > 0 ? index >> 1U : index;
+    const std::uint64_t half = k > 0 ? (index & 1U) << of_half : 0;
+    constexpr std::uint64_t planned = std::uint64_t{1} << 40U;  // no stream of open-ended points
+    return {place_at(x >> side, y >> side), planned | number >> of_half << 5U | k,
+            interleave(x & in_square, y & in_square) << k |
+                low_word(half | (number & ((std::uint64_t{1} << of_half) - 1)))};
+}
+
 }  // namespace
 
 std::uint64_t seed_of_frame(std::uint64_t seed, std::int64_t frame) noexcept
@@ -35,22 +84,25 @@ std::uint64_t seed_of_frame(std::uint64_t seed, std::int64_t frame) noexcept
                      (static_cast<std::uint64_t>(frame) * golden_ratio_64));
 }
 
-Sampler::Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_t sample_index)
+Sampler::Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_t sample_index,
+                 int log_samples)
     : kind_(kind)
 {
+    const auto column = static_cast<std::uint32_t>(x);
+    const auto row = static_cast<std::uint32_t>(y);
     const auto index = static_cast<std::uint64_t>(sample_index);
-    const std::uint64_t pixel = static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32U |
-                                static_cast<std::uint32_t>(x);
-    std::uint64_t stream = index;
+    SequencePoint point{place_at(column, row), index, 0};
     if (kind == SamplerKind::sobol) {
-        // Bit 0 selects the half of the film; bits beyond the 32 of a point's index select another
-        // sequence.
-        constexpr std::uint64_t point_bits = 0x1fffffffeU;
-        reversed_index_ = reverse_bits(low_word((index & point_bits) >> 1U));
-        stream = index & ~point_bits;
+        point = log_samples == open_ended ? open_ended_point(column, row, index)
+                                          : planned_point(column, row, index, log_samples);
+        reversed_index_ = reverse_bits(point.index);
     }
-    key_ =
-        split_mix(split_mix(split_mix(seed + golden_ratio_64) ^ pixel) + stream * golden_ratio_64);
+    key_ = split_mix(split_mix(split_mix(seed + golden_ratio_64) ^ point.place) +
+                     point.stream * golden_ratio_64);
+    if (kind == SamplerKind::sobol && log_samples != open_ended) {
+        // Sets that share their order would begin with the same points in all pixels of a square.
+        reversed_index_ = shuffled(reversed_index_, high_word(split_mix(~key_)));
+    }
     segments_ = key_ + split_mix(reversed_index_);
 }
 

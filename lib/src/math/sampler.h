@@ -52,10 +52,19 @@ enum class SampleUse : std::uint32_t {
 /// important pair first. Requests beyond the end of a set continue with the first dimensions of
 /// another.
 ///
-/// With `SamplerKind::sobol` the samples of even index are one sequence and those of odd index
-/// another, independent of it, as the two halves of the film must be.
+/// With `SamplerKind::sobol` the numbers of a square of pixels are points of one sequence, if it is
+/// known how many samples a pixel takes: each pixel's are consecutive, and pixels follow each other
+/// in Z order, so that errors of neighbours cancel out [Ahmed and Wonka 2020, "Screen-space
+/// blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering of pixels"]. The
+/// scrambling of the index, which depends on its higher bits, is the random order within them.
+/// Samples of even index are the first half of the pixel's points, those of odd index the second.
+/// If the number is not known, samples of even index of a pixel are one sequence and those of odd
+/// index another, independent of it.
 class Sampler {
 public:
+    /// Number of samples that is not known beforehand.
+    static constexpr int open_ended = -1;
+
     /// The vertex of `SampleUse::light_start` whose numbers are those of surfaces that a ray from
     /// the lens may pass, in their order.
     static constexpr std::uint32_t first_crossing = 2;
@@ -68,7 +77,10 @@ public:
     /// connected to the lens.
     static constexpr std::uint32_t choice_of_visible_light = 0;
 
-    Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_t sample_index);
+    /// The pixel takes up to 2^log_samples samples, log_samples in [0, 31]; the same for all pixels
+    /// but for those at borders of sampling rates. Further ones are points of other sequences.
+    Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_t sample_index,
+            int log_samples = open_ended);
 
     /// Continues with the dimensions of a use at a vertex.
     void start(SampleUse use, std::uint32_t vertex = 0)

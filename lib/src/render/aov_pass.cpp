@@ -25,6 +25,7 @@ AovPass::AovPass(const World& world, const MovingCamera& camera, const RenderOpt
       outline_(camera, world.bounds()),
       ground_(world, options)
 {
+    options_.sampling.rates.reset();  // first surfaces have one sample a round in all pixels
     if (asks_for_ids(options.film.aovs)) {
         names_.emplace(world.description());
     }
@@ -83,7 +84,8 @@ void AovPass::add_ground(int x, int y, SampleRange samples, const GroundShadow::
     std::vector<SurfaceIds> none;
     std::int64_t open = 0;
     for (std::int64_t index = samples.begin; index < samples.end; ++index) {
-        const Sampler sampler(options_.sampling.sampler, options_.sampling.seed, x, y, index);
+        const Sampler sampler(options_.sampling.sampler, options_.sampling.seed, x, y, index,
+                              log_samples(options_.sampling, x, y));
         if (ground_.may_sample(ground, sampler)) {
             add_sample(x, y, index, film, none, rays);
         } else {

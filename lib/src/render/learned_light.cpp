@@ -20,6 +20,7 @@ LearnedMemo::Inputs make_inputs(const CameraDesc& camera, RenderOptions options)
     options.film.aovs = {};
     options.sampling.seed = 0;
     options.sampling.rates.reset();
+    options.sampling.planned_samples = 0;
     options.bidirectional = {};
     LearnedMemo::Inputs inputs;
     add_camera(inputs, camera);

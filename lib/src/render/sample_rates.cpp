@@ -33,6 +33,7 @@ RenderOptions pilot_options(const RenderOptions& chosen)
     options.film.crop.reset();
     options.film.aovs = {};
     options.sampling.samples = {.begin = 0, .end = samples_of_group};
+    options.sampling.planned_samples = 0;
     options.bidirectional.strategy_depth = 0;
     options.system.tile_size = cost_side;
     return options;

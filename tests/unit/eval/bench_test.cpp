@@ -111,6 +111,7 @@ TEST_CASE("a benchmark keeps runs, images and the reference, in turn")
         options.film.height = 9;
         options.sampling.seed = 1;
         options.sampling.samples = {0, goals.equal_time};
+        options.sampling.planned_samples = 0;
         const Image whole = render(bench.scene, test::floor_camera(), options).film.develop();
         const Image kept =
             io::read_image(image_file(bench.folder.path(), "floor", IntegratorKind::bdpt, 1)).image;

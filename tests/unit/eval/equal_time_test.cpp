@@ -41,6 +41,7 @@ struct Fixture {
         options.film.width = subject.width;
         options.film.height = subject.height;
         options.sampling.samples = {0, 4};
+        options.sampling.planned_samples = 0;
         options.sampling.seed = seed;
         const Image image = render(scene, subject.camera, options).film.develop();
         return evaluate(Metric::relmse, image, reference.image,
@@ -95,6 +96,7 @@ TEST_CASE("a reference is the render of its samples by bdpt, its noise that of i
     options.film.width = 12;
     options.film.height = 9;
     options.sampling.samples = {0, 256};
+    options.sampling.planned_samples = 0;
     options.sampling.seed = 1'000'003;
     const Film film = render(contest.scene, contest.subject.camera, options).film;
     CHECK(reference.image.pixels == film.develop().pixels);

@@ -1,6 +1,7 @@
 // How evenly the Sobol sampler's numbers lie, and that nothing but what should be even is.
 
 #include "catch.hpp"
+#include "chi_square.h"
 #include "sampler_points.h"
 #include "statistics.h"
 
@@ -265,6 +266,164 @@ TEST_CASE("the halves of the film tell the error of their mean", "[sampler]")
             }
         }
     }
+}
+
+namespace {
+
+/// The points of `count` samples of each pixel of a square, whose first pixel is (x, y).
+std::vector<SetNumbers> square_points(SetKey key, int side, std::int64_t count)
+{
+    const SetKey first = key;
+    std::vector<SetNumbers> points;
+    for (int i = 0; i < side * side; ++i) {
+        key.x = first.x + i % side;
+        key.y = first.y + i / side;
+        for (std::int64_t index = 0; index < count; ++index) {
+            points.push_back(numbers(key, index));
+        }
+    }
+    return points;
+}
+
+}  // namespace
+
+TEST_CASE("planned samples are nets in pixels, halves of them, and squares of pixels", "[sampler]")
+{
+    const auto check_net = [](const std::vector<SetNumbers>& points) {
+        const int m = std::countr_zero(points.size());
+        CHECK(is_net(points, 0, 1, 0));
+        CHECK(is_net(points, 1, 2, std::min(m, 1)));
+        CHECK(is_net(points, 2, 2, m));
+        CHECK(is_net(points, 3, 3, m));
+    };
+    for (const int k : {0, 1, 4, 5, 8}) {
+        const std::int64_t count = std::int64_t{1} << k;
+        for (const std::uint32_t vertex : {2U, 7U}) {
+            const SetKey key{.x = 64, .y = 128, .vertex = vertex, .log_samples = k};
+            for (const int x : {64, 67}) {
+                SetKey pixel = key;
+                pixel.x = x;
+                CAPTURE(k, vertex, x);
+                check_net(square_points(pixel, 1, count));
+                for (const std::int64_t half : {0, 1}) {
+                    if (k > 0) {
+                        check_net(half_points(pixel, half, 0, count / 2));
+                    }
+                }
+            }
+            CAPTURE(k, vertex);
+            check_net(square_points(key, 2, count));
+            check_net(square_points(key, 8, count));
+        }
+    }
+    // Neighbours in two squares of the order, or with unknown numbers, know nothing of each other.
+    CHECK_FALSE(is_net(square_points({.x = 65, .y = 128, .log_samples = 4}, 2, 16), 0, 1, 0));
+    CHECK_FALSE(is_net(square_points({.x = 64, .y = 128}, 2, 16), 0, 1, 0));
+}
+
+TEST_CASE("sets of planned samples are not related, and neither are squares of pixels", "[sampler]")
+{
+    using Keys = std::pair<SetKey, SetKey>;
+    constexpr int k = 7;
+    constexpr int square = 1 << ((16 - k) / 2);
+    constexpr double unrelated = 2.8;
+    const auto key = [](int square_x, std::uint32_t vertex) {
+        return SetKey{.x = square_x * square, .vertex = vertex, .log_samples = k};
+    };
+    const auto relation = [&](const SetKey& other) {
+        return dependence(
+            [&](int x) {
+                SetKey moved = other;
+                moved.x += x * square;
+                return Keys{key(x, 2), moved};
+            },
+            0, 0, 0, 0);
+    };
+    CHECK(relation(key(0, 2)) == Approx(64.0));
+    CHECK(relation(key(0, 3)) < unrelated);
+    CHECK(relation(key(1, 2)) < unrelated);
+    CHECK(relation({.y = square, .vertex = 2, .log_samples = k}) < unrelated);
+    CHECK(relation({.vertex = 2, .log_samples = k + 1}) < unrelated);
+    CHECK(relation({.vertex = 2}) < unrelated);
+    // Samples beyond those that were planned are of other sequences.
+    for (std::int64_t index = 0; index < 32; ++index) {
+        CHECK(numbers({.log_samples = 4}, index) != numbers({.log_samples = 4}, index + 16));
+    }
+}
+
+TEST_CASE("the first of the planned samples differ between pixels, in every set", "[sampler]")
+{
+    constexpr int side = 32;
+    for (const std::int64_t index : {0, 1, 6}) {
+        std::vector<double> in_order(16);
+        std::vector<double> shuffled(16);
+        for (int i = 0; i < side * side; ++i) {
+            const Sampler sampler(SamplerKind::sobol, 7, i % side, i / side, index, 6);
+            const float u = sampler.ordered_1d(SampleUse::ground, 4);
+            ++in_order[static_cast<std::size_t>(u * 16.0f)];
+            const SetNumbers set =
+                numbers({.seed = 7, .x = i % side, .y = i / side, .log_samples = 6}, index);
+            ++shuffled[static_cast<std::size_t>(set[0] * 16.0f)];
+        }
+        const std::vector<double> even(16, 1.0 / 16);
+        CAPTURE(index);
+        CHECK(test::chi_square(in_order, even).p_value > 1e-4);
+        CHECK(test::chi_square(shuffled, even).p_value > 1e-4);
+    }
+}
+
+TEST_CASE("the mean of planned samples is right, and better than that of two sequences",
+          "[sampler]")
+{
+    constexpr int pixels = 20000;
+    const auto means_of = [](int k, int log_samples, Integrand f) {
+        Moments moments;
+        for (int i = 0; i < pixels; ++i) {
+            double sum = 0.0;
+            for (std::int64_t index = 0; index < std::int64_t{1} << k; ++index) {
+                // Far apart, so that their errors are independent.
+                const auto u = numbers({.seed = 3,
+                                        .x = 256 * (i % 200),
+                                        .y = 256 * (i / 200),
+                                        .log_samples = log_samples},
+                                       index);
+                sum += f({u[0], u[1]});
+            }
+            moments.add(sum / static_cast<double>(std::int64_t{1} << k));
+        }
+        return moments;
+    };
+    for (const int k : {0, 2, 4}) {
+        const Moments planned = means_of(k, k, smooth);
+        CAPTURE(k, planned.mean(), planned.standard_error());
+        CHECK(std::abs(planned.mean() - smooth_integral()) < 4.0 * planned.standard_error());
+        if (k > 0) {
+            CHECK(planned.variance() < 0.8 * means_of(k, Sampler::open_ended, smooth).variance());
+        }
+    }
+    const Moments circle = means_of(4, 4, inside_circle);
+    CHECK(std::abs(circle.mean() - 0.25 * 3.14159265) < 4.0 * circle.standard_error());
+}
+
+TEST_CASE("errors of neighbouring pixels cancel out after the planned samples", "[sampler]")
+{
+    // Means of 4 x 4 pixels: 16 times less variance if pixels are independent.
+    const auto variance = [](int log_samples, int side) {
+        Moments moments;
+        for (int i = 0; i < 400; ++i) {
+            double sum = 0.0;
+            const auto points = square_points(
+                {.seed = 4, .x = 256 * (i % 20), .y = 256 * (i / 20), .log_samples = log_samples},
+                side, 16);
+            for (const SetNumbers& u : points) {
+                sum += inside_circle({u[0], u[1]});
+            }
+            moments.add(sum / static_cast<double>(points.size()));
+        }
+        return moments.variance();
+    };
+    CHECK(variance(4, 4) < variance(4, 1) / 32.0);
+    CHECK(variance(Sampler::open_ended, 4) > variance(Sampler::open_ended, 1) / 24.0);
 }
 
 }  // namespace bdpt::sampler_distribution_test

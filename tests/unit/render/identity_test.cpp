@@ -143,8 +143,9 @@ std::set<std::string> changed_components(const Identity& a, const Identity& b)
 
 TEST_CASE("each option changes the identity by itself, but for those that change no bit", "[part]")
 {
-    const std::set<std::string> without_influence{"samples", "light_path_memory", "strategy_memory",
-                                                  "tile_size", "threads"};
+    const std::set<std::string> without_influence{"samples",           "planned_samples",
+                                                  "light_path_memory", "strategy_memory",
+                                                  "tile_size",         "threads"};
     const Scene scene{SceneDesc{}};
     RenderOptions o = options();
     const Identity before = identity(scene, CameraDesc{}, o);

@@ -156,6 +156,7 @@ void measure_strategies(const BenchScene& scene, const BenchOptions& options,
         return;
     }
     setup.options.sampling.samples = {.begin = 0, .end = *samples};
+    setup.options.sampling.planned_samples = 0;
     std::vector<StrategyMoments> all;
     for (int batch = 0; batch < batches; ++batch) {
         setup.options.sampling.seed = first_seed + static_cast<std::uint64_t>(batch);

@@ -24,6 +24,7 @@ std::optional<TimedRender> render_range(const TrialSetup& setup, SampleRange sam
 {
     RenderOptions options = setup.options;
     options.sampling.samples = samples;
+    options.sampling.planned_samples = 0;  // each checkpoint could be the last
     RenderControl control;
     control.stop = setup.control.stop;
     control.on_progress = std::move(on_progress);

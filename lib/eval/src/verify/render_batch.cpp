@@ -33,6 +33,7 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     result.transport.rr_start = Roulette::start;
     result.transport.rr_survival = Roulette(options.max_depth).min_survival();
     // Sobol points of one sequence are correlated; those of different seeds are not.
+    result.sampling.planned_samples = 0;
     result.sampling.samples = {.begin = 0, .end = count_samples(integrator, shortest)};
     if (integrator != IntegratorKind::lt && integrator != IntegratorKind::pt) {
         result.sampling.light_samples = options.light_samples;

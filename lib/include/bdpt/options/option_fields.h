@@ -149,8 +149,10 @@ inline constexpr auto fields<FilmOptions> = all_fields(
 template <>
 inline constexpr auto fields<SamplingOptions> = all_fields(
     OptionField{"samples", &SamplingOptions::samples, {.role = OptionRole::samples}},
-    OptionField{
-        "seed", &SamplingOptions::seed, {.value = "N", .help = "Random seed"}},
+    OptionField{"planned_samples",
+                &SamplingOptions::planned_samples,
+                {.range = {0, 0x1p31}, .role = OptionRole::samples}},
+    OptionField{"seed", &SamplingOptions::seed, {.value = "N", .help = "Random seed"}},
     OptionField{"sampler",
                 &SamplingOptions::sampler,
                 {.help = "Sampler: sobol (Owen-scrambled, less noise, best with a power of two as "
@@ -236,13 +238,14 @@ inline constexpr auto fields<BidirectionalOptions> = all_fields(
     OptionField{"max_merges",
                 &BidirectionalOptions::max_merges,
                 {.range = {0, std::numeric_limits<int>::max()}}},
-    OptionField{"light_path_memory",
-                &BidirectionalOptions::light_path_memory,
-                {.value = "SIZE",
-                 .help = "Maximum memory of light paths that all pixels share (bdpt, vcm), like 1G; "
-                         "auto chooses among those that fit, on any machine alike",
-                 .otherwise = "4000000000 (4 GB)",
-                 .role = OptionRole::limit}},
+    OptionField{
+        "light_path_memory",
+        &BidirectionalOptions::light_path_memory,
+        {.value = "SIZE",
+         .help = "Maximum memory of light paths that all pixels share (bdpt, vcm), like 1G; "
+                 "auto chooses among those that fit, on any machine alike",
+         .otherwise = "4000000000 (4 GB)",
+         .role = OptionRole::limit}},
     OptionField{"max_camera_depth",
                 &BidirectionalOptions::max_camera_depth,
                 {.range = {0, std::numeric_limits<int>::max()},

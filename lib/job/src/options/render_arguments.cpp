@@ -28,10 +28,8 @@ void add_how(OptionList& options, RenderRequest& request)
     RenderOptions& render = arguments.options;
     options.section("How to render", of_render);
     constexpr std::int64_t max_samples = std::int64_t{1} << 31;
-    options
-        .add("--spp", "N", "Samples per pixel. Default: 64", request.spp,
-             whole_number(1, max_samples))
-        .uses.plan_render = false;  // plans define the samples of tasks
+    options.add("--spp", "N", "Samples per pixel. Default: 64", request.spp,
+                whole_number(1, max_samples));
     add_size_option(options, request,
                     "Image size. Default: the largest with the camera's aspect ratio within "
                     "1280x720");
@@ -61,8 +59,8 @@ void add_how(OptionList& options, RenderRequest& request)
         .uses = of_load;
     options
         .add("--samples", "A:B",
-             "Render samples A to B - 1 of each pixel instead of --spp: one part of a distributed "
-             "render",
+             "Render samples A to B - 1 of each pixel: one part of a distributed render, which has "
+             "--spp samples in all",
              request.samples, sample_range())
         .uses.plan_render = false;
 }
@@ -188,6 +186,13 @@ bool may_adapt(const RenderRequest& request, const RenderArguments& arguments)
            SampleRates::fit(arguments.samples);
 }
 
+/// Returns the number of samples of the whole render, as far as it is known.
+std::int64_t plan_samples(const RenderRequest& request, const Goal& goal)
+{
+    const bool has_end = request.samples || !(goal.noise || request.seconds);
+    return request.spp.value_or(has_end ? SamplingOptions{}.planned_samples : 0);
+}
+
 SampleRange choose_samples(const RenderRequest& request, const Goal& goal)
 {
     // With --time alone, more samples than anyone has time for.
@@ -206,7 +211,6 @@ SampleRange choose_samples(const RenderRequest& request, const Goal& goal)
 void check_combinations(const OptionList& options, const std::optional<std::string>& camera)
 {
     static constexpr std::array conflicts{
-        Conflict{"--samples", "--spp"},
         Conflict{"--noise", "--samples", "a range of samples cannot decide when to stop"},
         Conflict{"--adaptive", "--rates"}, Conflict{"--half", "--float"},
         Conflict{"--quiet", "--verbose"}};
@@ -312,6 +316,7 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
     check_combinations(options, result.camera);
     result.goal = choose_goal(request);
     result.samples = choose_samples(request, result.goal);
+    result.options.sampling.planned_samples = plan_samples(request, result.goal);
     if (takes_rates(request)) {
         result.rates = request.rates;
     } else if (request.rates.saved) {

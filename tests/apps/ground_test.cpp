@@ -228,8 +228,9 @@ TEST_CASE("parts of a shadow on the ground are merged to the one of a render")
 {
     const GroundFolder folder;
     const auto part = [&](const char* samples, const char* name, const Words& more = {}) {
-        GroundFolder::check(folder.render(
-            joined(joined(catcher, more), {"--samples", samples, "--part", folder.path(name)})));
+        GroundFolder::check(
+            folder.render(joined(joined(catcher, more), {"--spp", "8", "--samples", samples,
+                                                         "--part", folder.path(name)})));
     };
     part("0:6", "a.part.exr");
     part("6:8", "b.part.exr");

@@ -67,7 +67,7 @@ TEST_CASE("option --noise ends a render at a level of noise", "[noise]")
     // The same, with other threads and from a part, in two runs.
     const std::string part = (folder / "p.part.exr").string();
     const std::string whole = std::to_string(samples);
-    done(render(folder, {"--spp", "19", "--part", part}));
+    done(render(folder, {"--noise", "3%", "--spp", "19", "--part", part}));
     const std::string again = (folder / "again.exr").string();
     CHECK(done(render(folder, {"--noise", "3%", "--part", part, "-o", again, "--threads",
                                "1"}))["samples"] == samples);

@@ -230,11 +230,12 @@ TEST_CASE("merge writes the images of strategies that parts have")
     // Kept in the part alone, and written for the part, too: the parts are of one render.
     const std::string a = room.path("a.part.exr");
     const std::string b = room.path("b.part.exr");
-    check_success(
-        run(part_words(room, {"--samples", "0:3", "--part", a, "--strategy-depth", "2"})));
+    check_success(run(part_words(
+        room, {"--spp", "4", "--samples", "0:3", "--part", a, "--strategy-depth", "2"})));
     CHECK(room.folder().names().size() == 6);
-    check_success(run(part_words(room, {"--samples", "3:4", "--part", b, "--strategy-depth", "2",
-                                        "--strategies", room.path("own.exr")})));
+    check_success(
+        run(part_words(room, {"--spp", "4", "--samples", "3:4", "--part", b, "--strategy-depth",
+                              "2", "--strategies", room.path("own.exr")})));
     const std::string merged = room.path("merged.exr");
     check_success(run({"merge", b, a, "-o", room.path("m.exr"), "--strategies", merged}));
     check_same_strategies(merged, whole);

@@ -157,8 +157,8 @@ def test_paths_may_be_objects(tmp_path, cornell_box):
 
 def test_parts_add_up_to_the_whole(cornell_box):
     whole = bdpt.render(cornell_box, spp=4, **SMALL)
-    parts = bdpt.render(cornell_box, samples="3:4", **SMALL)
-    parts += bdpt.render(cornell_box, samples="0:3", **SMALL)
+    parts = bdpt.render(cornell_box, samples="3:4", spp=4, **SMALL)
+    parts += bdpt.render(cornell_box, samples="0:3", spp=4, **SMALL)
     assert np.array_equal(parts.image, whole.image) and parts.samples == "0:4"
 
 

@@ -144,7 +144,7 @@ TEST_CASE("the shadow on the ground is that of a floor under direct light", "[gr
         mean /= counted;
         CAPTURE(test.name, worst, mean, darkest, counted);
         CHECK(counted > 25);
-        CHECK(darkest < 0.75);
+        CHECK(darkest < 0.8);  // of some shadow
         CHECK(worst < 0.04);
         CHECK(std::abs(mean) < 0.004);
     }

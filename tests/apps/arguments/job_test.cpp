@@ -106,9 +106,9 @@ TEST_CASE("options beside a job come before those in it", "[job]")
     REQUIRE(studio.render(job, {"--spp", "1", "-o", studio.path("p.png")}).exit_code == 0);
     CHECK(fs::exists(studio.path("p.png")));
     CHECK_FALSE(fs::exists(studio.path("jobs/o.exr")));
-    const Outcome wrong = studio.render(job, {"--samples", "0:1"});
+    const Outcome wrong = studio.render(job, {"--samples", "0:1", "--noise", "2%"});
     CHECK(wrong.exit_code == 2);
-    CHECK(wrong.err.find("--samples cannot be combined with --spp") != std::string::npos);
+    CHECK(wrong.err.find("--noise cannot be combined with --samples") != std::string::npos);
 }
 
 TEST_CASE("a saved job is what was typed, and renders that", "[job]")

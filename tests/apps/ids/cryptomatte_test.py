@@ -152,7 +152,7 @@ def check_ways(folder, scene, words):
     expect(have_same_ids(folder.render(scene, "one.exr", "--threads", "1", "--integrator", "bdpt", *words), whole),
            "ids depend on neither threads nor integrators")
     for part, samples in (("a", "0:5"), ("b", "5:7"), ("c", "7:16")):
-        folder.bdpt_with("render", scene, "--samples", samples, "--aov", "alpha,object,material", *SIZE, *words, "--part",
+        folder.bdpt_with("render", scene, "--spp", "16", "--samples", samples, "--aov", "alpha,object,material", *SIZE, *words, "--part",
                          folder.path / f"{part}.part.exr")
     folder.bdpt_with("merge", *(folder.path / f"{part}.part.exr" for part in "cab"), "-o", folder.path / "merged.exr")
     expect(have_same_ids(ExrFile(folder.path / "merged.exr"), whole), "parts have the ids of the whole")

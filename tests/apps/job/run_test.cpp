@@ -249,7 +249,7 @@ TEST_CASE("jobs that cannot be done are errors of the command", "[job]")
 {
     const Studio studio;
     CHECK(code_of(RenderJob(studio.folder / "no.glb")) == ErrorCode::not_found);
-    CHECK(code_of(studio.small().set("samples", "0:1")) == ErrorCode::usage);
+    CHECK(code_of(studio.small().set("samples", "0:1").set("noise", "2%")) == ErrorCode::usage);
     CHECK(code_of(studio.small().set("output", {studio.folder / "no/out.exr"})) ==
           ErrorCode::output);
     CHECK(code_of(studio.small().set("output", {studio.scene})) != ErrorCode::internal);
@@ -283,7 +283,7 @@ TEST_CASE("a job goes on with its part, or replaces it", "[job]")
 {
     const Studio studio;
     const fs::path part = studio.folder / "out.part.exr";
-    static_cast<void>(bdpt::run(studio.small(2).set("part", part)));
+    static_cast<void>(bdpt::run(studio.small(6).set("samples", "0:2").set("part", part)));
     const JobResult more = bdpt::run(studio.small(6).set("part", part));
     CHECK(more.images.at(0).samples_per_pixel == 6);
     CHECK(more.images.at(0).files == std::vector<fs::path>{studio.folder / "out.exr", part});

@@ -140,10 +140,10 @@ TEST_CASE("adaptive renders, their saved rates and their parts make the same pix
     CHECK(pixels(folder, "uniform.exr") != whole);
 
     // A part that goes on, and one that another machine makes.
-    render(folder,
-           {"--spp", "8", "--adaptive", "--part", path(folder, "a.part.exr"), "--aov", "samples"});
-    render(folder, {"--samples", "8:16", "--rates", rates, "--part", path(folder, "b.part.exr"),
-                    "--aov", "samples"});
+    render(folder, {"--spp", "16", "--samples", "0:8", "--adaptive", "--part",
+                    path(folder, "a.part.exr"), "--aov", "samples"});
+    render(folder, {"--spp", "16", "--samples", "8:16", "--rates", rates, "--part",
+                    path(folder, "b.part.exr"), "--aov", "samples"});
     succeed({"merge", path(folder, "a.part.exr"), path(folder, "b.part.exr"), "-o",
              path(folder, "merged.exr")});
     CHECK(pixels(folder, "merged.exr") == whole);
@@ -222,12 +222,12 @@ TEST_CASE("auto gives noisy pixels more samples where that helps", "[command][lo
     }
 
     // Parts have them too, if they can.
-    image("a.exr", {"--samples", "0:8", "--part", path(folder, "a.part.exr")});
-    image("b.exr", {"--samples", "8:16", "--part", path(folder, "b.part.exr")});
+    image("a.exr", {"--spp", "16", "--samples", "0:8", "--part", path(folder, "a.part.exr")});
+    image("b.exr", {"--spp", "16", "--samples", "8:16", "--part", path(folder, "b.part.exr")});
     succeed({"merge", path(folder, "a.part.exr"), path(folder, "b.part.exr"), "-o",
              path(folder, "merged.exr")});
     CHECK((pixels(folder, "merged.exr") == whole));
-    image("c.exr", {"--samples", "8:15", "--part", path(folder, "c.part.exr")});
+    image("c.exr", {"--spp", "16", "--samples", "8:15", "--part", path(folder, "c.part.exr")});
     const Outcome mixed = run({"merge", path(folder, "a.part.exr"), path(folder, "c.part.exr"),
                                "-o", path(folder, "mixed.exr")});
     CAPTURE(mixed.err);

@@ -155,12 +155,14 @@ TEST_CASE("merged parts have the background of their render, or another one")
     const DisplayFolder cube;
     const Words words{"--env", "default", "--background", "#2040f1"};
     const PngFile whole = cube.png(words);
-    DisplayFolder::check(run(Words{"render", cube.path("cube.gltf"), "--size", "32x16",
-                                   "--integrator", "mis", "--env", "default", "--background",
-                                   "#2040f1", "--samples", "0:2", "--part", cube.path("a.exr")}));
-    DisplayFolder::check(run(Words{"render", cube.path("cube.gltf"), "--size", "32x16",
-                                   "--integrator", "mis", "--env", "default", "--background",
-                                   "black", "--samples", "2:4", "--part", cube.path("b.exr")}));
+    DisplayFolder::check(
+        run(Words{"render", cube.path("cube.gltf"), "--size", "32x16", "--integrator", "mis",
+                  "--env", "default", "--background", "#2040f1", "--spp", "4", "--samples", "0:2",
+                  "--part", cube.path("a.exr")}));
+    DisplayFolder::check(
+        run(Words{"render", cube.path("cube.gltf"), "--size", "32x16", "--integrator", "mis",
+                  "--env", "default", "--background", "black", "--spp", "4", "--samples", "2:4",
+                  "--part", cube.path("b.exr")}));
     const auto merged = [&](const Words& more) {
         Words all{"merge", cube.path("a.exr"), cube.path("b.exr"),
                   "-o",    cube.path("m.png"), "--exposure",

@@ -189,7 +189,10 @@ bool may_adapt(const RenderRequest& request, const RenderArguments& arguments)
 /// Returns the number of samples of the whole render, as far as it is known.
 std::int64_t plan_samples(const RenderRequest& request, const Goal& goal)
 {
-    const bool has_end = request.samples || !(goal.noise || request.seconds);
+    if (goal.noise) {
+        return 0;
+    }
+    const bool has_end = request.samples || !request.seconds;
     return request.spp.value_or(has_end ? SamplingOptions{}.planned_samples : 0);
 }
 

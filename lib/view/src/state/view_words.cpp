@@ -66,9 +66,9 @@ const RenderArguments& ViewWords::arguments() const
         const bool is_unlimited = !has("--spp") && !has("--noise");
         (is_unlimited ? ending_after(view_samples) : *this).give_to(render.list);
         RenderArguments arguments = checked(render.request, render.list);
-        if (is_unlimited) {
-            arguments.options.sampling.planned_samples = SamplingOptions{}.planned_samples;
-        }
+        // As in the command for what is seen, which ends at no noise.
+        arguments.options.sampling.planned_samples =
+            has("--spp") ? *render.request.spp : SamplingOptions{}.planned_samples;
         arguments_ = std::make_shared<const RenderArguments>(std::move(arguments));
     }
     return *arguments_;

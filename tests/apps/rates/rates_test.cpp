@@ -103,7 +103,7 @@ TEST_CASE("the library renders the command's default image to the bit", "[comman
     const Scene scene(std::move(loaded.scene));
     const CameraDesc& camera = loaded.cameras.at(0);
     RenderOptions options{.film = {.width = 128, .height = 128},
-                          .sampling = {.samples = {.begin = 0, .end = 8}}};
+                          .sampling = {.samples = {.begin = 0, .end = 8}, .planned_samples = 8}};
     REQUIRE(chosen_options(scene, camera, options).sampling.rates);
     CHECK(bdpt::render(scene, camera, options).image().pixels == expected);
     Renderer renderer(scene, camera, options);
@@ -115,6 +115,7 @@ TEST_CASE("the library renders the command's default image to the bit", "[comman
               .image()
               .pixels == by_command({"--spp", "8", "--adaptive=false"}));
     options.sampling.samples = {.begin = 0, .end = 7};
+    options.sampling.planned_samples = 7;
     CHECK(bdpt::render(scene, camera, options).image().pixels == by_command({"--spp", "7"}));
 }
 

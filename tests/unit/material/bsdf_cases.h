@@ -24,6 +24,8 @@ namespace bdpt::test {
         {"dielectric 1 ior 2.4", {blue, 0, 1, 1, white, 0, thin}, 2.4f},
         {"dielectric 0.5 ior 1", {blue, 0, 0.5f, 1, white, 0, thin}, 1.0f},
         {"black dielectric 0.2", {Rgb{0.0f}, 0, 0.2f, 1, white, 0, thin}},
+        {"black dielectric 0.8 like gold", {Rgb{0.0f}, 0, 0.8f, 1, Rgb{25, 19, 8}, 0, thin}},
+        {"dielectric 0.6 half specular ior 3", {blue, 0, 0.6f, 0.5f, white, 0, thin}, 3.0f},
         {"metal 0.033", {blue, 1, 0.033f, 1, white, 0, thin}},
         {"metal 0.05", {blue, 1, 0.05f, 1, white, 0, thin}},
         {"metal 0.3", {blue, 1, 0.3f, 1, white, 0, thin}},

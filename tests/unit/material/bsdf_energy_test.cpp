@@ -86,7 +86,16 @@ TEST_CASE("rough white metal and clear glass are invisible in a white furnace, t
 {
     constexpr Body solid = Body::solid;
     const Rgb white{1.0f};
+    const Rgb black{0.0f};
     const std::vector<test::BsdfCase> cases{
+        // Dielectrics that reflect all light leave none for their base.
+        {"infinite index 0.3", {black, 0, 0.3f}, 1e6f},
+        {"infinite index 1", {black, 0, 1}, 1e6f},
+        {"infinite index 0.6 above grey", {Rgb{0.5f}, 0, 0.6f}, 1e6f},
+        {"like metal 0.8", {black, 0, 0.8f, 1, Rgb{25}}},
+        {"like metal 0.8 above white", {white, 0, 0.8f, 1, Rgb{25}}},
+        {"index 3 0.7", {white, 0, 0.7f}, 3.0f},
+        {"index 1000 1", {white, 0, 1}, 1000.0f},
         {"metal 0.1", {white, 1, 0.1f}},
         {"metal 0.3", {white, 1, 0.3f}},
         {"metal 0.5", {white, 1, 0.5f}},
@@ -117,6 +126,35 @@ TEST_CASE("rough white metal and clear glass are invisible in a white furnace, t
             CHECK(std::abs(sum.mean() - 1.0) < 0.002 + 3.0 * sum.standard_error());
         }
     }
+}
+
+TEST_CASE("a dielectric with the reflectance of gold above black is as bright as gold")
+{
+    const Rgb gold{1.0f, 0.77f, 0.34f};
+    const SpecularAlbedo index(1.5f);
+    const Rgb specular = gold / index.normal_reflectance();
+    const float roughness = GENERATE(0.2f, 0.5f, 0.8f, 1.0f);
+    const Vec3 up{0.0f, 0.0f, 1.0f};
+    const auto metal = albedo_of(test::TestedBsdf({"metal", {gold, 1, roughness}}), up, 40000);
+    const auto like = albedo_of(
+        test::TestedBsdf({"like gold", {Rgb{0.0f}, 0, roughness, 1, specular}}), up, 40000);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        CAPTURE(roughness, channel);
+        // Schlick's approximation for metal differs a little from Fresnel's equations.
+        CHECK(like[channel].mean() == Approx(metal[channel].mean()).epsilon(0.012));
+    }
+}
+
+TEST_CASE("plastic keeps all light for its base that its microfacets do not reflect at once")
+{
+    // Seen straight at the same index, light leaves black plastic by single scattering alone.
+    const float roughness = GENERATE(0.3f, 1.0f);
+    const SpecularAlbedo index(1.5f);
+    const auto split = index.directional(1.0f, SpecularAlbedo::at_roughness(roughness));
+    const auto plastic = albedo_of(test::TestedBsdf({"plastic", {Rgb{0.0f}, 0, roughness}}),
+                                   {0.0f, 0.0f, 1.0f}, 40000);
+    const float once = index.normal_reflectance() * split.f0 + split.f90;
+    CHECK(plastic[0].mean() == Approx(once).epsilon(0.01));
 }
 
 TEST_CASE("layers take from what lies below no more than they give, and not much")

@@ -45,6 +45,8 @@ std::vector<test::BsdfCase> white_cases(float coat)
     cases.push_back({"half a coat", {white, 1, 0.6f}, 1.5f, test::coated(0.5f, coat)});
     cases.push_back({"half metal", {white, 0.5f, 0.4f}, 1.5f, test::coated(1, coat)});
     cases.push_back({"index 2.4", {white, 0, 0.3f}, 2.4f, test::coated(1, coat)});
+    cases.push_back({"index 3", {white, 0, 1}, 3.0f, test::coated(1, coat)});
+    cases.push_back({"like metal", {white, 0, 0.6f, 1, Rgb{25}}, 1.5f, test::coated(1, coat)});
     cases.push_back({"index 1", {white, 0, 0.3f}, 1.0f, test::coated(1, coat)});
     cases.push_back({"half specular", {white, 0, 0.3f, 0.5f}, 1.5f, test::coated(1, coat)});
     return cases;

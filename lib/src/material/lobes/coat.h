@@ -28,6 +28,10 @@ struct CoatedBase {
     float diffuse = 0.0f;
     /// Average of the light that white microfacets do not reflect at once.
     float unreflected = 0.0f;
+    /// Fraction of such light that the dielectric reflects later, so that it reaches no base; and
+    /// the same where the dielectric is opaque.
+    float later = 0.0f;
+    float opaque_later = 0.0f;
     SpecularAlbedo::Roughness roughness{};
     /// Average of Fresnel's equations normalised from F0 to F90.
     float fresnel_rise = 0.0f;
@@ -56,9 +60,8 @@ public:
         // The table uses Fresnel's equations normalised from F0 to F90 for the coat's index.
         base_.f90 *= base.fresnel_rise / loss.fresnel_rise();
         const CoatLoss::Average mean = loss.average(base_.roughness, coat);
-        const float f0 = base_.f0;
-        const float f90 = base_.f90;
-        const float below = mean.below - f0 * mean.below_f0 - f90 * mean.below_f90 +
+        const auto [all, f0, f90] = to_base();
+        const float below = all * (all * mean.below - f0 * mean.below_f0 - f90 * mean.below_f90) +
                             f0 * f0 * mean.below_f0_f0 + f0 * f90 * mean.below_f0_f90 +
                             f90 * f90 * mean.below_f90_f90;
         const float below_metal = mean.below - mean.below_f0 - mean.below_f90 + mean.below_f0_f0 +
@@ -93,7 +96,8 @@ public:
         const CoatLoss::Directional part =
             loss_->directional(std::clamp(cosine, 0.0f, 1.0f), base_.roughness, coat_);
         const float below_metal = part.below - part.below_f0 - part.below_f90;
-        const float below = part.below - base_.f0 * part.below_f0 - base_.f90 * part.below_f90;
+        const auto [all, f0, f90] = to_base();
+        const float below = all * part.below - f0 * part.below_f0 - f90 * part.below_f90;
         return weight_ * compute_loss(part, from.unreflected * scattered_again(below_metal),
                                       from.transmitted * below);
     }
@@ -107,6 +111,16 @@ public:
 private:
     static constexpr float min_average = 1e-5f;
 
+    /// The base receives `all` light less that reflected by a boundary of F0 and F90.
+    struct ToBase {
+        float all;
+        float f0;
+        float f90;
+    };
+    [[nodiscard]] ToBase to_base() const
+    {
+        return {1.0f - base_.later, base_.f0 - base_.later, base_.f90 - base_.later};
+    }
     /// Returns the light that rough metal scatters after more than one reflection.
     [[nodiscard]] float scattered_again(float below_metal) const
     {
@@ -118,7 +132,7 @@ private:
         const float metal = loss.f0 + loss.f90 + metal_again;
         const float boundary = base_.f0 * loss.f0 + base_.f90 * loss.f90;
         return std::max(0.0f, base_.metallic * metal + (1.0f - base_.metallic) * boundary +
-                                  base_.diffuse * below);
+                                  base_.diffuse * below + base_.opaque_later * metal_again);
     }
 
     CoatedBase base_{};

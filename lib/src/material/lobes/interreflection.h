@@ -15,24 +15,31 @@
 
 namespace bdpt {
 
-/// Multiple reflection among the microfacets of rough metal [Kulla and Conty 2017, "Revisiting
-/// Physically Based Shading at Imageworks"]: diffuse light, in proportion to the light that white
-/// microfacets do not reflect at once, of wo and of wi. Reciprocal; with a reflectance of 1 both
-/// lobes together reflect all light.
+/// Returns the fraction of light not reflected at once by white microfacets that eventually leaves
+/// those with this average reflectance: it is reflected once, repeatedly as microfacets mask it,
+/// and leaves. Arguments as in `Interreflection`.
+[[nodiscard]] inline Rgb interreflected(float share, Rgb reflectance, float average)
+{
+    return share * reflectance * reflectance * average /
+           (Rgb(1.0f) - reflectance * (1.0f - average));
+}
+
+/// Multiple reflection among rough microfacets, of metal above all [Kulla and Conty 2017,
+/// "Revisiting Physically Based Shading at Imageworks"]: diffuse light, in proportion to the light
+/// that white microfacets do not reflect at once, of wo and of wi. Reciprocal; with a reflectance
+/// of 1 both lobes together reflect all light.
 class Interreflection {
 public:
     /// `f0` is the reflectance of the metal at normal incidence, `average` the cosine-weighted
     /// average of the light that white microfacets reflect at once, in [0, 1], `share` the metallic
     /// fraction of the surface.
     Interreflection(Rgb f0, float average, float share)
-    {
-        const Rgb reflectance = f0 + (1.0f - f0) * mean_schlick_weight;
-        const float missing = std::max(1.0f - average, min_missing);
-        // Light is reflected once, repeatedly as microfacets mask it, and leaves.
-        albedo_ = share * reflectance * reflectance * average /
-                  (Rgb(1.0f) - reflectance * (1.0f - average));
-        per_coupling_ = inv_pi / missing;
-    }
+        : albedo_(interreflected(share, f0 + (1.0f - f0) * mean_schlick_weight, average)),
+          per_coupling_(inv_pi / std::max(1.0f - average, min_missing))
+    {}
+
+    /// Adds what the rest of the surface returns, by `interreflected`.
+    void add(Rgb albedo) { albedo_ += albedo; }
 
     /// Returns the largest channel of the fraction of light not reflected at once that eventually
     /// leaves.

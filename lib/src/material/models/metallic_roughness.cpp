@@ -55,8 +55,9 @@ template <typename Film, typename Roughness, typename Base>
 float BasicMetallicRoughness<Film, Roughness, Base>::reaches_base() const noexcept
 {
     constexpr float min_loss = 1e-6f;  // a base below a perfect mirror receives no light
+    const float later = max_component(reflected_later());
     const float average = roughness_.average([&](SpecularAlbedo::Roughness row) {
-        return boundary_.reflected(boundary_.albedo->average(row));
+        return boundary_.reflected(boundary_.albedo->average(row), later);
     });
     return std::max(1.0f - average, min_loss);
 }
@@ -66,15 +67,16 @@ CoatedBase BasicMetallicRoughness<Film, Roughness, Base>::coated() const noexcep
 {
     const float metallic = boundary_.metallic;
     const float passes = boundary_.exists ? reaches_base() : 1.0f;
-    const float diffuse = base_weight_ > 0.0f
-                              ? (1.0f - metallic - boundary_.transmission) * base_.reflected_share()
-                              : 0.0f;
+    const float diffuse = base_weight_ > 0.0f ? opaque_share() * base_.reflected_share() : 0.0f;
     const Rgb metal = boundary_.base_color + (1.0f - boundary_.base_color) * mean_schlick_weight;
+    const float later = max_component(reflected_later());
     return {.metallic = metallic,
             .f0 = max_component(boundary_.f0),
             .f90 = boundary_.f90,
             .diffuse = diffuse / passes,
             .unreflected = interreflects() ? average_unreflected() : 0.0f,
+            .later = later,
+            .opaque_later = opaque_share() * later,
             .roughness = roughness_.least(),
             .fresnel_rise = boundary_.albedo->average({}).f90,
             .color = metallic * metal + (1.0f - metallic) * (1.0f - passes) +
@@ -102,13 +104,19 @@ auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept
                 .refraction_choice = again};
     }
     const float cosine = std::abs(z);
-    const float bare = roughness_.directional([&](SpecularAlbedo::Roughness row) {
-        return boundary_.reflected(boundary_.albedo->directional(cosine, row));
-    });
+    const auto dielectric = [&](float later) {
+        return roughness_.directional([&](SpecularAlbedo::Roughness row) {
+            return boundary_.reflected(boundary_.albedo->directional(cosine, row), later);
+        });
+    };
+    const float bare = dielectric(0.0f);
     const float reflected = boundary_.film.max_albedo_over(bare, cosine, boundary_.f0);
-    const float rest = std::max(0.0f, 1.0f - reflected);
+    const float later =
+        dielectric_interreflects() ? dielectric(max_component(reflected_later())) - bare : 0.0f;
+    const float passed = std::max(0.0f, 1.0f - reflected);
+    const float rest = std::max(0.0f, passed - later);
     const float specular = (1.0f - boundary_.metallic) * reflected +
-                           transmission_weight_ * std::max(0.0f, rest - lost_share) +
+                           transmission_weight_ * std::max(0.0f, passed - lost_share) +
                            metal_weight_ * (1.0f - missing);
     const float diffuse = base_weight_ * rest;
     const float sum = specular + diffuse + interreflected + again;
@@ -174,7 +182,23 @@ RepeatedRefraction BasicMetallicRoughness<Film, Roughness, Base>::repeated_refra
 template <typename Film, typename Roughness, typename Base>
 Interreflection BasicMetallicRoughness<Film, Roughness, Base>::interreflection() const noexcept
 {
-    return {boundary_.base_color, 1.0f - average_unreflected(), boundary_.metallic};
+    Interreflection sum(boundary_.base_color, 1.0f - average_unreflected(), boundary_.metallic);
+    if (dielectric_interreflects()) {
+        sum.add(opaque_share() * reflected_later());
+    }
+    return sum;
+}
+
+template <typename Film, typename Roughness, typename Base>
+Rgb BasicMetallicRoughness<Film, Roughness, Base>::reflected_later() const noexcept
+{
+    if (!roughness_.is_rough() || !dielectric_interreflects()) {
+        return Rgb(0.0f);
+    }
+    const SpecularAlbedo::Split smooth = boundary_.albedo->average({});
+    const float share = std::min(max_component(boundary_.f0) / min_f0 - 1.0f, 1.0f);
+    return interreflected(share, boundary_.f0 * smooth.f0 + boundary_.f90 * smooth.f90,
+                          1.0f - average_unreflected());
 }
 
 /// Returns the probability of the base.

@@ -135,12 +135,13 @@ private:
 /// The boundary is that of a dielectric, or metal, or a mix; it reflects and transmits at the same
 /// microfacets. The base receives the light transmitted by the boundary in both directions, so that
 /// it is reciprocal and conserves energy [Kelemen and Szirmay-Kalos 2001, "A Microfacet Based
-/// Coupled Specular-Matte BRDF Model"]. Light that the microfacets of a metal mask is reflected
-/// among them and eventually leaves [Kulla and Conty 2017, "Revisiting Physically Based Shading at
-/// Imageworks"]: a white metal reflects all light, however rough, and clear glass scatters all. All
-/// but solid transmitters scatter equally from both sides. From inside a solid transmitter there is
-/// no base: the pigment lies below the boundary for light from outside only, and a base seen from
-/// within would add to the light that is already reflected in full.
+/// Coupled Specular-Matte BRDF Model"]. Light that the microfacets of a metal, or of a dielectric
+/// that reflects as much, mask is reflected among them and eventually leaves [Kulla and Conty 2017,
+/// "Revisiting Physically Based Shading at Imageworks"]: a white metal reflects all light, however
+/// rough, and clear glass scatters all. All but solid transmitters scatter equally from both sides.
+/// From inside a solid transmitter there is no base: the pigment lies below the boundary for light
+/// from outside only, and a base seen from within would add to the light that is already reflected
+/// in full.
 template <typename Film, typename Roughness, typename Base>
 class BasicMetallicRoughness {
 public:
@@ -165,7 +166,7 @@ public:
     /// Returns the properties that a coat above needs.
     [[nodiscard]] CoatedBase coated() const noexcept;
     /// Returns the fraction of light from a direction with this z that white microfacets do not
-    /// reflect at once; 0 if they are smooth, or not metallic.
+    /// reflect at once; 0 if they do not interreflect.
     [[nodiscard]] float metal_unreflected(float z) const noexcept
     {
         return interreflects() ? unreflected(z) : 0.0f;
@@ -194,12 +195,28 @@ public:
     [[nodiscard]] Rgb base_color() const noexcept { return boundary_.base_color; }
 
 private:
-    /// Tests whether its microfacets reflect light more than once. Those of a dielectric do so too,
-    /// but light that they do not reflect at once reaches the base.
+    /// Reflectance at normal incidence from which a dielectric interreflects; it does so in full
+    /// from twice as much.
+    static constexpr float min_f0 = 0.05f;
+
+    /// Tests whether its microfacets reflect light more than once.
     [[nodiscard]] bool interreflects() const noexcept
     {
-        return boundary_.metallic > 0.0f && roughness_.is_rough();
+        return roughness_.is_rough() && (boundary_.metallic > 0.0f || dielectric_interreflects());
     }
+    /// Tests it for the dielectric. For indices up to 1.57, as of plastics, nearly all light that
+    /// its microfacets do not reflect at once reaches the base.
+    [[nodiscard]] bool dielectric_interreflects() const noexcept
+    {
+        return max_component(boundary_.f0) > min_f0 && opaque_share() > 0.0f;
+    }
+    [[nodiscard]] float opaque_share() const noexcept
+    {
+        return 1.0f - boundary_.metallic - boundary_.transmission;
+    }
+    /// Returns the fraction of light that the opaque dielectric reflects later, of that which white
+    /// microfacets do not reflect at once. It reaches no base.
+    [[nodiscard]] Rgb reflected_later() const noexcept;
     [[nodiscard]] Interreflection interreflection() const noexcept;
     /// Tests whether light is transmitted after scattering by several microfacets.
     [[nodiscard]] bool refracts_repeatedly() const noexcept

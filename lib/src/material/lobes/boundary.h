@@ -37,6 +37,8 @@ struct Boundary {
     float ior = 1.0f;           ///< index of the inside of a solid body
     bool is_solid = false;
     bool exists = false;  ///< true if it is visible at all
+    /// True if the dielectric reflects light that its microfacets mask; metal always does.
+    bool interreflects = false;
     PackedPointer<const SpecularAlbedo> albedo{};
     [[no_unique_address]] Film film{};
 
@@ -44,13 +46,10 @@ struct Boundary {
     [[nodiscard]] bool is_inside(float z) const noexcept { return is_solid && z < 0.0f; }
     [[nodiscard]] float index_at(float z) const noexcept { return is_inside(z) ? ior : 1.0f; }
 
-    /// Returns the fraction of light that the dielectric reflects, in the brightest channel;
-    /// `again` is the fraction reflected later of light that white microfacets do not reflect at
-    /// once.
-    [[nodiscard]] float reflected(SpecularAlbedo::Split split, float again = 0.0f) const noexcept
+    /// Returns the fraction of light that the dielectric reflects, in the brightest channel.
+    [[nodiscard]] float reflected(SpecularAlbedo::Split split) const noexcept
     {
-        return film.bound(max_component(f0) * split.f0 + f90 * split.f90, split.f0, split.f90) +
-               again * (1.0f - split.f0 - split.f90);
+        return film.bound(max_component(f0) * split.f0 + f90 * split.f90, split.f0, split.f90);
     }
 
     /// Returns the cosine at a microfacet on the side of the lower index, given that on the side of

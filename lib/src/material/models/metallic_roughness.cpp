@@ -12,6 +12,17 @@ namespace bdpt {
 /// Minimum relative index of rough refraction: closer to 1 it has no half vector.
 constexpr float min_refraction = 1.001f;
 
+/// Reflectance at normal incidence from which a dielectric interreflects; it does so in full from
+/// twice as much. For indices up to 1.57, as of plastics, nearly all light that its microfacets do
+/// not reflect at once reaches the base.
+constexpr float min_f0 = 0.05f;
+
+/// Returns the fraction of light that white microfacets do not reflect at once.
+inline float passed_by_white(SpecularAlbedo::Split split)
+{
+    return 1.0f - split.f0 - split.f90;
+}
+
 template <typename Film, typename Roughness, typename Base>
 BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
     const GltfParameters& parameters, const SpecularAlbedo& albedo, const Roughness& roughness,
@@ -44,6 +55,8 @@ BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
         }
     }
     const float diffuse = dielectric * (1.0f - transmission);
+    boundary_.interreflects =
+        max_component(boundary_.f0) > min_f0 && diffuse > 0.0f && roughness_.is_rough();
     base_weight_ = base_.set_up(boundary_.base_color, diffuse,
                                 diffuse > 0.0f ? reaches_base() : 1.0f, parameters);
     const float base_max = max_component(boundary_.base_color);
@@ -55,10 +68,15 @@ template <typename Film, typename Roughness, typename Base>
 float BasicMetallicRoughness<Film, Roughness, Base>::reaches_base() const noexcept
 {
     constexpr float min_loss = 1e-6f;  // a base below a perfect mirror receives no light
-    const float later = max_component(reflected_later());
-    const float average = roughness_.average([&](SpecularAlbedo::Roughness row) {
-        return boundary_.reflected(boundary_.albedo->average(row), later);
+    float average = roughness_.average([&](SpecularAlbedo::Roughness row) {
+        return boundary_.reflected(boundary_.albedo->average(row));
     });
+    if (boundary_.interreflects) [[unlikely]] {
+        average += max_component(reflected_later()) *
+                   roughness_.average([&](SpecularAlbedo::Roughness row) {
+                       return passed_by_white(boundary_.albedo->average(row));
+                   });
+    }
     return std::max(1.0f - average, min_loss);
 }
 
@@ -69,7 +87,7 @@ CoatedBase BasicMetallicRoughness<Film, Roughness, Base>::coated() const noexcep
     const float passes = boundary_.exists ? reaches_base() : 1.0f;
     const float diffuse = base_weight_ > 0.0f ? opaque_share() * base_.reflected_share() : 0.0f;
     const Rgb metal = boundary_.base_color + (1.0f - boundary_.base_color) * mean_schlick_weight;
-    const float later = max_component(reflected_later());
+    const float later = boundary_.interreflects ? max_component(reflected_later()) : 0.0f;
     return {.metallic = metallic,
             .f0 = max_component(boundary_.f0),
             .f90 = boundary_.f90,
@@ -104,15 +122,17 @@ auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept
                 .refraction_choice = again};
     }
     const float cosine = std::abs(z);
-    const auto dielectric = [&](float later) {
-        return roughness_.directional([&](SpecularAlbedo::Roughness row) {
-            return boundary_.reflected(boundary_.albedo->directional(cosine, row), later);
-        });
-    };
-    const float bare = dielectric(0.0f);
+    const float bare = roughness_.directional([&](SpecularAlbedo::Roughness row) {
+        return boundary_.reflected(boundary_.albedo->directional(cosine, row));
+    });
     const float reflected = boundary_.film.max_albedo_over(bare, cosine, boundary_.f0);
-    const float later =
-        dielectric_interreflects() ? dielectric(max_component(reflected_later())) - bare : 0.0f;
+    float later = 0.0f;
+    if (boundary_.interreflects) [[unlikely]] {
+        later = max_component(reflected_later()) *
+                roughness_.directional([&](SpecularAlbedo::Roughness row) {
+                    return passed_by_white(boundary_.albedo->directional(cosine, row));
+                });
+    }
     const float passed = std::max(0.0f, 1.0f - reflected);
     const float rest = std::max(0.0f, passed - later);
     const float specular = (1.0f - boundary_.metallic) * reflected +
@@ -183,7 +203,7 @@ template <typename Film, typename Roughness, typename Base>
 Interreflection BasicMetallicRoughness<Film, Roughness, Base>::interreflection() const noexcept
 {
     Interreflection sum(boundary_.base_color, 1.0f - average_unreflected(), boundary_.metallic);
-    if (dielectric_interreflects()) {
+    if (boundary_.interreflects) {
         sum.add(opaque_share() * reflected_later());
     }
     return sum;
@@ -192,9 +212,6 @@ Interreflection BasicMetallicRoughness<Film, Roughness, Base>::interreflection()
 template <typename Film, typename Roughness, typename Base>
 Rgb BasicMetallicRoughness<Film, Roughness, Base>::reflected_later() const noexcept
 {
-    if (!roughness_.is_rough() || !dielectric_interreflects()) {
-        return Rgb(0.0f);
-    }
     const SpecularAlbedo::Split smooth = boundary_.albedo->average({});
     const float share = std::min(max_component(boundary_.f0) / min_f0 - 1.0f, 1.0f);
     return interreflected(share, boundary_.f0 * smooth.f0 + boundary_.f90 * smooth.f90,

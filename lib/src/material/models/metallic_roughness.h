@@ -195,27 +195,17 @@ public:
     [[nodiscard]] Rgb base_color() const noexcept { return boundary_.base_color; }
 
 private:
-    /// Reflectance at normal incidence from which a dielectric interreflects; it does so in full
-    /// from twice as much.
-    static constexpr float min_f0 = 0.05f;
-
     /// Tests whether its microfacets reflect light more than once.
     [[nodiscard]] bool interreflects() const noexcept
     {
-        return roughness_.is_rough() && (boundary_.metallic > 0.0f || dielectric_interreflects());
-    }
-    /// Tests it for the dielectric. For indices up to 1.57, as of plastics, nearly all light that
-    /// its microfacets do not reflect at once reaches the base.
-    [[nodiscard]] bool dielectric_interreflects() const noexcept
-    {
-        return max_component(boundary_.f0) > min_f0 && opaque_share() > 0.0f;
+        return boundary_.interreflects || (boundary_.metallic > 0.0f && roughness_.is_rough());
     }
     [[nodiscard]] float opaque_share() const noexcept
     {
         return 1.0f - boundary_.metallic - boundary_.transmission;
     }
-    /// Returns the fraction of light that the opaque dielectric reflects later, of that which white
-    /// microfacets do not reflect at once. It reaches no base.
+    /// Returns the fraction of light that an opaque dielectric reflects later, of that which white
+    /// microfacets do not reflect at once. It reaches no base. Only where it interreflects.
     [[nodiscard]] Rgb reflected_later() const noexcept;
     [[nodiscard]] Interreflection interreflection() const noexcept;
     /// Tests whether light is transmitted after scattering by several microfacets.

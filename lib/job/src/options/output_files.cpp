@@ -71,7 +71,7 @@ bool is_below(const fs::path& file, const fs::path& folder)
 
 namespace {
 
-constexpr std::string_view stats_start = "{\n  \"version\": \"";  // report/stats_file.h
+constexpr std::string_view stats_start = "{\n  \"version\": \"";  // of `write_stats_file`
 
 /// Returns the message for an output whose name does not end in a known extension.
 std::string unknown_type(const fs::path& output)

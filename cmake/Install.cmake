@@ -77,8 +77,11 @@ if(BDPT_BUILD_APPS)
           COMPONENT bdpt_runtime)
   install(FILES apps/desktop/bdpt.thumbnailer DESTINATION "${CMAKE_INSTALL_DATADIR}/thumbnailers"
           COMPONENT bdpt_runtime)
-  install(DIRECTORY lib/job/src/plan/engines/ DESTINATION "${CMAKE_INSTALL_DATADIR}/bdpt/engines"
-          COMPONENT bdpt_runtime)
+  set(engines lib/job/src/plan/engines)
+  install(PROGRAMS ${engines}/submit.sh ${engines}/tasks.sbatch ${engines}/merge.sbatch
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/bdpt/engines" COMPONENT bdpt_runtime)
+  install(FILES ${engines}/kubernetes.yaml ${engines}/Makefile
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/bdpt/engines" COMPONENT bdpt_runtime)
   install(FILES "${BDPT_MANUAL_DIR}/bash/bdpt" COMPONENT bdpt_runtime
           DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
   install(FILES "${BDPT_MANUAL_DIR}/zsh/_bdpt" COMPONENT bdpt_runtime

@@ -7,7 +7,8 @@
 #include "path/densities.h"
 #include "path/direct_light.h"
 #include "path/random_walk.h"
-#include "pilot/light_starts.h"
+#include "pilot/pilot_constants.h"
+#include "scene/light_set.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
@@ -25,6 +26,71 @@
 #include <vector>
 
 namespace bdpt {
+namespace {
+
+constexpr const LightPilotConstants& light_constants = pilot_constants.light;
+
+/// Lights that next-event estimation treats as one: all with a position, or one at infinity.
+struct Group {
+    std::size_t lights = 0;
+    double power = 0.0;  ///< probability by power
+    double found = 0.0;
+    std::size_t findings = 0;
+
+    [[nodiscard]] double mean() const { return found / static_cast<double>(findings); }
+};
+
+}  // namespace
+
+std::optional<AliasTable> learn_starts(std::span<const IndirectLight> found, const LightSet& lights)
+{
+    const NextEventLights& of_groups = lights.next_event_lights();
+    std::vector<Group> groups(of_groups.group_count());
+    std::vector<double> values(lights.size());
+    double total = 0.0;
+    for (const IndirectLight& finding : found) {
+        const auto value = static_cast<double>(finding.value);
+        Group& group = groups[of_groups.group(finding.light)];
+        group.found += value;
+        ++group.findings;
+        values[static_cast<std::size_t>(finding.light)] += value;
+        total += value;
+    }
+    if (!(total > 0.0)) {
+        return std::nullopt;
+    }
+    for (std::uint32_t id = 0; id < lights.size(); ++id) {
+        if (of_groups.has_power(LightId{id})) {
+            Group& group = groups[of_groups.group(LightId{id})];
+            ++group.lights;
+            group.power += static_cast<double>(lights.emission_probability(LightId{id}));
+        }
+    }
+    std::vector<float> probabilities(lights.size());
+    for (std::uint32_t id = 0; id < lights.size(); ++id) {
+        const auto power = static_cast<double>(lights.emission_probability(LightId{id}));
+        if (!of_groups.has_power(LightId{id}) || !(power > 0.0)) {
+            continue;
+        }
+        const Group& group = groups[of_groups.group(LightId{id})];
+        const double by_power = power / group.power;
+        double by_value = by_power;
+        if (group.found > 0.0) {
+            const double prior =
+                light_constants.prior_findings * static_cast<double>(group.lights) * group.mean();
+            by_value = (values[id] + prior * by_power) / (group.found + prior);
+        }
+        const double of_group =
+            (1.0 - light_constants.power_part - light_constants.even_part) * group.found / total +
+            light_constants.even_part / static_cast<double>(groups.size());
+        const double within =
+            (1.0 - light_constants.power_part) * by_value + light_constants.power_part * by_power;
+        probabilities[id] =
+            static_cast<float>(of_group * within + light_constants.power_part * power);
+    }
+    return AliasTable(probabilities);
+}
+
 namespace {
 
 /// Results of a part of the pilot.
@@ -52,23 +118,11 @@ std::vector<Find> concatenate(const std::vector<Finds>& parts, std::vector<Find>
     return all;
 }
 
-/// Camera paths along each side of the image: one per pixel, up to a number beyond which more have
-/// no benefit.
-constexpr int min_side = 16;
-constexpr int max_side = 128;
-/// Later vertices lie where earlier ones do, and carry less light.
-constexpr int light_pilot_edges = 8;
-constexpr std::uint64_t light_pilot_seed = 0x7669736962;  // a seed that users will hardly choose
-/// If a larger fraction of rays reaches the environment, tiles without learned visibility do as
-/// well and take less time: a shader ball gains at 0.76, a car in a studio does not at 0.80.
-constexpr double max_visible = 0.78;
-/// If a smaller fraction does, everything is hidden equally and there is nothing to learn.
-constexpr double min_visible = 1e-3;
-
 int light_pilot_side(const RenderOptions& options)
 {
     const double pixels = static_cast<double>(options.film.width) * options.film.height;
-    return static_cast<int>(std::clamp<double>(std::sqrt(pixels), min_side, max_side));
+    return static_cast<int>(
+        std::clamp<double>(std::sqrt(pixels), light_constants.min_side, light_constants.max_side));
 }
 
 /// Returns the environment; null if there is none, or it is black.
@@ -99,8 +153,6 @@ const PlacedMesh* mesh_of(const Light& light)
 /// triangles of one that has more than a box and extends over much of the scene.
 bool may_have_several_lamps(const World& world)
 {
-    constexpr std::size_t max_triangles_of_a_lamp = 12;
-    constexpr float max_extent_of_a_lamp = 0.25f;  // relative to that of the scene
     const LightSet& lights = world.lights();
     std::optional<const PlacedMesh*> mesh;
     LightBounds all;
@@ -116,9 +168,9 @@ bool may_have_several_lamps(const World& world)
         all = mesh ? merged(all, *bounds) : *bounds;
         mesh = mesh_of(light);
     }
-    return lights.next_event_lights().placed_count() > max_triangles_of_a_lamp &&
+    return lights.next_event_lights().placed_count() > light_constants.max_triangles_of_a_lamp &&
            distance(all.min, all.max) >
-               max_extent_of_a_lamp * 2.0f * world.bounding_sphere().radius;
+               light_constants.max_extent_of_a_lamp * 2.0f * world.bounding_sphere().radius;
 }
 
 /// Tests whether there is a choice between lights that light paths can learn. Takes a while if one
@@ -132,11 +184,10 @@ bool can_learn_starts(const World& world, const RenderOptions& options)
 /// Returns the directional lights, up to a number beyond which they are not worth a ray each.
 std::vector<LightId> find_suns(const World& world)
 {
-    constexpr std::size_t max_suns = 4;
     std::vector<LightId> suns;
     for (const LightId id : world.lights().next_event_lights().infinite()) {
         if (std::holds_alternative<DirectionalLight>(world.lights()[id].model()) &&
-            suns.size() < max_suns) {
+            suns.size() < light_constants.max_suns) {
             suns.push_back(id);
         }
     }
@@ -150,7 +201,8 @@ std::optional<EnvironmentVisibility> make_visibility(
     const auto visible = std::count_if(trials.begin(), trials.end(),
                                        [](const auto& trial) { return trial.visible; });
     const double share = static_cast<double>(visible) / static_cast<double>(trials.size());
-    if (trials.empty() || share < min_visible || share > max_visible) {
+    if (trials.empty() || share < light_constants.min_visible ||
+        share > light_constants.max_visible) {
         return std::nullopt;
     }
     return EnvironmentVisibility(std::move(trials));
@@ -199,14 +251,14 @@ public:
           suns_(find_suns(world)),
           learns_groups_(can_learn_groups(world, options)),
           learns_starts_(learns_starts),
-          path_(std::min(options.transport.max_depth, light_pilot_edges) + 1)
+          path_(std::min(options.transport.max_depth, light_constants.edges) + 1)
     {}
 
     [[nodiscard]] Finds trace(int row)
     {
         const int side = light_pilot_side(options_);
         for (int column = 0; column < side; ++column) {
-            Sampler sampler(SamplerKind::independent, light_pilot_seed, column, row, 0);
+            Sampler sampler(SamplerKind::independent, light_constants.seed, column, row, 0);
             sampler.start(SampleUse::film);
             const Vec2 in_cell = sampler.next_2d();
             const Vec2 raster =

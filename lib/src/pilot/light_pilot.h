@@ -1,14 +1,19 @@
 #pragma once
 
 #include "light/learned/learned_light.h"
+#include "light/light_samples.h"
+#include "math/distributions.h"
 
 #include <bdpt/render_options.h>
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <stop_token>
 
 namespace bdpt {
 
+class LightSet;
 class MovingCamera;
 class World;
 
@@ -27,5 +32,18 @@ class World;
                                                               const MovingCamera& camera,
                                                               const RenderOptions& options,
                                                               const std::stop_token& abandon = {});
+
+/// A contribution of one light to the image, after at least one bounce that a light path can
+/// replace, as a camera path of a pilot found it.
+struct IndirectLight {
+    LightId light{};
+    float value = 0.0f;  ///< luminance, >= 0 and finite
+};
+
+/// Returns the table that chooses the light of each light path, by what a pilot found
+/// (docs/decisions/0075-learned-starts.md); nullopt if nothing was found. Each light that has power
+/// keeps a part of its probability by power.
+[[nodiscard]] std::optional<AliasTable> learn_starts(std::span<const IndirectLight> found,
+                                                     const LightSet& lights);
 
 }  // namespace bdpt

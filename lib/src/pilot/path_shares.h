@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pilot/candidates.h"
+#include "pilot/pilot_constants.h"
 
 #include <bdpt/path_contribution.h>
 #include <bdpt/render_options.h>
@@ -17,9 +18,9 @@ namespace bdpt {
 class PathShares {
 public:
     /// Number of light paths to which a camera path of the pilot is connected.
-    static constexpr int pilot_connections = 2;
+    static constexpr int pilot_connections = pilot_constants.sampling.connections;
     /// Its connection rays: so many that nearly all connections are made.
-    static constexpr double pilot_rays = 4096.0;
+    static constexpr double pilot_rays = pilot_constants.sampling.connection_rays;
     /// Paths by how much Sobol points improve them; those of `seen` lights do not scatter.
     enum Kind : std::size_t { direct, indirect, in_body, seen };
     static constexpr std::size_t scattering_kinds = seen;
@@ -92,6 +93,49 @@ private:
     PerGroup shares_{};   ///< sums of a
     PerGroup raised_{};   ///< sums of raise(a)
     PerGroup moments_{};  ///< sums of raise(a)^2 / a
+};
+
+/// Contribution of one camera path of a pilot to its own pixel, for all candidates at once.
+class CandidateMoments {
+public:
+    /// Adds `path`, which was found by a strategy with t >= 2; `shares` are its shares.
+    void add(const PathContribution& path, const PathShares& shares);
+
+    /// Returns the value of the candidate's sample.
+    [[nodiscard]] double value(std::size_t candidate) const;
+    /// Returns the second moment of that value, without the squares of single paths.
+    [[nodiscard]] double cross_terms(std::size_t candidate) const;
+
+private:
+    struct Sum {
+        double total = 0.0;
+        double squares = 0.0;
+        void add(double value)
+        {
+            total += value;
+            squares += value * value;
+        }
+        /// Returns the sum of all products of two different values.
+        [[nodiscard]] double products() const { return total * total - squares; }
+    };
+
+    PerCandidate<Sum> own_{};  ///< contributions of the camera path alone (s <= 1)
+    /// Contributions of the connections to each light path, as if it were the only one.
+    std::array<PerCandidate<Sum>, PathShares::pilot_connections> connected_{};
+};
+
+/// Variance of the contributions of a pixel's camera paths, from independent samples.
+class VarianceOfSamples {
+public:
+    void add(const CandidateMoments& sample);
+    /// Returns the variance without the squares of single paths, after `samples` samples, at least
+    /// two.
+    [[nodiscard]] double variance(std::size_t candidate, int samples) const;
+
+private:
+    PerCandidate<double> cross_{};
+    PerCandidate<double> sums_{};
+    PerCandidate<double> squares_{};
 };
 
 }  // namespace bdpt

@@ -4,7 +4,6 @@
 #include "integrator/bidirectional/bidirectional_integrator.h"
 #include "pilot/candidates.h"
 #include "pilot/pilot_errors.h"
-#include "pilot/rare_paths.h"
 
 #include <tbb/parallel_for.h>
 
@@ -17,43 +16,6 @@
 #include <utility>
 
 namespace bdpt {
-namespace {
-
-std::uint64_t cache_bytes(const RenderOptions& options)
-{
-    return LightPathCache::bytes(LightPathCounts(options), LightPathCache::usual_vertices(options));
-}
-
-RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
-{
-    constexpr std::uint64_t seed = 0x70696c6f74;  // a seed that users will hardly choose
-    // Longer paths contribute little, and would cost a pilot more time and memory than they are
-    // worth.
-    constexpr int max_path_length = 32;  // [edges]
-    const std::uint64_t memory = options.bidirectional.light_path_memory;
-    options.integrator = IntegratorKind::vcm;
-    options.film.crop.reset();
-    options.sampling.sampler = SamplerKind::independent;
-    options.sampling.seed = seed;
-    options.transport.max_depth = std::min(options.transport.max_depth,
-                                           std::max(max_path_length, options.transport.min_depth));
-    // Required to detect light found by merging alone; candidates use the requested heuristic.
-    options.transport.heuristic = Heuristic::balance;
-    options.bidirectional = {};
-    options.bidirectional.connections = PathShares::pilot_connections;
-    options.bidirectional.connection_rays = PathShares::pilot_rays;
-    options.bidirectional.visible_light_samples = 1.0;
-    options.bidirectional.merge_radius = 0.005;
-    options.bidirectional.merge_alpha = 1.0;
-    options.bidirectional.max_merges = 32;  // usual scenes rarely have more
-    // One light path per connection of camera paths, if memory allows that.
-    options.bidirectional.light_paths =
-        PathShares::pilot_connections * static_cast<double>(grid.cells()) / grid.pixels();
-    const auto wanted = static_cast<double>(cache_bytes(options));
-    const double allowed = std::max(1.0, static_cast<double>(memory));
-    options.bidirectional.light_paths *= std::min(1.0, allowed / wanted);
-    return options;
-}
 
 RenderOptions with_candidate(RenderOptions options, const Candidate& candidate)
 {
@@ -65,6 +27,42 @@ RenderOptions with_candidate(RenderOptions options, const Candidate& candidate)
     options.bidirectional.light_paths = candidate.light_paths;
     options.bidirectional.connections = candidate.connections;
     options.bidirectional.connection_rays = candidate.connection_rays;
+    return options;
+}
+
+namespace {
+
+std::uint64_t cache_bytes(const RenderOptions& options)
+{
+    return LightPathCache::bytes(LightPathCounts(options), LightPathCache::usual_vertices(options));
+}
+
+RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
+{
+    constexpr const PilotSampling& sampling = pilot_constants.sampling;
+    const std::uint64_t memory = options.bidirectional.light_path_memory;
+    options.integrator = IntegratorKind::vcm;
+    options.film.crop.reset();
+    options.sampling.sampler = SamplerKind::independent;
+    options.sampling.seed = sampling.seed;
+    options.transport.max_depth =
+        std::min(options.transport.max_depth,
+                 std::max(sampling.max_path_length, options.transport.min_depth));
+    // Required to detect light found by merging alone; candidates use the requested heuristic.
+    options.transport.heuristic = Heuristic::balance;
+    options.bidirectional = {};
+    options.bidirectional.connections = PathShares::pilot_connections;
+    options.bidirectional.connection_rays = PathShares::pilot_rays;
+    options.bidirectional.visible_light_samples = 1.0;
+    options.bidirectional.merge_radius = sampling.merge_radius;
+    options.bidirectional.merge_alpha = 1.0;
+    options.bidirectional.max_merges = sampling.max_merges;
+    // One light path per connection of camera paths, if memory allows that.
+    options.bidirectional.light_paths =
+        PathShares::pilot_connections * static_cast<double>(grid.cells()) / grid.pixels();
+    const auto wanted = static_cast<double>(cache_bytes(options));
+    const double allowed = std::max(1.0, static_cast<double>(memory));
+    options.bidirectional.light_paths *= std::min(1.0, allowed / wanted);
     return options;
 }
 
@@ -92,80 +90,15 @@ double mean_connection_rays(const Candidate& candidate, const PilotContributions
     return sum / static_cast<double>(contributions.grid.cells());
 }
 
-/// Returns the relMSE of an image by the candidate, at least the smallest that is distinguishable
-/// from zero. Smaller values are noise of the pilot, and images without error are best where they
-/// cost least.
-double estimate_error(const PilotResult& pilot, std::size_t candidate)
-{
-    constexpr double least = 1e-4;
-    // Path tracing has to hit lights that are directly visible.
-    const double visible_lights = candidates[candidate].light_paths > 0.0
-                                      ? pilot.visible_lights.by_both
-                                      : pilot.visible_lights.by_hits;
-    return std::max(least, pilot.errors[candidate] + visible_lights);
-}
-
-/// Returns the factor by which the candidate's error is multiplied in the choice.
-double penalty(const PilotResult& pilot, std::size_t candidate, double error)
-{
-    // The square root: usual renders show few of these paths, and long ones more.
-    const double by_dots = std::sqrt(1.0 + pilot.dots[candidate] / error);
-    // What connections gain is often more than the pilot predicts.
-    constexpr double margin_of_connections = 1.05;
-    const Candidate& numbers = candidates[candidate];
-    const bool splats_alone = numbers.light_paths > 0.0 && numbers.connections == 0.0;
-    return by_dots * (splats_alone && numbers.light_paths <= 1.0 ? margin_of_connections : 1.0);
-}
-
-/// Returns whether the candidate is taken only for a gain that exceeds the noise of the prediction:
-/// the choice of connections is predicted less well than all of them, and more light paths take
-/// time from camera paths, whose rarest contributions no pilot finds.
-bool needs_sure_gain(const Candidate& candidate)
-{
-    return candidate.connection_rays > 0.0 || candidate.light_paths > 1.0;
-}
-
-/// A candidate's product of error and cost, by which it is judged.
-class Product {
-public:
-    Product(const PilotResult& pilot, std::size_t candidate)
-        : candidate_(candidate), covariances_(&pilot.covariances)
-    {
-        const double error = estimate_error(pilot, candidate);
-        per_error_ = penalty(pilot, candidate, error) * pilot.costs[candidate];
-        value_ = error * per_error_;
-    }
-
-    [[nodiscard]] std::size_t candidate() const { return candidate_; }
-    [[nodiscard]] bool operator<(const Product& other) const { return value_ < other.value_; }
-    /// Returns whether this product is less than another by more than two standard errors of the
-    /// difference.
-    [[nodiscard]] bool surely_less(const Product& other) const
-    {
-        const std::size_t a = candidate_;
-        const std::size_t b = other.candidate_;
-        const PerCandidate<PerCandidate<double>>& covariances = *covariances_;
-        const double variance = per_error_ * per_error_ * covariances[a][a] -
-                                2.0 * per_error_ * other.per_error_ * covariances[a][b] +
-                                other.per_error_ * other.per_error_ * covariances[b][b];
-        return value_ + 2.0 * std::sqrt(std::max(0.0, variance)) < other.value_;
-    }
-
-private:
-    std::size_t candidate_;
-    const PerCandidate<PerCandidate<double>>* covariances_;
-    double per_error_ = 0.0;
-    double value_ = 0.0;
-};
-
-bool fits(const RenderOptions& options, const PilotResult& pilot)
+/// Tests whether the light paths of a render fit into the memory that it may use for them.
+bool fits(const RenderOptions& options, const RenderStats& pilot)
 {
     if (options.integrator == IntegratorKind::mis) {
         return true;
     }
-    const PathCounts& paths = pilot.stats.paths;
+    const PathCounts& paths = pilot.paths;
     const double measured = paths.light == 0 ? 0.0
-                                             : 1.0 + static_cast<double>(pilot.stats.rays.light) /
+                                             : 1.0 + static_cast<double>(pilot.rays.light) /
                                                          static_cast<double>(paths.light);
     const double usual = LightPathCache::usual_vertices(options);
     return LightPathCache::bytes(LightPathCounts(options), std::max(usual, measured)) <=
@@ -203,8 +136,9 @@ void add_sample(std::int64_t index, Heuristic heuristic, BidirectionalIntegrator
 
 }  // namespace
 
-PilotResult run_pilot(const World& world, const MovingCamera& camera, const RenderOptions& asked,
-                      const LearnedLight* learned, const std::stop_token& abandon)
+PilotMeasurements measure(const World& world, const MovingCamera& camera,
+                          const RenderOptions& asked, const LearnedLight* learned,
+                          const std::stop_token& abandon)
 {
     const PilotGrid grid(asked.film.width, asked.film.height);
     const RenderOptions options = pilot_options(asked, grid);
@@ -222,15 +156,18 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
     }
     const PilotBrightness brightness(contributions);
     PilotErrors errors = predict_errors(contributions, brightness);
-    PilotResult result{.errors = errors.of_image,
-                       .covariances = errors.covariances,
-                       .visible_lights = visible_light_errors(contributions, brightness, asked),
-                       .dots = errors.sure_dots,
-                       .costs = {},
-                       .merging_alone = share_of_merging_alone(contributions, brightness),
-                       .light_is_rare = errors.light_is_rare,
-                       .cells = std::move(errors.of_cells),
-                       .stats = {}};
+    PilotMeasurements result{
+        .errors = errors.of_image,
+        .covariances = errors.covariances,
+        .visible_lights = visible_light_errors(contributions, brightness, asked),
+        .fireflies = errors.sure_fireflies,
+        .costs = {},
+        .too_large = {},
+        .merging_alone = share_of_merging_alone(contributions, brightness),
+        .light_is_rare = errors.light_is_rare,
+        .grid = grid,
+        .cells = std::move(errors.of_cells),
+        .stats = {}};
     if (world.media().any_body_scatters()) {
         exclude_choice(result.errors);
     }
@@ -248,45 +185,9 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         result.costs[k] = sample_cost(candidates[k], without_lamps,
                                       mean_connection_rays(candidates[k], contributions));
+        result.too_large[k] = !fits(with_candidate(asked, candidates[k]), result.stats);
     }
     return result;
-}
-
-RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
-{
-    std::optional<Product> usual;  // the least of those that need no sure gain
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const Product product(pilot, k);
-        if (!needs_sure_gain(candidates[k]) && (!usual || product < *usual) &&
-            fits(with_candidate(asked, candidates[k]), pilot)) {
-            usual = product;
-        }
-    }
-    Product best = *usual;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const Product product(pilot, k);
-        if (needs_sure_gain(candidates[k]) && product < best && product.surely_less(*usual) &&
-            fits(with_candidate(asked, candidates[k]), pilot)) {
-            best = product;
-        }
-    }
-    return with_candidate(asked, candidates[best.candidate()]);
-}
-
-std::shared_ptr<const SampleRates> best_rates(const PilotResult& pilot, const RenderOptions& chosen)
-{
-    Candidate numbers;
-    if (chosen.integrator == IntegratorKind::bdpt) {
-        numbers.light_paths = chosen.bidirectional.light_paths;
-        numbers.connections =
-            chosen.bidirectional.connections.value_or(chosen.bidirectional.light_paths);
-        numbers.connection_rays = chosen.bidirectional.connection_rays;
-    }
-    const auto found = std::find(candidates.begin(), candidates.end(), numbers);
-    return found == candidates.end() || pilot.light_is_rare
-               ? nullptr
-               : choose_rates(PilotGrid(chosen.film.width, chosen.film.height), pilot.cells,
-                              static_cast<std::size_t>(found - candidates.begin()));
 }
 
 }  // namespace bdpt

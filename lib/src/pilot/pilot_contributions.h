@@ -1,16 +1,93 @@
 #pragma once
 
 #include "integrator/integrator.h"
-#include "pilot/candidate_moments.h"
+#include "math/random_numbers.h"
 #include "pilot/path_shares.h"
-#include "pilot/pilot_grid.h"
 
+#include <bdpt/types.h>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace bdpt {
+
+/// A grid of cells over the whole image; a pilot samples one pixel of each cell.
+class PilotGrid {
+public:
+    PilotGrid(int width, int height) : width_(width), height_(height)
+    {
+        const double pixels = static_cast<double>(width) * static_cast<double>(height);
+        const double cells = std::clamp(pilot_constants.sampling.cells_per_pixel * pixels,
+                                        std::min(pilot_constants.sampling.min_cells, pixels),
+                                        pilot_constants.sampling.max_cells);
+        const double side = std::sqrt(pixels / cells);
+        columns_ = std::clamp(static_cast<int>(std::lround(width / side)), 1, width);
+        rows_ = std::clamp(static_cast<int>(std::lround(height / side)), 1, height);
+    }
+    [[nodiscard]] int columns() const { return columns_; }
+    [[nodiscard]] int rows() const { return rows_; }
+    /// Returns the number of pixels of the image.
+    [[nodiscard]] double pixels() const
+    {
+        return static_cast<double>(width_) * static_cast<double>(height_);
+    }
+    [[nodiscard]] int width() const { return width_; }    ///< of the image [pixels]
+    [[nodiscard]] int height() const { return height_; }  ///< of the image [pixels]
+    [[nodiscard]] std::size_t cells() const { return index(0, rows_); }
+    [[nodiscard]] std::size_t index(int column, int row) const
+    {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(column);
+    }
+    /// Returns the cell at `raster`.
+    [[nodiscard]] std::size_t cell_at(Vec2 raster) const
+    {
+        return index(cell(raster.x, columns_, width_), cell(raster.y, rows_, height_));
+    }
+    /// Returns the column of cells of each column of pixels.
+    [[nodiscard]] std::vector<int> columns_of_pixels() const { return spread(columns_, width_); }
+    /// Returns the row of cells of each row of pixels.
+    [[nodiscard]] std::vector<int> rows_of_pixels() const { return spread(rows_, height_); }
+    /// Returns the pixel of a cell, at a random position in it.
+    [[nodiscard]] Tile pixel(int column, int row) const
+    {
+        const std::uint64_t random = split_mix(golden_ratio_64 * (index(column, row) + 1));
+        const int x = place(column, columns_, width_, static_cast<std::uint32_t>(random));
+        const int y = place(row, rows_, height_, static_cast<std::uint32_t>(random >> 32U));
+        return {.x_begin = x, .x_end = x + 1, .y_begin = y, .y_end = y + 1};
+    }
+
+private:
+    static int place(int cell, int cells, int pixels, std::uint32_t random)
+    {
+        const double at = (cell + static_cast<double>(random) * 0x1p-32) * pixels / cells;
+        return std::min(static_cast<int>(at), pixels - 1);
+    }
+    static int cell(float raster, int cells, int pixels)
+    {
+        return std::clamp(static_cast<int>(static_cast<double>(raster) * cells / pixels), 0,
+                          cells - 1);
+    }
+
+    static std::vector<int> spread(int cells, int pixels)
+    {
+        std::vector<int> result;
+        result.reserve(static_cast<std::size_t>(pixels));
+        for (int i = 0; i < pixels; ++i) {
+            result.push_back(cell(static_cast<float>(i) + 0.5f, cells, pixels));
+        }
+        return result;
+    }
+
+    int width_;
+    int height_;
+    int columns_;
+    int rows_;
+};
 
 /// A path that a pilot found, attributed to the pixels of a cell.
 struct PilotContribution {
@@ -39,12 +116,10 @@ private:
     RenderStats stats_;
 };
 
-/// Maximum number of paths that are all kept.
-inline constexpr std::size_t kept_paths = 8;
-
-/// If `paths` has more than `kept_paths` from `first` on, keeps about as many of these, whose
-/// `number` grows so that sums over all paths remain unbiased. The chance of each grows with its
-/// light and with its error, so the brightest are kept. `random` selects the random number.
+/// If `paths` has more than `PilotSampling::kept_paths` from `first` on, keeps about as many of
+/// these, whose `number` grows so that sums over all paths remain unbiased. The chance of each
+/// grows with its light and with its error, so the brightest are kept. `random` selects the random
+/// number.
 void keep_some(std::vector<PilotContribution>& paths, std::size_t first, std::uint64_t random);
 
 /// Contributions of the camera paths in the pixel of a cell.
@@ -123,6 +198,41 @@ struct PilotContributions {
     {
         return grid.pixels() * PilotRow::samples_of_cell;
     }
+};
+
+/// Brightness of the image in each cell and its neighbourhood, estimated from a pilot's
+/// contributions: errors are relative to it. A single cell has too few samples: if they happened to
+/// be dark, errors of splats would be overestimated by far. The neighbourhood has 3 x 3 cells, more
+/// where light is rare in the whole image: relative to a brightness that is its own, each path
+/// would have the same error, whatever it brings.
+class PilotBrightness {
+public:
+    explicit PilotBrightness(const PilotContributions& contributions);
+
+    /// Returns the factor of squared errors in relMSE [1/nit^2]; 0 in black images.
+    [[nodiscard]] double scale(std::size_t cell) const { return compute_scale(cell, 0.0); }
+    /// Returns that factor for the error of a splat of a light path. The splat's own brightness is
+    /// excluded: rare splats would hide their own error.
+    [[nodiscard]] double scale(const PilotContribution& splat) const
+    {
+        return compute_scale(splat.cell, splat.shares.splat_mean() * share_of_splat_);
+    }
+
+    /// Returns the mean of the image, excluding light that only merging finds [nit].
+    [[nodiscard]] double average() const { return average_; }
+
+    /// Returns whether light is so rare in the whole image that much of it, cell by cell, comes
+    /// from a single path of the pilot.
+    [[nodiscard]] bool light_is_rare() const { return light_is_rare_; }
+
+private:
+    [[nodiscard]] double compute_scale(std::size_t cell, double less) const;
+
+    std::vector<double> camera_;  ///< from camera paths [nit]
+    std::vector<double> splats_;  ///< from splats [nit]
+    double share_of_splat_;       ///< fraction of one splat in `splats_`
+    double average_ = 0.0;        ///< mean of the image [nit]
+    bool light_is_rare_ = false;  ///< in squares of 3 x 3 cells
 };
 
 }  // namespace bdpt

@@ -3,7 +3,6 @@
 #include "geometry/flush_denormals.h"
 #include "math/elementary.h"
 #include "pilot/candidates.h"
-#include "pilot/rare_paths.h"
 
 #include <tbb/parallel_for.h>
 
@@ -15,6 +14,112 @@
 #include <vector>
 
 namespace bdpt {
+
+void ErrorsByValue::add(double value, double number, double error) noexcept
+{
+    if (!(number > 0.0)) {
+        never_found_ += error;
+        return;
+    }
+    const int last = static_cast<int>(octaves_.size()) - 1;
+    // ilogb of zero is less than all exponents, and that of infinity is greater.
+    const int exponent = std::clamp(std::ilogb(value), least_exponent, least_exponent + last);
+    Octave& octave = octaves_[static_cast<std::size_t>(exponent - least_exponent)];
+    octave.number += number;
+    octave.light += number * value;
+    octave.errors += error;
+}
+
+void ErrorsByValue::add(const ErrorsByValue& other) noexcept
+{
+    for (std::size_t i = 0; i < octaves_.size(); ++i) {
+        octaves_[i].number += other.octaves_[i].number;
+        octaves_[i].light += other.octaves_[i].light;
+        octaves_[i].errors += other.octaves_[i].errors;
+    }
+    never_found_ += other.never_found_;
+}
+
+double ErrorsByValue::without_brightest(double number, double light) const noexcept
+{
+    double errors = never_found_;
+    double excluded = 1.0;  // fraction of the octave
+    for (std::size_t i = octaves_.size(); i-- > 0;) {
+        const Octave& octave = octaves_[i];
+        if (!(octave.number > 0.0)) {
+            continue;
+        }
+        // Below the octave that reached the limit, everything counts.
+        excluded =
+            excluded < 1.0 ? 0.0 : std::min({1.0, number / octave.number, light / octave.light});
+        number -= excluded * octave.number;
+        light -= excluded * octave.light;
+        errors += (1.0 - excluded) * octave.errors;
+    }
+    return errors;
+}
+
+namespace {
+
+struct MergedPath {
+    const PilotContribution* path;
+    double value;  // when found by one light path per camera path, relative to the local brightness
+    double number;  // found by a usual render of these
+};
+
+/// Returns the paths that some candidate can find, the brightest first.
+std::vector<MergedPath> brightest_first(const PilotContributions& contributions,
+                                        const PilotBrightness& brightness)
+{
+    const double renders = pilot_constants.rare.usual_samples * contributions.grid.pixels() /
+                           contributions.camera_paths();
+    std::vector<MergedPath> merged;
+    for (const PilotRow& row : contributions.rows) {
+        for (const PilotContribution& path : row.merged()) {
+            const double found = path.shares.found_by_one();
+            if (found > 0.0) {
+                const double relative = std::sqrt(brightness.scale(path.cell));
+                merged.push_back({.path = &path,
+                                  .value = relative * path.shares.mean() / found,
+                                  .number = renders * found * path.number});
+            }
+        }
+    }
+    // Stable, so that sums are bit-identical.
+    std::stable_sort(merged.begin(), merged.end(),
+                     [](const MergedPath& a, const MergedPath& b) { return a.value > b.value; });
+    return merged;
+}
+
+}  // namespace
+
+std::vector<const PilotContribution*> findable_merged_paths(const PilotContributions& contributions,
+                                                            const PilotBrightness& brightness)
+{
+    std::vector<const PilotContribution*> findable;
+    double found = 0.0;
+    for (const MergedPath& merged : brightest_first(contributions, brightness)) {
+        found += merged.number;
+        if (found >= 1.0) {
+            findable.push_back(merged.path);
+        }
+    }
+    return findable;
+}
+
+double share_of_merging_alone(const PilotContributions& contributions,
+                              const PilotBrightness& brightness)
+{
+    double merged = 0.0;
+    for (const PilotRow& row : contributions.rows) {
+        for (const PilotContribution& path : row.merged()) {
+            merged += path.shares.found_by_one() > 0.0 ? 0.0 : path.shares.mean() * path.number;
+        }
+    }
+    merged /= contributions.camera_paths();
+    return merged > 0.0 ? merged / (merged + brightness.average()) : 0.0;
+}
+
 namespace {
 
 /// Second moments of paths that connections found.
@@ -67,33 +172,26 @@ PerCandidate<double> measure_choice(const PilotContributions& contributions,
 
 namespace {
 
-// Sobol points leave a fraction of the variance of independent samples, as measured in the
-// project's scenes with 32 samples: a small one for direct light, a larger one for the rest; splats
-// do not benefit, nor do paths in bodies that scatter light: their integrands have too many
-// dimensions and peaks.
-constexpr double left_of_direct = 0.25;
-constexpr double left_of_connections = 0.3;
-constexpr double left_of_choice = 0.2;  // of what the choice of connections adds
+constexpr const QmcVarianceFactors& qmc_factors = pilot_constants.qmc;
+constexpr const RarePathConstants& rare_constants = pilot_constants.rare;
 
 /// Returns the remaining fraction for paths that camera paths find alone: 1 for rare paths, as a
 /// single sample is not stratified. `value` is the path's contribution relative to the local
 /// brightness: at most one in that many samples finds one.
-double left_of_own(const PathShares& shares, double value)
+double own_factor(const PathShares& shares, double value)
 {
     if (shares.kind() == PathShares::in_body) {
-        return 1.0;
+        return qmc_factors.in_body;
     }
     if (shares.kind() == PathShares::direct) {
-        return left_of_direct;
+        return qmc_factors.direct;
     }
-    constexpr double least = 0.3;
-    constexpr double rare = 4.0;
-    return least + (1.0 - least) * value / (value + rare);
+    return qmc_factors.indirect + (1.0 - qmc_factors.indirect) * value / (value + qmc_factors.rare);
 }
 
 /// Returns the remaining fraction by number of connections: more connections of a sample are more
 /// points of one sequence, which reduce the remaining variance of each.
-PerCandidate<double> left_by_more_connections()
+PerCandidate<double> connection_factors()
 {
     PerCandidate<double> result;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -115,15 +213,16 @@ RemainingErrors remaining_errors(const PathShares& shares, double scale,
     const double per_brightness = std::sqrt(scale);
     const PathShares::SecondMoments moments = shares.second_moments();
     const PerCandidate<double> values = shares.own_values();
-    static const PerCandidate<double> of_connections = left_by_more_connections();
+    static const PerCandidate<double> of_connections = connection_factors();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const double own = left_of_own(shares, values[k] * per_brightness);
-        const double connections =
-            shares.kind() == PathShares::in_body ? 1.0 : left_of_connections * of_connections[k];
+        const double own = own_factor(shares, values[k] * per_brightness);
+        const double connections = shares.kind() == PathShares::in_body
+                                       ? qmc_factors.in_body
+                                       : qmc_factors.connections * of_connections[k];
         const double of_choice =
             shares.choice_is_known() ? moments.choice[k] : choice[k] * moments.connections[k];
         result.camera[k] = scale * (own * moments.own[k] + connections * moments.connections[k] +
-                                    left_of_choice * of_choice);
+                                    qmc_factors.choice * of_choice);
         result.splats[k] = scale * moments.splats[k];
     }
     return result;
@@ -148,7 +247,6 @@ std::vector<PilotLamp> by_pixel(const PilotContributions& contributions)
 /// leave it [nit^2].
 double variance_of_hits(std::span<const PilotLamp> pixel, double points_per_pixel)
 {
-    constexpr double qmc_variance_factor = 0.25;  // as for direct light
     double light = 0.0;
     double filled = 0.0;
     for (const PilotLamp& lamp : pixel) {
@@ -160,7 +258,7 @@ double variance_of_hits(std::span<const PilotLamp> pixel, double points_per_pixe
     }
     const double radiance = light / filled;
     const double part = std::min(1.0, filled);
-    return qmc_variance_factor * radiance * radiance * part * (1.0 - part);
+    return qmc_factors.direct * radiance * radiance * part * (1.0 - part);
 }
 
 }  // namespace
@@ -199,18 +297,6 @@ VisibleLightErrors visible_light_errors(const PilotContributions& contributions,
 
 namespace {
 
-// The error excludes the brightest paths of a usual render, up to these limits.
-constexpr double max_dots = 0.0003;           ///< number over that of the pixels
-constexpr double max_light_of_dots = 0.0025;  ///< light over that of the image
-
-/// The error of a candidate's brightest paths counts as far as it exceeds this many standard
-/// errors: more than one, so that a single path of the pilot is no evidence.
-constexpr double margin_of_dots = 1.25;
-
-/// Cost of a camera path that leaves the scene at once, over that of the cost model: such rays meet
-/// few boxes of the BVH.
-constexpr double cost_of_background = 0.5;
-
 void add_scaled(PerCandidate<double>& to, const PerCandidate<double>& errors, double factor)
 {
     for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -235,8 +321,8 @@ struct PartOfErrors {
         PerCandidate<double> of_path;
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             of_path[k] = errors.sum(k) / paths;
-            of_paths[k].add(relative / numbers[k], usual_samples * pixels / paths * numbers[k],
-                            of_path[k]);
+            of_paths[k].add(relative / numbers[k],
+                            rare_constants.usual_samples * pixels / paths * numbers[k], of_path[k]);
             of_splats[k] += errors.splats[k] / paths;
         }
         for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -282,7 +368,7 @@ PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             double error = 0.0;
             for (std::size_t kind = 0; kind < PathShares::scattering_kinds; ++kind) {
-                error += scale * left_of_sums[kind] * cell.sums[kind].variance(k, samples);
+                error += scale * qmc_factors.sums[kind] * cell.sums[kind].variance(k, samples);
             }
             errors.of_sums[k] += error / cells;
             of_cells.camera[first_cell + i][k] += error;
@@ -293,7 +379,7 @@ PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
             of_cells.scattering[first_cell + i] = 1.0;
         } else {
             for (double& cost : of_cells.costs[first_cell + i]) {
-                cost *= cost_of_background;
+                cost *= pilot_constants.cost.background;
             }
         }
     }
@@ -381,15 +467,17 @@ PilotErrors compute_errors(const PilotContributions& contributions,
     }
     of_cells.splats = all.of_splats;
     PilotErrors errors{.covariances = all.covariances, .of_cells = std::move(of_cells)};
-    const double dots = max_dots * grid.pixels();
-    const double light = max_light_of_dots * usual_samples * grid.pixels();
+    const double fireflies = rare_constants.max_fireflies * grid.pixels();
+    const double light =
+        rare_constants.max_light_of_fireflies * rare_constants.usual_samples * grid.pixels();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const double usual = all.of_paths[k].without_brightest(dots, light);
-        const double dots_of_all = all.of_paths[k].without_brightest(0.0, 0.0) - usual;
+        const double usual = all.of_paths[k].without_brightest(fireflies, light);
+        const double all_fireflies = all.of_paths[k].without_brightest(0.0, 0.0) - usual;
         errors.of_image[k] = usual + all.of_sums[k];
-        errors.of_cells.dots[k] = dots_of_all;
-        errors.sure_dots[k] =
-            std::max(0.0, dots_of_all - margin_of_dots * std::sqrt(all.covariances[k][k]));
+        errors.of_cells.fireflies[k] = all_fireflies;
+        errors.sure_fireflies[k] =
+            std::max(0.0, all_fireflies - rare_constants.margin_of_fireflies *
+                                              std::sqrt(all.covariances[k][k]));
     }
     return errors;
 }
@@ -399,11 +487,11 @@ PilotErrors compute_errors(const PilotContributions& contributions,
 /// the sum noisy, still larger ones are likely.
 void add_unseen(PilotErrors& errors)
 {
-    constexpr double most = 0.2;  // fraction of the error with one light path per camera path
     const auto found = std::find(candidates.begin(), candidates.end(), Candidate{1.0, 1.0});
     const auto one = static_cast<std::size_t>(found - candidates.begin());
     const double unseen =
-        std::min(most * errors.of_image[one], 2.0 * std::sqrt(errors.covariances[one][one]));
+        std::min(rare_constants.max_unseen * errors.of_image[one],
+                 rare_constants.unseen_standard_errors * std::sqrt(errors.covariances[one][one]));
     for (double& error : errors.of_image) {
         error += unseen;
     }

@@ -1,13 +1,54 @@
 #pragma once
 
 #include "pilot/path_shares.h"
-#include "pilot/pilot_brightness.h"
+#include "pilot/pilot_contributions.h"
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
 namespace bdpt {
+
+/// Errors of a candidate's paths, by their value relative to the local brightness. The brightest
+/// paths can be so rare that a usual render shows them as fireflies in a few pixels, while their
+/// squared errors exceed those of all others. The error of a candidate excludes them, up to a
+/// limit.
+class ErrorsByValue {
+public:
+    /// Adds paths that a usual render finds `number` times, which bring `value` each, and whose
+    /// relMSE is `error`. If `number` is 0, the candidate cannot find them, and `error` always
+    /// counts.
+    void add(double value, double number, double error) noexcept;
+    void add(const ErrorsByValue& other) noexcept;
+
+    /// Returns the sum of all errors but those of the brightest paths: at most `number`, whose
+    /// values add up to at most `light`.
+    [[nodiscard]] double without_brightest(double number, double light) const noexcept;
+
+private:
+    /// Paths whose values have the same power of two.
+    struct Octave {
+        double number = 0.0;
+        double light = 0.0;
+        double errors = 0.0;
+    };
+    static constexpr int least_exponent = -16;
+
+    std::array<Octave, 64> octaves_{};
+    double never_found_ = 0.0;  ///< sum of errors
+};
+
+/// Returns the paths that a pilot found by merging, and a usual render finds: camera paths hit a
+/// light by way of mirrors or glass so rarely that none of the pilot's own does. The brightest are
+/// excluded, as long as a usual render with one light path per camera path would find less than one
+/// of them: they do not affect its error.
+[[nodiscard]] std::vector<const PilotContribution*> findable_merged_paths(
+    const PilotContributions& contributions, const PilotBrightness& brightness);
+
+/// Returns the fraction of the image's light that only merging can find, in [0, 1]: no candidate
+/// finds it.
+[[nodiscard]] double share_of_merging_alone(const PilotContributions& contributions,
+                                            const PilotBrightness& brightness);
 
 /// Returns the second moments that the choice of connections adds, over those of all connections,
 /// for each candidate. The pilot's connections tell it for the paths that they found; it is assumed
@@ -30,9 +71,6 @@ struct RemainingErrors {
 /// `measure_choice`, which is used for paths that no connection found.
 [[nodiscard]] RemainingErrors remaining_errors(const PathShares& shares, double scale,
                                                const PerCandidate<double>& choice);
-
-/// Remaining fractions of the variances of sums of paths of each kind.
-inline constexpr std::array<double, PathShares::scattering_kinds> left_of_sums{0.25, 0.4, 1.0};
 
 /// Errors of directly visible light: relMSE of one sample per pixel, of this light alone.
 struct VisibleLightErrors {
@@ -61,7 +99,7 @@ struct CellErrors {
     PerCandidate<double> splats{};
     /// relMSE of the rare bright paths that the error of the image excludes: the pilot does not
     /// know where a render finds them.
-    PerCandidate<double> dots{};
+    PerCandidate<double> fireflies{};
 };
 
 /// Errors excluding directly visible light.
@@ -71,7 +109,7 @@ struct PilotErrors {
     /// rare bright ones: the same paths predict both errors.
     PerCandidate<PerCandidate<double>> covariances{};
     /// relMSE of excluded rare bright paths as far as the pilot is sure of it.
-    PerCandidate<double> sure_dots{};
+    PerCandidate<double> sure_fireflies{};
     CellErrors of_cells;
     bool light_is_rare = false;  ///< `PilotBrightness::light_is_rare`
 };

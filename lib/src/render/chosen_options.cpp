@@ -1,11 +1,12 @@
 #include <bdpt/render.h>
 
-#include "pilot/pilot.h"
+#include "pilot/choice.h"
 #include "render/check_options.h"
 #include "render/learned_light.h"
 #include "render/open_camera.h"
 #include "threads/threads.h"
 
+#include <cstddef>
 #include <limits>
 
 namespace bdpt {
@@ -50,10 +51,13 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     Threads threads(options.system.threads);
     IntegratorChoice choice;
     threads.execute([&] {
-        const PilotResult pilot = run_pilot(scene.world(), opened, whole, learned.get(), abandon);
-        choice = {.options = with_best(pilot, options), .unseen_light = pilot.merging_alone};
+        const PilotMeasurements pilot =
+            measure(scene.world(), opened, whole, learned.get(), abandon);
+        const std::size_t best = choose(pilot);
+        choice = {.options = with_candidate(options, candidates[best]),
+                  .unseen_light = pilot.merging_alone};
         if (!abandon.stop_requested() && !options.sampling.rates) {
-            choice.rates = best_rates(pilot, choice.options);
+            choice.rates = choose_rates(pilot, best);
         }
     });
     return choice;

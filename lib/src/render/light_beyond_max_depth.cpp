@@ -3,7 +3,7 @@
 #include "geometry/flush_denormals.h"
 #include "integrator/bidirectional/bidirectional_integrator.h"
 #include "math/rgb.h"
-#include "pilot/pilot_grid.h"
+#include "pilot/pilot_contributions.h"
 #include "render/check_options.h"
 #include "render/open_camera.h"
 #include "threads/threads.h"

@@ -1,4 +1,4 @@
-#include "pilot/rare_paths.h"
+#include "pilot/pilot_errors.h"
 
 #include "catch.hpp"
 

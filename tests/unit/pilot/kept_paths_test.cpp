@@ -54,9 +54,10 @@ std::vector<PilotContribution> uneven_paths()
 
 TEST_CASE("few paths are all kept", "[pilot]")
 {
-    std::vector<PilotContribution> paths(20 + kept_paths, path_of(1.0f, 3.0));
+    std::vector<PilotContribution> paths(20 + pilot_constants.sampling.kept_paths,
+                                         path_of(1.0f, 3.0));
     keep_some(paths, 20, 1);
-    REQUIRE(paths.size() == 20 + kept_paths);
+    REQUIRE(paths.size() == 20 + pilot_constants.sampling.kept_paths);
     for (const PilotContribution& path : paths) {
         CHECK(path.number == 3.0);
     }
@@ -71,8 +72,8 @@ TEST_CASE("of many paths some are kept, and sums over all remain unbiased", "[pi
     for (std::uint64_t random = 0; random < repetitions; ++random) {
         std::vector<PilotContribution> paths = all;
         keep_some(paths, 0, random);
-        REQUIRE(paths.size() + 1 >= kept_paths);
-        REQUIRE(paths.size() <= kept_paths + 1);
+        REQUIRE(paths.size() + 1 >= pilot_constants.sampling.kept_paths);
+        REQUIRE(paths.size() <= pilot_constants.sampling.kept_paths + 1);
         const Sums sums = sums_of(paths);
         mean.number += sums.number / repetitions;
         mean.light += sums.light / repetitions;

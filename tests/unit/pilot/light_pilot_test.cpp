@@ -8,7 +8,6 @@
 #include "make_sample.h"
 #include "path/densities.h"
 #include "path/random_walk.h"
-#include "pilot/light_starts.h"
 #include "render/learned_light.h"
 #include "render/pass.h"
 #include "scene/world.h"

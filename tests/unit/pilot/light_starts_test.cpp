@@ -1,4 +1,4 @@
-#include "pilot/light_starts.h"
+#include "pilot/light_pilot.h"
 
 #include "catch.hpp"
 #include "scene/light_set.h"

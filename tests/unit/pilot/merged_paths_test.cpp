@@ -54,10 +54,10 @@ RenderOptions options_of(int side)
     return options;
 }
 
-PilotResult pilot_of(const Scene& scene)
+PilotMeasurements pilot_of(const Scene& scene)
 {
     const RenderOptions options = options_of(256);
-    return run_pilot(scene.world(), open_camera(scene.world(), from_above(), options), options);
+    return measure(scene.world(), open_camera(scene.world(), from_above(), options), options);
 }
 
 }  // namespace

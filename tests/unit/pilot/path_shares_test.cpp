@@ -1,7 +1,6 @@
 #include "pilot/path_shares.h"
 
 #include "catch.hpp"
-#include "pilot/candidate_moments.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pilot/pilot_brightness.h"
+#include "pilot/pilot_contributions.h"
 
 #include "catch.hpp"
 

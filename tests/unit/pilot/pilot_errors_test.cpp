@@ -1,7 +1,6 @@
 #include "pilot/pilot_errors.h"
 
 #include "catch.hpp"
-#include "pilot/rare_paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -240,9 +239,9 @@ TEST_CASE(
         remaining_errors(contributions.rows[0].joined()[0].shares, scale, no_choice);
     // Sums of 2 L and of 0: the products of different paths of a sample are 2 L^2 and 0.
     const double variance_of_sums = static_cast<double>(radiance * radiance);
-    const double left = left_of_sums[in_body  ? PathShares::in_body
-                                     : direct ? PathShares::direct
-                                              : PathShares::indirect];
+    const double left = pilot_constants.qmc.sums[in_body  ? PathShares::in_body
+                                                 : direct ? PathShares::direct
+                                                          : PathShares::indirect];
     const double of_sums = left * scale * variance_of_sums;
     const double unseen = 0.2 * (of_one_path.sum(one_light_path()) + of_sums);
     const PilotErrors errors = predict_errors(contributions, brightness);
@@ -335,8 +334,8 @@ TEST_CASE("rare paths are expected where the error of the paths found is noisy",
     const auto unseen = [](PilotGrid grid) {
         const PilotContributions contributions = contributions_of(TwoLights(3), grid);
         const PilotBrightness brightness(contributions);
-        const double left =
-            left_of_sums[PathShares::indirect] * static_cast<double>(radiance * radiance);
+        const double left = pilot_constants.qmc.sums[PathShares::indirect] *
+                            static_cast<double>(radiance * radiance);
         const double scale = brightness.scale(0);
         const RemainingErrors of_one_path =
             remaining_errors(contributions.rows[0].joined()[0].shares, scale, no_choice);
@@ -361,7 +360,7 @@ TEST_CASE("where light is rare in the whole image, nothing is added for noise of
         for (const PerCandidate<double>& cell : errors.of_cells.camera) {
             camera += cell[k] / static_cast<double>(errors.of_cells.camera.size());
         }
-        CHECK(errors.of_image[k] == Approx(camera - errors.of_cells.dots[k]));
+        CHECK(errors.of_image[k] == Approx(camera - errors.of_cells.fireflies[k]));
     }
     CHECK_FALSE(prediction_with_glints(20).light_is_rare);
 }
@@ -441,15 +440,15 @@ TEST_CASE("a path that a usual render hardly finds does not count, but many of t
     CHECK(many[0] > 100.0 * none[0]);
     // Of one, the choice of rates knows that it is somewhere.
     const PilotErrors of_one = prediction_with_glints(1);
-    CHECK(of_one.of_cells.dots[0] > 10.0 * none[0]);
-    CHECK(of_one.of_cells.dots[0] < many[0]);
+    CHECK(of_one.of_cells.fireflies[0] > 10.0 * none[0]);
+    CHECK(of_one.of_cells.fireflies[0] < many[0]);
     CHECK(noise_of(of_one, 0) > 10.0 * noise_of(prediction_with_glints(0), 0));
-    CHECK(prediction_with_glints(0).of_cells.dots[0] < 0.1 * none[0]);
+    CHECK(prediction_with_glints(0).of_cells.fireflies[0] < 0.1 * none[0]);
     // One may be chance, several are not.
-    CHECK(of_one.sure_dots[0] == 0.0);
+    CHECK(of_one.sure_fireflies[0] == 0.0);
     const PilotErrors of_some = prediction_with_glints(20);
-    CHECK(of_some.sure_dots[0] > 0.5 * of_some.of_cells.dots[0]);
-    CHECK(of_some.of_cells.dots[0] > 10.0 * none[0]);
+    CHECK(of_some.sure_fireflies[0] > 0.5 * of_some.of_cells.fireflies[0]);
+    CHECK(of_some.of_cells.fireflies[0] > 10.0 * none[0]);
     // A usual render has three of these, in 20,000 pixels, but with too much light to be left out.
     CHECK(errors_with_glints(100)[0] > 10.0 * none[0]);
     // With connections they are like all others.

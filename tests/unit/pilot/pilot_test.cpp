@@ -50,9 +50,10 @@ RenderOptions small()
     return options;
 }
 
-PilotResult pilot_of(const Scene& scene, const CameraDesc& camera, const RenderOptions& options)
+PilotMeasurements pilot_of(const Scene& scene, const CameraDesc& camera,
+                           const RenderOptions& options)
 {
-    return run_pilot(scene.world(), open_camera(scene.world(), camera, options), options);
+    return measure(scene.world(), open_camera(scene.world(), camera, options), options);
 }
 
 std::size_t index_of(double light_paths, double connections, double rays = 0.0)
@@ -98,15 +99,6 @@ double variance_of_samples(const Scene& scene, IntegratorKind integrator)
     return squares;
 }
 
-/// Returns predictions that are the same for all candidates.
-PilotResult equal_candidates()
-{
-    PilotResult pilot;
-    pilot.errors.fill(1.0);
-    pilot.costs.fill(10.0);
-    return pilot;
-}
-
 /// Mean over the pixels of variance over squared mean, times the number of samples.
 double measured_error(const Scene& scene, const Candidate& candidate)
 {
@@ -118,6 +110,7 @@ double measured_error(const Scene& scene, const Candidate& candidate)
     options.bidirectional.connections = candidate.connections;
     options.bidirectional.connection_rays = candidate.connection_rays;
     options.sampling.samples = {.begin = 0, .end = samples};
+    options.sampling.planned_samples = samples;
     std::vector<double> sums(side * side);
     std::vector<double> squares(side * side);
     for (int i = 0; i < renders; ++i) {
@@ -142,7 +135,7 @@ double measured_error(const Scene& scene, const Candidate& candidate)
 TEST_CASE("a pilot predicts errors of renders with other numbers of light paths", "[pilot][long]")
 {
     const Scene scene = indirect_room();
-    const PilotResult pilot = pilot_of(scene, inside(), small());
+    const PilotMeasurements pilot = pilot_of(scene, inside(), small());
     const std::size_t one = index_of(1.0, 1.0);
     const double measured_one = measured_error(scene, candidates[one]);
     // Noise of the pilot, and what Sobol points leave is not the same in every scene.
@@ -170,8 +163,8 @@ TEST_CASE("a pilot predicts alike for images of any size", "[pilot]")
     RenderOptions large = small();
     large.film.width = 6 * side;
     large.film.height = 6 * side;
-    const PilotResult of_small = pilot_of(scene, inside(), small());
-    const PilotResult of_large = pilot_of(scene, inside(), large);
+    const PilotMeasurements of_small = pilot_of(scene, inside(), small());
+    const PilotMeasurements of_large = pilot_of(scene, inside(), large);
     for (std::size_t k = 1; k < candidates.size(); ++k) {
         CAPTURE(candidates[k].light_paths, candidates[k].connections);
         CHECK(of_large.errors[k] < 1.5 * of_small.errors[k]);
@@ -184,7 +177,7 @@ TEST_CASE("a pilot predicts how well lamps are seen with and without points of t
 {
     const Scene scene = far_lamp();
     const VisibleLightErrors predicted = pilot_of(scene, inside(), small()).visible_lights;
-    constexpr double qmc_variance_factor = 0.25;  // as pilots assume
+    constexpr double qmc_variance_factor = pilot_constants.qmc.direct;
     const double by_hits = predicted.by_hits / qmc_variance_factor;
     const double measured = variance_of_samples(scene, IntegratorKind::mis) /
                             variance_of_samples(scene, IntegratorKind::bdpt);
@@ -197,13 +190,13 @@ TEST_CASE("a pilot predicts how well lamps are seen with and without points of t
 TEST_CASE("a pilot depends on the scene, not on which samples are wanted", "[pilot]")
 {
     const Scene scene = indirect_room();
-    const PilotResult pilot = pilot_of(scene, inside(), small());
+    const PilotMeasurements pilot = pilot_of(scene, inside(), small());
     RenderOptions other = small();
     other.sampling.seed = 77;
     other.sampling.samples = {.begin = 5, .end = 9};
     other.sampling.sampler = SamplerKind::independent;
     other.bidirectional.light_paths = 3.0;
-    const PilotResult again = pilot_of(scene, inside(), other);
+    const PilotMeasurements again = pilot_of(scene, inside(), other);
     CHECK(again.errors == pilot.errors);
     CHECK(again.visible_lights.by_hits == pilot.visible_lights.by_hits);
     CHECK(again.costs == pilot.costs);
@@ -217,7 +210,7 @@ TEST_CASE("a pilot does not follow paths as long as renders may", "[pilot]")
     const Scene scene = indirect_room();
     RenderOptions options = small();
     options.transport.max_depth = 32;
-    const PilotResult pilot = pilot_of(scene, inside(), options);
+    const PilotMeasurements pilot = pilot_of(scene, inside(), options);
     options.transport.max_depth = 1000;
     CHECK(pilot_of(scene, inside(), options).errors == pilot.errors);
     // But far enough for what the render is about.
@@ -289,115 +282,15 @@ TEST_CASE("no more connections are chosen than there are", "[pilot]")
     CHECK(connection_rays({.light_paths = 0.25, .connections = 8.0}, stats) == Approx(8000.0));
 }
 
-TEST_CASE("of the best at equal cost, the one that fits into memory is taken", "[pilot]")
+TEST_CASE("a pilot tells whose light paths do not fit into memory", "[pilot]")
 {
-    PilotResult pilot = equal_candidates();
-    const std::size_t few = index_of(0.0625, 1.0);
-    const std::size_t own = index_of(1.0, 1.0);
-    pilot.errors[few] = 0.1;
-    pilot.errors[own] = 0.5;
     RenderOptions options = small();
-    const RenderOptions best = with_best(pilot, options);
-    CHECK(best.integrator == IntegratorKind::bdpt);
-    CHECK(best.bidirectional.light_paths == 0.0625);
-    CHECK(best.bidirectional.connections == 1.0);
+    CHECK(pilot_of(indirect_room(), inside(), options).too_large == PerCandidate<bool>{});
     options.bidirectional.light_path_memory = 1;
-    const RenderOptions fitting = with_best(pilot, options);
-    CHECK(fitting.bidirectional.light_paths == 1.0);
-    CHECK(fitting.bidirectional.connections == 1.0);
-    pilot.costs[0] = 0.5;
-    CHECK(with_best(pilot, options).integrator == IntegratorKind::mis);
-    CHECK(with_best(pilot, options).bidirectional.disabled.empty());
-}
-
-TEST_CASE("connections are chosen where that has the least product of error and cost", "[pilot]")
-{
-    PilotResult pilot = equal_candidates();
-    const std::size_t all = index_of(0.0625, 1.0);
-    const std::size_t chosen = index_of(0.0625, 8.0, 8.0);
-    pilot.errors[all] = 0.1;
-    pilot.errors[chosen] = 0.101;
-    CHECK(with_best(pilot, small()).bidirectional.connection_rays == 0.0);
-    pilot.errors[chosen] = 0.099;
-    const RenderOptions best = with_best(pilot, small());
-    CHECK(best.bidirectional.connections == 8.0);
-    CHECK(best.bidirectional.connection_rays == 8.0);
-}
-
-TEST_CASE("some candidates are taken only for a gain that exceeds the noise of the prediction",
-          "[pilot]")
-{
-    const std::size_t usual = index_of(0.0625, 1.0);
-    const std::size_t other = GENERATE_COPY(index_of(0.0625, 8.0, 8.0), index_of(2.0, 0.0));
-    PilotResult pilot = equal_candidates();
-    pilot.errors[usual] = 0.1;
-    pilot.errors[other] = 0.09;
-    const auto takes_other = [&] {
-        return with_best(pilot, small()).bidirectional.connections != candidates[usual].connections;
-    };
-    CHECK(takes_other());
-    // The gain is 0.01, the standard error of either prediction 0.006, that of the difference is
-    // smaller where they are correlated.
-    constexpr double variance = 0.006 * 0.006;
-    pilot.covariances[usual][usual] = variance;
-    pilot.covariances[other][other] = variance;
-    CHECK_FALSE(takes_other());
-    pilot.covariances[usual][other] = 0.7 * variance;
-    pilot.covariances[other][usual] = 0.7 * variance;
-    CHECK(takes_other());
-    // Costs multiply both: that of the other candidate alone makes the difference less certain.
-    pilot.errors[other] = 0.03;
-    pilot.covariances[usual][other] = variance;
-    pilot.covariances[other][usual] = variance;
-    CHECK(takes_other());
-    pilot.costs[other] *= 3.0;
-    CHECK_FALSE(takes_other());
-    // Others need no sure gain.
-    pilot.errors[index_of(0.25, 1.0)] = 0.099;
-    CHECK(with_best(pilot, small()).bidirectional.light_paths == 0.25);
-}
-
-TEST_CASE("light paths without connections are chosen where they are clearly better", "[pilot]")
-{
-    struct Case {
-        double light_paths;
-        double not_enough;  // error where one with connections has 0.1
-        double better;
-    };
-    // Up to one light path has to be better by 5 %; more by the noise of the prediction.
-    const auto [light_paths, not_enough, better] = GENERATE(values<Case>(
-        {{0.0625, 0.098, 0.09}, {0.5, 0.098, 0.09}, {2.0, 0.101, 0.099}, {4.0, 0.101, 0.099}}));
-    PilotResult pilot = equal_candidates();
-    pilot.errors[index_of(0.0625, 1.0)] = 0.1;
-    pilot.errors[index_of(light_paths, 0.0)] = not_enough;
-    CHECK(with_best(pilot, small()).bidirectional.connections == 1.0);
-    pilot.errors[index_of(light_paths, 0.0)] = better;
-    const RenderOptions best = with_best(pilot, small());
-    CHECK(best.integrator == IntegratorKind::bdpt);
-    CHECK(best.bidirectional.light_paths == light_paths);
-    CHECK(best.bidirectional.connections == 0.0);
-}
-
-TEST_CASE("more than one light path is a candidate without connections alone", "[pilot]")
-{
-    for (const Candidate& candidate : candidates) {
-        CHECK((candidate.light_paths <= 1.0 || candidate.connections == 0.0));
-    }
-}
-
-TEST_CASE("rare bright paths that a pilot is sure of count a little", "[pilot]")
-{
-    PilotResult pilot = equal_candidates();
-    pilot.errors[0] = 0.15;
-    pilot.errors[index_of(0.0625, 1.0)] = 0.2;
-    const auto chosen = [&] { return with_best(pilot, small()).integrator; };
-    CHECK(chosen() == IntegratorKind::mis);
-    pilot.dots[0] = 0.1;  // errors of 1.67 times that count 1.29 times
-    CHECK(chosen() == IntegratorKind::mis);
-    pilot.dots[0] = 0.15;  // 1.41 times
-    CHECK(chosen() == IntegratorKind::bdpt);
-    pilot.dots[index_of(0.0625, 1.0)] = 0.4;
-    CHECK(chosen() == IntegratorKind::mis);
+    const PilotMeasurements pilot = pilot_of(indirect_room(), inside(), options);
+    CHECK(pilot.too_large[index_of(0.0625, 1.0)]);
+    CHECK_FALSE(pilot.too_large[index_of(1.0, 1.0)]);  // each path has its own
+    CHECK_FALSE(pilot.too_large[0]);
 }
 
 TEST_CASE("connections are not chosen where bodies scatter light", "[pilot][media]")
@@ -412,24 +305,9 @@ TEST_CASE("connections are not chosen where bodies scatter light", "[pilot][medi
     body.volume_scatter.color = Rgb(scatters ? 0.8f : 0.0f);
     builder.sphere({0.0f, 0.0f, 0.0f}, 0.5f, body, 16);
     const Scene scene(std::move(builder.desc));
-    const PilotResult pilot = pilot_of(scene, inside(), small());
+    const PilotMeasurements pilot = pilot_of(scene, inside(), small());
     CHECK(std::isinf(pilot.errors[index_of(0.0625, 8.0, 8.0)]) == scatters);
     CHECK(std::isfinite(pilot.errors[index_of(0.0625, 1.0)]));
-}
-
-TEST_CASE("path tracing has to hit lamps, to whose points bdpt connects the lens", "[pilot]")
-{
-    PilotResult pilot;
-    pilot.errors.fill(1.0);
-    pilot.costs.fill(10000.0);
-    pilot.errors[index_of(0.0625, 1.0)] = 0.2;
-    pilot.errors[0] = 0.15;
-    const auto chosen = [&] { return with_best(pilot, small()).integrator; };
-    CHECK(chosen() == IntegratorKind::mis);
-    pilot.visible_lights = {.by_hits = 0.04, .by_both = 0.01};
-    CHECK(chosen() == IntegratorKind::mis);
-    pilot.visible_lights = {.by_hits = 0.07, .by_both = 0.01};
-    CHECK(chosen() == IntegratorKind::bdpt);
 }
 
 TEST_CASE("cells tell whether camera paths scatter there; else they cost less", "[pilot]")
@@ -462,7 +340,7 @@ TEST_CASE("a pilot that is abandoned traces nothing more", "[pilot]")
     const MovingCamera camera = open_camera(scene.world(), inside(), options);
     std::stop_source source;
     const auto rays = [&] {
-        return run_pilot(scene.world(), camera, options, nullptr, source.get_token())
+        return measure(scene.world(), camera, options, nullptr, source.get_token())
             .stats.rays.total();
     };
     CHECK(rays() > 0);

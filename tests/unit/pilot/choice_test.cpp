@@ -1,7 +1,6 @@
-#include "pilot/pilot_rates.h"
+#include "pilot/choice.h"
 
 #include "catch.hpp"
-#include "pilot/pilot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +8,7 @@
 #include <memory>
 #include <random>
 
-namespace bdpt::test::pilot_rates_test {
+namespace bdpt::test::choice_test {
 namespace {
 
 constexpr std::size_t used = 3;  // the candidate that renders
@@ -46,10 +45,170 @@ void multiply_right(std::vector<PerCandidate<double>>& values, double factor)
 
 std::shared_ptr<const SampleRates> rates_of(const CellErrors& cells)
 {
-    return choose_rates(grid(), cells, used);
+    PilotMeasurements pilot;
+    pilot.grid = grid();
+    pilot.cells = cells;
+    return choose_rates(pilot, used);
+}
+
+std::size_t index_of(double light_paths, double connections, double rays = 0.0)
+{
+    const auto found =
+        std::find(candidates.begin(), candidates.end(), Candidate{light_paths, connections, rays});
+    REQUIRE(found != candidates.end());
+    return static_cast<std::size_t>(found - candidates.begin());
+}
+
+/// Returns predictions that are the same for all candidates.
+PilotMeasurements equal_candidates()
+{
+    PilotMeasurements pilot;
+    pilot.errors.fill(1.0);
+    pilot.costs.fill(10.0);
+    return pilot;
+}
+
+Candidate chosen_by(const PilotMeasurements& pilot)
+{
+    return candidates[choose(pilot)];
 }
 
 }  // namespace
+
+TEST_CASE("of the best at equal cost, the one that fits into memory is taken", "[pilot]")
+{
+    PilotMeasurements pilot = equal_candidates();
+    pilot.errors[index_of(0.0625, 1.0)] = 0.1;
+    pilot.errors[index_of(1.0, 1.0)] = 0.5;
+    CHECK(chosen_by(pilot) == Candidate{0.0625, 1.0});
+    pilot.too_large[index_of(0.0625, 1.0)] = true;
+    CHECK(chosen_by(pilot) == Candidate{1.0, 1.0});
+    pilot.costs[0] = 0.5;
+    CHECK(chosen_by(pilot) == Candidate{0.0, 0.0});
+}
+
+TEST_CASE("connections are chosen where that has the least product of error and cost", "[pilot]")
+{
+    PilotMeasurements pilot = equal_candidates();
+    pilot.errors[index_of(0.0625, 1.0)] = 0.1;
+    pilot.errors[index_of(0.0625, 8.0, 8.0)] = 0.101;
+    CHECK(chosen_by(pilot) == Candidate{0.0625, 1.0});
+    pilot.errors[index_of(0.0625, 8.0, 8.0)] = 0.099;
+    CHECK(chosen_by(pilot) == Candidate{0.0625, 8.0, 8.0});
+}
+
+TEST_CASE("some candidates are taken only for a gain that exceeds the noise of the prediction",
+          "[pilot]")
+{
+    const std::size_t usual = index_of(0.0625, 1.0);
+    const std::size_t other = GENERATE_COPY(index_of(0.0625, 8.0, 8.0), index_of(2.0, 0.0));
+    PilotMeasurements pilot = equal_candidates();
+    pilot.errors[usual] = 0.1;
+    pilot.errors[other] = 0.09;
+    const auto takes_other = [&] { return choose(pilot) != usual; };
+    CHECK(takes_other());
+    // The gain is 0.01, the standard error of either prediction 0.006, that of the difference is
+    // smaller where they are correlated.
+    constexpr double variance = 0.006 * 0.006;
+    pilot.covariances[usual][usual] = variance;
+    pilot.covariances[other][other] = variance;
+    CHECK_FALSE(takes_other());
+    pilot.covariances[usual][other] = 0.7 * variance;
+    pilot.covariances[other][usual] = 0.7 * variance;
+    CHECK(takes_other());
+    // Costs multiply both: that of the other candidate alone makes the difference less certain.
+    pilot.errors[other] = 0.03;
+    pilot.covariances[usual][other] = variance;
+    pilot.covariances[other][usual] = variance;
+    CHECK(takes_other());
+    pilot.costs[other] *= 3.0;
+    CHECK_FALSE(takes_other());
+    // Others need no sure gain.
+    pilot.errors[index_of(0.25, 1.0)] = 0.099;
+    CHECK(chosen_by(pilot) == Candidate{0.25, 1.0});
+}
+
+TEST_CASE("light paths without connections are chosen where they are clearly better", "[pilot]")
+{
+    struct Case {
+        double light_paths;
+        double not_enough;  // error where one with connections has 0.1
+        double better;
+    };
+    // Up to one light path has to be better by 5 %; more by the noise of the prediction.
+    const auto [light_paths, not_enough, better] = GENERATE(values<Case>(
+        {{0.0625, 0.098, 0.09}, {0.5, 0.098, 0.09}, {2.0, 0.101, 0.099}, {4.0, 0.101, 0.099}}));
+    PilotMeasurements pilot = equal_candidates();
+    pilot.errors[index_of(0.0625, 1.0)] = 0.1;
+    pilot.errors[index_of(light_paths, 0.0)] = not_enough;
+    CHECK(chosen_by(pilot) == Candidate{0.0625, 1.0});
+    pilot.errors[index_of(light_paths, 0.0)] = better;
+    CHECK(chosen_by(pilot) == Candidate{light_paths, 0.0});
+}
+
+TEST_CASE("more than one light path is a candidate without connections alone", "[pilot]")
+{
+    for (const Candidate& candidate : candidates) {
+        CHECK((candidate.light_paths <= 1.0 || candidate.connections == 0.0));
+    }
+}
+
+TEST_CASE("rare bright paths that a pilot is sure of count a little", "[pilot]")
+{
+    PilotMeasurements pilot = equal_candidates();
+    pilot.errors[0] = 0.15;
+    pilot.errors[index_of(0.0625, 1.0)] = 0.2;
+    const auto light_paths = [&] { return chosen_by(pilot).light_paths; };
+    CHECK(light_paths() == 0.0);
+    pilot.fireflies[0] = 0.1;  // errors of 1.67 times that count 1.29 times
+    CHECK(light_paths() == 0.0);
+    pilot.fireflies[0] = 0.15;  // 1.41 times
+    CHECK(light_paths() > 0.0);
+    pilot.fireflies[index_of(0.0625, 1.0)] = 0.4;
+    CHECK(light_paths() == 0.0);
+}
+
+TEST_CASE("path tracing has to hit lamps, to whose points bdpt connects the lens", "[pilot]")
+{
+    PilotMeasurements pilot;
+    pilot.errors.fill(1.0);
+    pilot.costs.fill(10000.0);
+    pilot.errors[index_of(0.0625, 1.0)] = 0.2;
+    pilot.errors[0] = 0.15;
+    const auto light_paths = [&] { return chosen_by(pilot).light_paths; };
+    CHECK(light_paths() == 0.0);
+    pilot.visible_lights = {.by_hits = 0.04, .by_both = 0.01};
+    CHECK(light_paths() == 0.0);
+    pilot.visible_lights = {.by_hits = 0.07, .by_both = 0.01};
+    CHECK(light_paths() > 0.0);
+}
+
+TEST_CASE("light that camera paths find at once needs no light paths, a caustic does", "[pilot]")
+{
+    PilotMeasurements pilot = equal_candidates();
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        pilot.costs[k] =
+            300.0 + 500.0 * candidates[k].light_paths + 200.0 * candidates[k].connections;
+    }
+    CHECK(chosen_by(pilot) == Candidate{0.0, 0.0});
+    pilot.errors[0] = 50.0;  // rays hit the lamp by chance
+    for (std::size_t k = 1; k < candidates.size(); ++k) {
+        pilot.errors[k] = 1.0 / candidates[k].light_paths;
+    }
+    CHECK(chosen_by(pilot).light_paths >= 1.0);
+}
+
+TEST_CASE("an image without error is rendered at the least cost", "[pilot]")
+{
+    PilotMeasurements pilot = equal_candidates();
+    pilot.errors.fill(1e-7);
+    pilot.errors[index_of(0.25, 1.0)] = 1e-9;
+    pilot.costs[0] = 9.0;
+    CHECK(chosen_by(pilot) == Candidate{0.0, 0.0});
+    ChoiceConstants exact;
+    exact.min_error = 0.0;
+    CHECK(candidates[choose(pilot, candidates, exact)] == Candidate{0.25, 1.0});
+}
 
 TEST_CASE("an image of even noise has no rates", "[pilot]")
 {
@@ -70,19 +229,13 @@ TEST_CASE("an image of even noise has no rates", "[pilot]")
 
 TEST_CASE("no cell takes more samples where light is so rare that its error is chance", "[pilot]")
 {
-    PilotResult pilot;
+    PilotMeasurements pilot;
     pilot.cells = equal_cells();
     multiply_right(pilot.cells.camera, 30.0);
-    RenderOptions options;
-    options.film.width = grid().width();
-    options.film.height = grid().height();
-    options.integrator = IntegratorKind::bdpt;
-    options.bidirectional.light_paths = candidates[used].light_paths;
-    options.bidirectional.connections = candidates[used].connections;
-    options.bidirectional.connection_rays = candidates[used].connection_rays;
-    CHECK(best_rates(pilot, options) != nullptr);
+    pilot.grid = grid();
+    CHECK(choose_rates(pilot, used) != nullptr);
     pilot.light_is_rare = true;
-    CHECK(best_rates(pilot, options) == nullptr);
+    CHECK(choose_rates(pilot, used) == nullptr);
 }
 
 TEST_CASE("noisy cells take more samples", "[pilot]")
@@ -122,15 +275,15 @@ TEST_CASE("rates help little where splats are the noise", "[pilot]")
     CHECK(rates_of(cells) == nullptr);
 }
 
-TEST_CASE("rates help little where dots are the noise", "[pilot]")
+TEST_CASE("rates help little where fireflies are the noise", "[pilot]")
 {
     CellErrors cells = equal_cells();
     multiply_right(cells.camera, 30.0);
-    cells.dots[used] = 100.0;
+    cells.fireflies[used] = 100.0;
     CHECK(rates_of(cells) == nullptr);
 }
 
-TEST_CASE("dots are the noise of cells where paths scatter", "[pilot]")
+TEST_CASE("fireflies are the noise of cells where paths scatter", "[pilot]")
 {
     const auto before_background = [](double part) {
         CellErrors cells = equal_cells();
@@ -142,7 +295,7 @@ TEST_CASE("dots are the noise of cells where paths scatter", "[pilot]")
                 cells.scattering[i] = 0.0;
             }
         }
-        cells.dots[used] = 100.0;
+        cells.fireflies[used] = 100.0;
         return cells;
     };
     const auto rates = rates_of(before_background(0.3));
@@ -247,4 +400,4 @@ TEST_CASE("one rare bright path does not decide rates", "[pilot]")
     CHECK(rates_of(cells) == nullptr);
 }
 
-}  // namespace bdpt::test::pilot_rates_test
+}  // namespace bdpt::test::choice_test

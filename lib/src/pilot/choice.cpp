@@ -1,42 +1,105 @@
-#include "pilot/pilot_rates.h"
+#include "pilot/choice.h"
 
 #include "rates/rate_map.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace bdpt {
 namespace {
 
-// Few samples in a pixel make rare bright paths brighter still, and what two samples in each cell
-// say is too uncertain for large rates.
-constexpr int min_exponent = -1;
-constexpr int max_exponent = 1;
-/// Errors of cells are averaged with their neighbours, as each has two samples.
-constexpr int mean_radius = 3;  // 7 x 7 cells
-/// Rates change within about this distance: chance makes islands, whose borders would be seen.
-constexpr double smooth_pixels = 8.0;
-/// Islands of about half of this neighbourhood, and smaller ones, are taken for chance.
-constexpr int island_radius = 5;  // 11 x 11 cells; one bright path affects 7 x 7
-/// Error beside the pilot's estimate and dots, as a fraction of the mean error: rare bright paths
-/// also occur where the pilot has not found them.
-constexpr double unseen_share = 0.25;
-/// Cells where no camera path scatters have this share of both, relative to other cells: light that
-/// is seen directly has little noise, which the pilot does not measure.
-constexpr double share_of_background = 0.05;
-/// Fraction of the cells with the greatest errors, all of which count like the least of them.
-constexpr double share_of_dots = 0.001;
-/// Rates are worth it if they reduce error times cost to this or less.
-constexpr double worthwhile = 0.94;
+/// Returns whether the candidate is taken only for a gain that exceeds the noise of the prediction:
+/// the choice of connections is predicted less well than all of them, and more light paths take
+/// time from camera paths, whose rarest contributions no pilot finds.
+bool needs_sure_gain(const Candidate& candidate)
+{
+    return candidate.connection_rays > 0.0 || candidate.light_paths > 1.0;
+}
+
+/// A candidate's product of error and cost, by which it is judged.
+class Product {
+public:
+    Product(const PilotMeasurements& pilot, const Candidate& numbers, std::size_t candidate,
+            const ChoiceConstants& constants)
+        : candidate_(candidate),
+          sure_(constants.sure_standard_errors),
+          covariances_(&pilot.covariances)
+    {
+        // Path tracing has to hit lights that are directly visible.
+        const double visible_lights =
+            numbers.light_paths > 0.0 ? pilot.visible_lights.by_both : pilot.visible_lights.by_hits;
+        const double error =
+            std::max(constants.min_error, pilot.errors[candidate] + visible_lights);
+        // The square root: usual renders show few of these paths, and long ones more.
+        const double by_fireflies = std::sqrt(1.0 + pilot.fireflies[candidate] / error);
+        const bool splats_alone = numbers.light_paths > 0.0 && numbers.connections == 0.0;
+        const double penalty =
+            by_fireflies *
+            (splats_alone && numbers.light_paths <= 1.0 ? constants.margin_of_connections : 1.0);
+        per_error_ = penalty * pilot.costs[candidate];
+        value_ = error * per_error_;
+    }
+
+    [[nodiscard]] std::size_t candidate() const { return candidate_; }
+    [[nodiscard]] bool operator<(const Product& other) const { return value_ < other.value_; }
+    /// Returns whether this product is less than another by more than two standard errors of the
+    /// difference.
+    [[nodiscard]] bool surely_less(const Product& other) const
+    {
+        const std::size_t a = candidate_;
+        const std::size_t b = other.candidate_;
+        const PerCandidate<PerCandidate<double>>& covariances = *covariances_;
+        const double variance = per_error_ * per_error_ * covariances[a][a] -
+                                2.0 * per_error_ * other.per_error_ * covariances[a][b] +
+                                other.per_error_ * other.per_error_ * covariances[b][b];
+        return value_ + sure_ * std::sqrt(std::max(0.0, variance)) < other.value_;
+    }
+
+private:
+    std::size_t candidate_;
+    double sure_;  ///< standard errors
+    const PerCandidate<PerCandidate<double>>* covariances_;
+    double per_error_ = 0.0;
+    double value_ = 0.0;
+};
+
+}  // namespace
+
+std::size_t choose(const PilotMeasurements& pilot, const PerCandidate<Candidate>& among,
+                   const ChoiceConstants& constants)
+{
+    std::optional<Product> usual;  // the least of those that need no sure gain
+    for (std::size_t k = 0; k < among.size(); ++k) {
+        const Product product(pilot, among[k], k, constants);
+        if (!needs_sure_gain(among[k]) && !pilot.too_large[k] && (!usual || product < *usual)) {
+            usual = product;
+        }
+    }
+    Product best = *usual;
+    for (std::size_t k = 0; k < among.size(); ++k) {
+        const Product product(pilot, among[k], k, constants);
+        if (needs_sure_gain(among[k]) && !pilot.too_large[k] && product < best &&
+            product.surely_less(*usual)) {
+            best = product;
+        }
+    }
+    return best.candidate();
+}
+
+namespace {
+
+constexpr const RateConstants& rate_constants = pilot_constants.rates;
 
 /// Limits the errors of the brightest cells.
-void clamp_dots(Plane& errors)
+void clamp_fireflies(Plane& errors)
 {
-    const auto dots = static_cast<std::size_t>(share_of_dots * static_cast<double>(errors.size()));
+    const auto fireflies = static_cast<std::size_t>(rate_constants.share_of_fireflies *
+                                                    static_cast<double>(errors.size()));
     Plane sorted = errors;
-    const auto limit = sorted.end() - 1 - static_cast<std::ptrdiff_t>(dots);
+    const auto limit = sorted.end() - 1 - static_cast<std::ptrdiff_t>(fireflies);
     std::nth_element(sorted.begin(), limit, sorted.end());
     for (double& error : errors) {
         error = std::min(error, *limit);
@@ -59,19 +122,20 @@ Evidence evidence_for(std::size_t candidate, const PilotGrid& grid, const CellEr
         errors.push_back(cells.camera[i][candidate]);
         costs.push_back(cells.costs[i][candidate]);
     }
-    clamp_dots(errors);
-    const double unseen = unseen_share * std::max(0.0, mean_of(errors)) + cells.dots[candidate];
-    errors = local_mean(errors, size, mean_radius);
-    Plane shares = local_mean(cells.scattering, size, mean_radius);
+    clamp_fireflies(errors);
+    const double unseen =
+        rate_constants.unseen_share * std::max(0.0, mean_of(errors)) + cells.fireflies[candidate];
+    errors = local_mean(errors, size, rate_constants.mean_radius);
+    Plane shares = local_mean(cells.scattering, size, rate_constants.mean_radius);
     for (double& share : shares) {
-        share = std::max(share, share_of_background);
+        share = std::max(share, rate_constants.share_of_background);
     }
     const double mean_share = mean_of(shares);
     for (std::size_t i = 0; i < errors.size(); ++i) {
         errors[i] = std::max(0.0, errors[i]) + unseen * shares[i] / mean_share;
     }
     return {.errors = std::move(errors),
-            .costs = local_mean(costs, size, mean_radius),
+            .costs = local_mean(costs, size, rate_constants.mean_radius),
             .splats = cells.splats[candidate]};
 }
 
@@ -94,9 +158,9 @@ WholeExponents whole_exponents(const Evidence& evidence)
     const auto moved = [&](double shift) {
         Plane exponents(octaves.size());
         for (std::size_t i = 0; i < octaves.size(); ++i) {
-            exponents[i] =
-                std::clamp(std::round(octaves[i] + shift), static_cast<double>(min_exponent),
-                           static_cast<double>(max_exponent));
+            exponents[i] = std::clamp(std::round(octaves[i] + shift),
+                                      static_cast<double>(rate_constants.min_exponent),
+                                      static_cast<double>(rate_constants.max_exponent));
         }
         return exponents;
     };
@@ -125,10 +189,11 @@ Plane smooth_exponents(const Evidence& evidence, const PilotGrid& grid, const Pl
 {
     const PlaneSize size{.width = grid.columns(), .height = grid.rows()};
     const double side = std::sqrt(grid.pixels() / static_cast<double>(grid.cells()));
-    const int radius = std::max(1, static_cast<int>(std::lround(smooth_pixels / side)));
+    const int radius =
+        std::max(1, static_cast<int>(std::lround(rate_constants.smooth_pixels / side)));
     const auto without_islands = [&](Plane exponents, const Plane& weights) {
         for (int pass = 0; pass < 2; ++pass) {
-            exponents = local_mean(exponents, weights, size, island_radius);
+            exponents = local_mean(exponents, weights, size, rate_constants.island_radius);
             for (double& exponent : exponents) {
                 exponent = std::round(exponent);
             }
@@ -216,19 +281,24 @@ double product_of(const Evidence& evidence, const SampleRates& rates, const Pilo
 
 }  // namespace
 
-std::shared_ptr<const SampleRates> choose_rates(const PilotGrid& grid, const CellErrors& cells,
+std::shared_ptr<const SampleRates> choose_rates(const PilotMeasurements& pilot,
                                                 std::size_t candidate)
 {
+    if (pilot.light_is_rare) {
+        return nullptr;
+    }
+    const PilotGrid& grid = pilot.grid;
+    const CellErrors& cells = pilot.cells;
     const Evidence evidence = evidence_for(candidate, grid, cells);
     const double mean = mean_of(evidence.errors);
     if (!(mean > 0.0) || !std::isfinite(mean)) {
         return nullptr;  // no noise, or noise that the candidate cannot reduce
     }
     const Plane exponents = smooth_exponents(evidence, grid, cells.scattering);
-    auto rates = std::make_shared<const SampleRates>(
-        dithered_rates({.width = grid.width(), .height = grid.height()},
-                       Interpolation(grid, exponents), {.min = min_exponent, .max = max_exponent}));
-    return product_of(evidence, *rates, grid) <= worthwhile ? rates : nullptr;
+    auto rates = std::make_shared<const SampleRates>(dithered_rates(
+        {.width = grid.width(), .height = grid.height()}, Interpolation(grid, exponents),
+        {.min = rate_constants.min_exponent, .max = rate_constants.max_exponent}));
+    return product_of(evidence, *rates, grid) <= rate_constants.worthwhile ? rates : nullptr;
 }
 
 }  // namespace bdpt

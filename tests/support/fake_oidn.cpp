@@ -1,7 +1,8 @@
 // A library with the interface of Open Image Denoise 2 that computes a simple function instead of
 // denoising: layers are "denoised" by adding 1 to albedo and 2 to normals, images by 2 * color +
 // albedo + normal. It fails unless it is told that images are of high dynamic range and, with
-// layers, that these are clean. With BDPT_FAKE_OIDN=fail in the environment each filter fails.
+// layers, that these are clean or that it must be fast. With BDPT_FAKE_OIDN=fail in the environment
+// each filter fails.
 
 #include <cstddef>
 #include <cstdlib>
@@ -16,6 +17,9 @@ const char* fault = nullptr;
 struct FakeFilter {
     std::map<std::string, float*> images;
     std::map<std::string, bool> flags;
+    bool (*goes_on)(void*, double) = nullptr;
+    void* argument = nullptr;
+    bool is_fast = false;
     std::size_t values = 0;
     void run();
 };
@@ -29,8 +33,10 @@ void FakeFilter::run()
         fault = "it was asked to fail";
     } else if (has_color && !flags["hdr"]) {
         fault = "not told that the image is of high dynamic range";
-    } else if (has_color && has_layers && !flags["cleanAux"]) {
-        fault = "not told that layers are clean";
+    } else if (has_color && has_layers && flags["cleanAux"] == is_fast) {
+        fault = is_fast ? "told that layers are clean" : "not told that layers are clean";
+    } else if (goes_on != nullptr && !goes_on(argument, 0.5)) {
+        fault = "cancelled";
     }
     float* output = images["output"];
     for (std::size_t i = 0; i < values && fault == nullptr; ++i) {
@@ -88,6 +94,17 @@ FAKE void oidnSetSharedFilterImage(void* filter, const char* name, void* pointer
 FAKE void oidnSetFilterBool(void* filter, const char* name, bool value)
 {
     static_cast<FakeFilter*>(filter)->flags[name] = value;
+}
+FAKE void oidnSetFilterInt(void* filter, const char* name, int value)
+{
+    constexpr int fast = 4;
+    static_cast<FakeFilter*>(filter)->is_fast = std::strcmp(name, "quality") == 0 && value == fast;
+}
+FAKE void oidnSetFilterProgressMonitorFunction(void* filter, bool (*goes_on)(void*, double),
+                                               void* argument)
+{
+    static_cast<FakeFilter*>(filter)->goes_on = goes_on;
+    static_cast<FakeFilter*>(filter)->argument = argument;
 }
 FAKE void oidnCommitFilter(void*) {}
 FAKE void oidnExecuteFilter(void* filter)

@@ -53,6 +53,21 @@ TEST_CASE("an image is denoised with layers that were denoised before")
     CHECK(albedo.values[0] == 0.25f);
 }
 
+TEST_CASE("a preview is denoised with layers as they are, and can be stopped")
+{
+    const io::Denoiser denoiser(BDPT_FAKE_OIDN);
+    const Layer albedo = layer("albedo", 0.25f);
+    const Layer normal = layer("normal", 0.5f);
+    std::stop_source source;
+    const auto denoised = [&] {
+        return denoiser.denoise({.image = noisy, .albedo = &albedo, .normal = &normal},
+                                {io::DenoiserMode::preview, source.get_token()});
+    };
+    CHECK(denoised().pixels[0] == Rgb(2.75f, 4.75f, 6.75f));
+    source.request_stop();
+    CHECK(denoised().pixels[0] == Rgb(0.0f));  // and no error
+}
+
 TEST_CASE("an image without pixels is denoised to itself")
 {
     const Image image = io::Denoiser(BDPT_FAKE_OIDN).denoise({.image = Image{}});

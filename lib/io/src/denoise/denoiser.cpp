@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct OidnFunctions {
                                      std::size_t width, std::size_t height, std::size_t byte_offset,
                                      std::size_t pixel_stride, std::size_t row_stride);
     void (*oidnSetFilterBool)(Handle filter, const char* name, bool value);
+    void (*oidnSetFilterInt)(Handle filter, const char* name, int value);
+    void (*oidnSetFilterProgressMonitorFunction)(Handle filter, bool (*goes_on)(void*, double),
+                                                 void* argument);
     void (*oidnCommitFilter)(Handle filter);
     void (*oidnExecuteFilter)(Handle filter);
     void (*oidnReleaseFilter)(Handle filter);
@@ -39,6 +43,8 @@ struct OidnFunctions {
     static constexpr int device_type_cpu = 1;
     static constexpr int format_float3 = 3;
     static constexpr int no_error = 0;
+    static constexpr int quality_fast = 4;
+    static constexpr int first_minor_with_quality_fast = 3;
 };
 
 namespace fs = std::filesystem;
@@ -122,6 +128,9 @@ OidnFunctions open_oidn(const std::optional<fs::path>& library)
     find(module, file, "oidnNewFilter", functions.oidnNewFilter);
     find(module, file, "oidnSetSharedFilterImage", functions.oidnSetSharedFilterImage);
     find(module, file, "oidnSetFilterBool", functions.oidnSetFilterBool);
+    find(module, file, "oidnSetFilterInt", functions.oidnSetFilterInt);
+    find(module, file, "oidnSetFilterProgressMonitorFunction",
+         functions.oidnSetFilterProgressMonitorFunction);
     find(module, file, "oidnCommitFilter", functions.oidnCommitFilter);
     find(module, file, "oidnExecuteFilter", functions.oidnExecuteFilter);
     find(module, file, "oidnReleaseFilter", functions.oidnReleaseFilter);
@@ -153,13 +162,19 @@ public:
                                        OidnFunctions::format_float3, width_, height_, 0, 0, 0);
     }
     void set(const char* name, bool value) { oidn_.oidnSetFilterBool(filter_, name, value); }
+    void set(const char* name, int value) { oidn_.oidnSetFilterInt(filter_, name, value); }
 
-    void run()
+    void run(std::stop_token stop)
     {
+        const auto goes_on = [](void* token, double /*progress*/) {
+            return !static_cast<const std::stop_token*>(token)->stop_requested();
+        };
+        oidn_.oidnSetFilterProgressMonitorFunction(filter_, goes_on, &stop);
         oidn_.oidnCommitFilter(filter_);
         oidn_.oidnExecuteFilter(filter_);
         const char* message = nullptr;
-        if (oidn_.oidnGetDeviceError(device_, &message) != OidnFunctions::no_error) {
+        const int code = oidn_.oidnGetDeviceError(device_, &message);
+        if (code != OidnFunctions::no_error && !stop.stop_requested()) {
             throw Error(ErrorCode::internal,
                         fmt::format("the denoiser failed: {}", message != nullptr ? message : ""));
         }
@@ -192,6 +207,7 @@ struct Denoiser::Library {
     OidnFunctions oidn;
     Handle device;
     std::string version;
+    bool has_quality_fast = false;
 
     Library(const std::optional<std::filesystem::path>& file, int threads)
         : oidn(open_oidn(file)), device(oidn.oidnNewDevice(OidnFunctions::device_type_cpu))
@@ -208,22 +224,27 @@ struct Denoiser::Library {
             throw Error(ErrorCode::internal, fmt::format("the denoiser cannot start: {}",
                                                          message != nullptr ? message : ""));
         }
-        version = fmt::format("{}.{}.{}", oidn.oidnGetDeviceInt(device, "versionMajor"),
-                              oidn.oidnGetDeviceInt(device, "versionMinor"),
+        const int minor = oidn.oidnGetDeviceInt(device, "versionMinor");
+        has_quality_fast = minor >= OidnFunctions::first_minor_with_quality_fast;
+        version = fmt::format("{}.{}.{}", oidn.oidnGetDeviceInt(device, "versionMajor"), minor,
                               oidn.oidnGetDeviceInt(device, "versionPatch"));
     }
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
     ~Library() { oidn.oidnReleaseDevice(device); }
 
-    /// Denoises a layer.
-    [[nodiscard]] std::vector<float> filtered(const char* name, const Layer& layer) const
+    /// Denoises a layer, unless the image is for a preview.
+    [[nodiscard]] std::vector<float> filtered(const char* name, const Layer& layer,
+                                              const DenoiserControl& control) const
     {
+        if (control.mode == DenoiserMode::preview) {
+            return layer.values;
+        }
         std::vector<float> output(layer.values.size());
         Filter filter(oidn, device, layer.width, layer.height);
         filter.set(name, layer.values.data());
         filter.set("output", output.data());
-        filter.run();
+        filter.run(control.stop);
         return output;
     }
 };
@@ -241,7 +262,7 @@ const std::string& Denoiser::version() const
     return library_->version;
 }
 
-Image Denoiser::denoise(const NoisyImage& noisy) const
+Image Denoiser::denoise(const NoisyImage& noisy, const DenoiserControl& control) const
 {
     const Image& image = noisy.image;
     Image result{image.width, image.height, std::vector<Rgb>(image.pixels.size(), Rgb(0.0f))};
@@ -253,19 +274,22 @@ Image Denoiser::denoise(const NoisyImage& noisy) const
     Filter filter(library_->oidn, library_->device, image.width, image.height);
     if (noisy.albedo != nullptr) {
         check_size(image, *noisy.albedo);
-        albedo = library_->filtered("albedo", *noisy.albedo);
+        albedo = library_->filtered("albedo", *noisy.albedo, control);
         filter.set("albedo", albedo.data());
         if (noisy.normal != nullptr) {
             check_size(image, *noisy.normal);
-            normal = library_->filtered("normal", *noisy.normal);
+            normal = library_->filtered("normal", *noisy.normal, control);
             filter.set("normal", normal.data());
         }
-        filter.set("cleanAux", true);
+        filter.set("cleanAux", control.mode == DenoiserMode::best);
+    }
+    if (control.mode == DenoiserMode::preview && library_->has_quality_fast) {
+        filter.set("quality", OidnFunctions::quality_fast);
     }
     filter.set("color", &image.pixels.front().r);
     filter.set("output", &result.pixels.front().r);
     filter.set("hdr", true);
-    filter.run();
+    filter.run(control.stop);
     return result;
 }
 

@@ -111,16 +111,18 @@ bool has_guides(std::span<const Layer> layers)
     return find(layers, "albedo") != nullptr && find(layers, "normal") != nullptr;
 }
 
-Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const Layer> layers)
+Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const Layer> layers,
+               const io::DenoiserControl& control)
 {
     const Layer* albedo = find(layers, "albedo");
     return denoiser.denoise({.image = image,
                              .albedo = albedo,
-                             .normal = albedo != nullptr ? find(layers, "normal") : nullptr});
+                             .normal = albedo != nullptr ? find(layers, "normal") : nullptr},
+                            control);
 }
 
 Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const Layer> layers,
-               const Coverage& coverage)
+               const Coverage& coverage, const io::DenoiserControl& control)
 {
     std::vector<Layer> helpers;
     for (const char* name : {"albedo", "normal"}) {
@@ -129,7 +131,7 @@ Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const
         }
     }
     const Image colors = to_image(visible_values(to_layer(image, ""), coverage.noisy));
-    Image result = denoised(denoiser, colors, helpers);
+    Image result = denoised(denoiser, colors, helpers, control);
     for (std::size_t i = 0; i < result.pixels.size(); ++i) {
         // Light paths may contribute to pixels whose camera rays found nothing.
         const float clean = coverage.clean[i];
@@ -203,7 +205,8 @@ std::vector<float> clean_coverage(const Matte& noisy, std::span<const Layer> lay
     return opacity != nullptr ? opacity->values : compute_coverage(noisy);
 }
 
-Matte denoised(const io::Denoiser& denoiser, const Matte& noisy, std::span<const Layer> layers)
+Matte denoised(const io::Denoiser& denoiser, const Matte& noisy, std::span<const Layer> layers,
+               const io::DenoiserControl& control)
 {
     Matte result = noisy;
     if (noisy.alpha.empty()) {
@@ -224,7 +227,7 @@ Matte denoised(const io::Denoiser& denoiser, const Matte& noisy, std::span<const
     for (const float value : opacity.values) {
         image.pixels.emplace_back(value);
     }
-    const Image clean = denoiser.denoise({.image = image});
+    const Image clean = denoiser.denoise({.image = image}, control);
     for (std::size_t i = 0; i < clean.pixels.size(); ++i) {
         result.shadow[i] = (1.0f - coverage[i]) * std::clamp(clean.pixels[i].g, 0.0f, 1.0f);
         result.alpha[i] = coverage[i] + result.shadow[i];

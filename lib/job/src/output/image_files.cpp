@@ -172,18 +172,13 @@ Image clean_image(const Image& image, const Matte& noisy, const ImageFileOptions
     return options.display.backdrop && !noisy.alpha.empty()
                ? denoised(*options.denoiser, image, options.layers,
                           {.noisy = compute_coverage(noisy),
-                           .clean = clean_coverage(noisy, options.layers)})
-               : denoised(*options.denoiser, image, options.layers);
+                           .clean = clean_coverage(noisy, options.layers)},
+                          options.denoise_control)
+               : denoised(*options.denoiser, image, options.layers, options.denoise_control);
 }
 
-/// What the denoiser makes of an image.
-struct Cleaned {
-    std::optional<Image> image{};  ///< none: it is not denoised
-    Matte matte{};
-    std::string failure{};  ///< message of automatic denoising that failed
-};
+}  // namespace
 
-/// Denoises `image` with the matte `noisy`, if the options say so. Throws `Error`.
 Cleaned cleaned(const Image& image, const Matte& noisy, const ImageFileOptions& options)
 {
     const bool is_automatic = options.denoising == Denoising::automatic;
@@ -191,8 +186,9 @@ Cleaned cleaned(const Image& image, const Matte& noisy, const ImageFileOptions& 
         return {};
     }
     try {
-        return {.image = clean_image(image, noisy, options),
-                .matte = denoised(*options.denoiser, noisy, options.layers)};
+        return {
+            .image = clean_image(image, noisy, options),
+            .matte = denoised(*options.denoiser, noisy, options.layers, options.denoise_control)};
     } catch (const Error& error) {
         if (!is_automatic) {
             throw;
@@ -200,6 +196,8 @@ Cleaned cleaned(const Image& image, const Matte& noisy, const ImageFileOptions& 
         return {.failure = error.what()};
     }
 }
+
+namespace {
 
 /// Removes the layers that only guide the denoiser.
 void drop_guides(ImageFileOptions& options)

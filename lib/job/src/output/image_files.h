@@ -35,7 +35,8 @@ namespace bdpt::job {
 
 /// Returns `image` denoised, guided by albedo and normal if they are among the layers.
 [[nodiscard]] Image denoised(const io::Denoiser& denoiser, const Image& image,
-                             std::span<const Layer> layers);
+                             std::span<const Layer> layers,
+                             const io::DenoiserControl& control = {});
 
 /// Fraction of each pixel that surfaces cover: by the samples of the image, and without the noise
 /// of surfaces that blend.
@@ -47,7 +48,8 @@ struct Coverage {
 /// Returns `image`, which is black where surfaces do not cover it, denoised. The denoiser gets
 /// colours of surfaces, so edges are preserved.
 [[nodiscard]] Image denoised(const io::Denoiser& denoiser, const Image& image,
-                             std::span<const Layer> layers, const Coverage& coverage);
+                             std::span<const Layer> layers, const Coverage& coverage,
+                             const io::DenoiserControl& control = {});
 
 /// Returns the values of an image as a layer of that name.
 [[nodiscard]] Layer to_layer(const Image& image, const char* name);
@@ -74,7 +76,8 @@ struct Matte {
 /// Returns `noisy` with clean coverage, and with its shadow denoised: the shadow's opacity where
 /// the ground is visible. The layers belong to the same image.
 [[nodiscard]] Matte denoised(const io::Denoiser& denoiser, const Matte& noisy,
-                             std::span<const Layer> layers);
+                             std::span<const Layer> layers,
+                             const io::DenoiserControl& control = {});
 
 /// Returns `image`, which shows the environment, with the black `shadow` of the ground over it, by
 /// the opacity of each pixel; an empty shadow changes nothing.
@@ -166,7 +169,20 @@ struct ImageFileOptions {
     DisplayArguments display;   ///< options of files for screens
     const io::Denoiser* denoiser = nullptr;  ///< null: images are not denoised
     Denoising denoising = Denoising::image;
+    io::DenoiserControl denoise_control{};
 };
+
+/// What the denoiser makes of an image.
+struct Cleaned {
+    std::optional<Image> image{};  ///< none: it is not denoised
+    Matte matte{};
+    std::string failure{};  ///< message of automatic denoising that failed
+};
+
+/// Denoises `image`, as files have it, with the matte `noisy`, if the options say so. Throws
+/// `Error`.
+[[nodiscard]] Cleaned cleaned(const Image& image, const Matte& noisy,
+                              const ImageFileOptions& options);
 
 struct WrittenImages {
     std::size_t clamped_pixels = 0;                 ///< in an EXR file of halves

@@ -15,9 +15,11 @@
 #include <bdpt/export.h>
 #include <bdpt/image.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 namespace bdpt::io {
@@ -27,6 +29,19 @@ struct NoisyImage {
     const Image& image;             ///< radiance [nit], not clamped; any exposure
     const Layer* albedo = nullptr;  ///< albedo layer of the same size, in [0, 1]
     const Layer* normal = nullptr;  ///< normals of the same size, in [-1, 1]; require albedo
+};
+
+/// How much time a denoised image is worth.
+enum class DenoiserMode : std::uint8_t {
+    best,
+    preview,  ///< an eighth of the time: a smaller filter, and albedo and normal as they are
+};
+
+/// Control of a denoiser that works.
+struct DenoiserControl {
+    DenoiserMode mode = DenoiserMode::best;
+    /// A request ends it within a step of its filter; the image is then invalid.
+    std::stop_token stop{};
 };
 
 /// Intel Open Image Denoise 2 [Afra 2019, openimagedenoise.org], from a library that is opened at
@@ -49,7 +64,7 @@ public:
     /// Denoises `noisy` as high dynamic range. Albedo and normal are denoised first, as lenses and
     /// motion blur make them noisy. The result depends on the library and on this machine. Throws
     /// `Error`: usage if sizes differ, internal (with the library's message) if it fails.
-    [[nodiscard]] Image denoise(const NoisyImage& noisy) const;
+    [[nodiscard]] Image denoise(const NoisyImage& noisy, const DenoiserControl& control = {}) const;
 
 private:
     struct Library;

@@ -34,7 +34,7 @@ PythonScene with_scene(const PythonScene& original, Scene scene, std::string env
                       .size = stage.size,
                       .warnings = stage.warnings,
                       .notes = stage.notes,
-                      .xmp = stage.xmp,
+                      .facts = stage.facts,
                       .lights = lights,
                       .is_framed = stage.is_framed,
                       .cameras = stage.cameras,

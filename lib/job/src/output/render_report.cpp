@@ -275,7 +275,7 @@ io::ImageMetadata make_metadata(const RenderArguments& arguments, const Prepared
         metadata.frame = io::FrameNumber{.number = *arguments.sequence_view->frame,
                                          .per_second = arguments.sequence_view->fps};
     }
-    metadata.xmp = stage.xmp;
+    metadata.xmp = stage.facts.xmp;
     return metadata;
 }
 

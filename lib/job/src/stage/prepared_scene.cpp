@@ -429,7 +429,7 @@ PreparedScene prepare_scene(const RenderArguments& asked)
                         std::move(lit.notes),
                         seconds(loading_end - start),
                         seconds(building_end - loading_end),
-                        std::move(loaded.facts.xmp),
+                        std::move(loaded.facts),
                         lights,
                         !from_file.has_value(),
                         std::move(loaded.cameras),

@@ -32,7 +32,7 @@ struct PreparedScene {
     std::vector<Note> notes{};          ///< additions to a file that lacks something
     double load_seconds = 0.0;          ///< reading files
     double build_seconds = 0.0;         ///< building the scene
-    std::string xmp{};                  ///< the file's metadata about itself
+    io::GltfFacts facts{};              ///< about the whole file
     /// Lights of the file and of --env, without those added to a dark scene.
     std::size_t lights = 0;
     bool is_framed = false;                      ///< the camera is not one of the file

@@ -159,6 +159,14 @@ TEST_CASE("animations are chosen by name, by index, all, or the first")
     CHECK(shown(std::nullopt) == Vec2(2, 1));
     CHECK(warns(both.fixture.load({.time = 2.0}).warnings, {"/animations", "the first one"}));
     CHECK(both.fixture.load().facts.animation_names == std::vector<std::string>{"slide", "grow"});
+    CHECK(both.fixture.load().facts.animation_ends == std::vector<double>{0.0, 0.0});  // not stated
+    const auto input = [&](std::size_t animation) -> nlohmann::json& {
+        const auto& sampler = both.fixture.json["animations"][animation]["samplers"][0];
+        return both.fixture.json["accessors"][sampler["input"].get<std::size_t>()];
+    };
+    input(0)["max"] = {1.5};
+    input(1)["max"] = {2};
+    CHECK(both.fixture.load().facts.animation_ends == std::vector<double>{1.5, 2.0});
     const Error error = both.fixture.error({.animation = "run"});
     CHECK(error.code() == ErrorCode::not_found);
     CHECK(contains(error.what(),

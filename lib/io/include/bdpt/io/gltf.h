@@ -144,6 +144,8 @@ struct GltfFacts {
     std::optional<std::size_t> scene;        ///< index of the loaded scene; none: the file has none
     std::vector<std::string> variant_names;  ///< from KHR_materials_variants
     std::vector<std::string> animation_names;  ///< one for each animation; may be empty strings
+    /// The last time of each animation [s], as its accessors state it; 0: they do not.
+    std::vector<double> animation_ends;
     std::size_t nodes = 0;
     std::size_t meshes = 0;
     std::size_t primitives = 0;

@@ -58,6 +58,26 @@ std::string find_xmp(const Json& document)
     return {};
 }
 
+/// Returns the greatest time that the samplers of `animation` have; 0 if that is not stated.
+double find_end(const Json& document, const Json& animation)
+{
+    double end = 0.0;
+    const Json& accessors = array_at(document, Json::json_pointer("/accessors"));
+    for (const Json& sampler : array_at(animation, Json::json_pointer("/samplers"))) {
+        const auto input = sampler.is_object() ? sampler.find("input") : sampler.end();
+        if (input == sampler.end() || !input->is_number_unsigned() || !accessors.is_array() ||
+            input->get<std::uint64_t>() >= accessors.size()) {
+            continue;
+        }
+        const Json& greatest =
+            array_at(accessors[input->get<std::size_t>()], Json::json_pointer("/max"));
+        if (greatest.is_array() && !greatest.empty() && greatest[0].is_number()) {
+            end = std::max(end, greatest[0].get<double>());
+        }
+    }
+    return end;
+}
+
 }  // namespace
 
 GltfFacts collect_facts(const CheckedGltf& checked)
@@ -89,6 +109,9 @@ GltfFacts collect_facts(const CheckedGltf& checked)
     facts.scene_names = names("/scenes");
     facts.variant_names = names("/extensions/KHR_materials_variants/variants");
     facts.animation_names = names("/animations");
+    for (const Json& animation : array_at(document, Json::json_pointer("/animations"))) {
+        facts.animation_ends.push_back(find_end(document, animation));
+    }
     const auto extensions = document.find("extensions");
     if (extensions != document.end() && extensions->contains("KHR_lights_punctual")) {
         facts.lights = section_size((*extensions)["KHR_lights_punctual"], "lights");

@@ -16,8 +16,8 @@ MOST_GROWTH = 32  # [MiB]
 
 def parse_header(message):
     """Parses the header of a pixel message to a dictionary."""
-    names = ("version", "slot", "generation", "sequence", "grid_width", "grid_height", "x", "y", "width", "height", "samples", "channels")
-    return dict(zip(names, struct.unpack_from("<12I", message)))
+    names = ("version", "slot", "generation", "sequence", "grid_width", "grid_height", "x", "y", "width", "height", "samples", "channels", "denoised")
+    return dict(zip(names, struct.unpack_from("<13I", message)))
 
 
 def wait_until_finished(window):
@@ -48,7 +48,7 @@ def check_pixels(server):
             if not isinstance(message, bytes):
                 continue
             found = parse_header(message)
-            expect(found["version"] == 2 and len(message) == 48 + 2 * found["channels"] * found["width"] * found["height"]
+            expect(found["version"] == 3 and len(message) == 52 + 2 * found["channels"] * found["width"] * found["height"]
                    and found["x"] + found["width"] <= found["grid_width"] and found["y"] + found["height"] <= found["grid_height"],
                    f"an update of {found['grid_width']}x{found['grid_height']} pixels after {found['samples']} samples")
             if [found["grid_width"], found["grid_height"]] == size and found["samples"] == SAMPLES:

@@ -4,6 +4,7 @@
 Exits with 77 if Chromium or chromedriver (Debian: chromium, chromium-driver) are not installed."""
 
 import json
+import os
 import pathlib
 import shlex
 import shutil
@@ -85,6 +86,108 @@ def check_look(window):
     expect(window.picture() == picture, "automatic exposure and the first curve bring it back")
     after = window.seen()
     expect(all(after[key] == before[key] for key in ("generation", "updates")), "without a new render, and without new pixels")
+
+
+def check_view(window):
+    """Tests controls of lens, background and ground, and the reset of the lens."""
+    window.finished()
+    start = window.codes()
+    for name, value, event, key in (("fov", 30, "input", "fov"), ("aperture", 20, "input", "f_stop"), ("background", "#ffffff", "change", None),
+                                    ("ground", "shadow", "change", None)):
+        before, picture = window.seen(), window.codes()
+        window.set(name, value, event)
+        window.wait_for_generation(before["generation"])
+        window.finished()
+        expect(window.codes() != picture, f"{name} changes the picture")
+        if key:
+            expect(window.state("camera")[key], f"and the camera has {window.state('camera')[key]}")
+    camera, before = window.state("camera"), window.seen()
+    window.click(0.5, 0.6, shift=True)
+    window.wait_for_generation(before["generation"])
+    window.finished()
+    expect("--focus-distance" in window.state("command") and window.state("camera") == camera, "Shift + click focuses without turning")
+    window.set("background", "color", "change")
+    window.wait("!document.getElementById('background-color').hidden && window.bdptView.state.background.startsWith('#')")
+    window.set("background", "", "change")
+    window.set("ground", "", "change")
+    before = window.seen()
+    window.press("0")
+    window.wait_for_generation(before["generation"])
+    window.wait("window.bdptView.state.camera.f_stop === null && !window.bdptView.state.ground && !window.bdptView.state.background")
+    window.finished()
+    expect(window.codes() == start, "environment, no ground and reset bring the first picture back")
+
+
+def check_fullscreen(window):
+    window.press("m")
+    window.wait("document.fullscreenElement !== null")
+    window.drawn()
+    left, top, width, height = window.box()
+    size = window.run("return [innerWidth, innerHeight];")
+    expect(left >= -1 and top >= -1 and width <= size[0] + 1 and height <= size[1] + 1 and (width > size[0] - 2 or height > size[1] - 2),
+           f"M fills the screen {size} with the whole picture {[round(x) for x in (left, top, width, height)]}")
+    window.press("m")
+    window.wait("document.fullscreenElement === null")
+
+
+def check_file_choices(window, bdpt, folder):
+    """Tests the controls of the file's variants, animations and cameras."""
+    scene = folder / "choices.gltf"
+    write_choices(scene)
+    with Server(bdpt, scene, "--size", "48x36", "--spp", "2", "--env", "studio") as server:
+        window.show(server)
+        window.finished()
+        shown = window.run("return ['camera', 'variant', 'animation', 'time'].map((id) => !document.getElementById(id).closest('label').hidden);")
+        expect(shown == [True, True, False, True], f"the page has controls for what the file has {shown}")
+        for name, value, event in (("variant", "red", "change"), ("time", 1.5, "input"), ("camera", "auto", "change")):
+            before, picture = window.seen(), window.codes()
+            window.set(name, value, event)
+            window.wait_for_generation(before["generation"])
+            window.finished()
+            expect(window.codes() != picture, f"{name} changes the picture")
+        command = window.state("command")
+        expect(all(word in command for word in ("--variant=red", "--frame-time=1.5", "--camera=auto")), f"and the command {command[-150:]}")
+
+
+def write_choices(file):
+    """Writes a triangle that slides to the right for two seconds, with a variant and a camera."""
+    import base64
+    import struct
+    values = [0, 2, 0, 0, 0, 1, 0, 0, -1, -1, 0, 1, -1, 0, 0, 1, 0]
+    data = base64.b64encode(struct.pack(f"<{len(values)}f", *values)).decode()
+    floats = {"bufferView": 0, "componentType": 5126}
+    file.write_text(json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5], "name": "near"}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 2}, "material": 0,
+                                    "extensions": {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}}}]}],
+        "materials": [{"doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": color}} for color in ([1, 1, 1, 1], [1, 0, 0, 1])],
+        "extensionsUsed": ["KHR_materials_variants"], "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}]}},
+        "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}], "samplers": [{"input": 0, "output": 1}]}],
+        "accessors": [{**floats, "count": 2, "type": "SCALAR", "min": [0], "max": [2]}, {**floats, "byteOffset": 8, "count": 2, "type": "VEC3"},
+                      {**floats, "byteOffset": 32, "count": 3, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 4 * len(values)}],
+        "buffers": [{"byteLength": 4 * len(values), "uri": "data:application/octet-stream;base64," + data}]}), encoding="utf-8")
+
+
+def check_denoising(window, bdpt, scene):
+    """Tests the denoised preview with Open Image Denoise, where it is there."""
+    library = os.environ.get("BDPT_TEST_DENOISER")
+    if not library:
+        expect(window.run("return document.getElementById('denoise').disabled;"), "without Open Image Denoise the page denoises nothing")
+        return
+    with Server(bdpt, scene, *OPTIONS, "--denoiser-library", library) as server:
+        window.show(server)
+        window.finished()
+        expect(window.seen()["denoised"][0] and window.text("denoised") == "denoised preview", "the picture is denoised, and marked")
+        clean = window.codes()
+        window.press("d")
+        window.wait("!window.bdptView.seen.denoised[0]")
+        expect(window.text("denoised") == "" and window.codes() != clean, "D shows it as it is")
+        window.press("d")
+        window.wait("window.bdptView.seen.denoised[0]")
+        expect(window.codes() == clean, "and again denoised")
 
 
 def check_light(window):
@@ -415,10 +518,12 @@ def main():
             check_loading(window, server)
             check_reset(window)
             check_look(window)
+            check_view(window)
             check_inspecting(window)
             job, picture = check_equality(window, bdpt, folder)
             check_camera(window)
             check_light(window)
+            check_fullscreen(window)
             check_pair(window)
             check_layers(window)
             check_pause(window)
@@ -432,6 +537,8 @@ def main():
             check_job(window, bdpt, job, picture)
             check_rates(window, bdpt, scene)
             check_background(window, bdpt, scene)
+            check_file_choices(window, bdpt, folder)
+            check_denoising(window, bdpt, scene)
             check_memory(window, bdpt, scene)
 
 

@@ -235,7 +235,9 @@ def check_socket(server):
              {"set": {"environment": "/etc/passwd"}}, {"set": {"environment": "../../secret.exr"}}, {"set": {"rotation": "x"}},
              {"set": {"rotation": 1e300}}, {"set": {"intensity": -1}}, {"set": {"intensity": 1e300}}, {"set": {"exposure": "bright"}},
              {"set": {"exposure": 1e300}}, {"set": {"curve": "sepia"}}, {"set": {"paused": 3}}, {"set": {"layer": "secret"}},
-             {"set": {"strategy": [99, 99]}}, {"set": {"strategy": "x"}}, {"set": {"unknown": 1}}]
+             {"set": {"camera": "../x"}}, {"set": {"variant": "/etc/passwd"}}, {"set": {"animation": 3}}, {"set": {"time": 1e300}},
+             {"set": {"fov": 0}}, {"set": {"f_stop": -1}}, {"set": {"background": "/etc/passwd"}}, {"set": {"background": "../secret.png"}},
+             {"set": {"ground": "shadow"}}, {"set": {"denoise": 3}}, {"focus": [1, 1], "turn": "no"}, {"set": {"strategy": [99, 99]}}, {"set": {"strategy": "x"}}, {"set": {"unknown": 1}}]
     with WebSocket(server) as window:
         before = window.state()
         for request in wrong:
@@ -244,7 +246,8 @@ def check_socket(server):
                    f"{json.dumps(request)[:80]}: {answer.get('error')}")
     with WebSocket(server) as window:
         after = window.state()
-        kept = ("camera", "integrator_a", "integrator_b", "environment", "rotation", "intensity", "curve", "layer", "paused")
+        kept = ("camera", "integrator_a", "integrator_b", "environment", "rotation", "intensity", "curve", "layer", "paused", "background", "ground",
+                "variant", "animation", "time")
         expect(all(before[key] == after[key] for key in kept), "none of them changed anything")
     check_frames(server)
 

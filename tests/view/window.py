@@ -7,6 +7,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "apps" / "t
 from webdriver import Browser, missing  # noqa: E402, F401
 
 LEFT, MIDDLE = 0, 1
+SHIFT = "\ue008"
 STAGE = "document.querySelector('.stage')"
 
 
@@ -80,9 +81,16 @@ class Window(Browser):
         self.pointer([self.move(a), {"type": "pointerDown", "button": button}, *[self.move(place, 15) for place in between],
                       {"type": "pointerUp", "button": button}])
 
-    def click(self, x, y, times=1):
+    def click(self, x, y, times=1, shift=False):
         once = [{"type": "pointerDown", "button": LEFT}, {"type": "pointerUp", "button": LEFT}]
-        self.pointer([self.move(self.place(x, y)), *once * times])
+        mouse = [self.move(self.place(x, y)), *once * times]
+        if not shift:
+            self.pointer(mouse)
+            return
+        pause = {"type": "pause", "duration": 0}
+        keys = [{"type": "keyDown", "value": SHIFT}, *[pause] * len(mouse), {"type": "keyUp", "value": SHIFT}]
+        self.call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": keys},
+                                                   {"type": "pointer", "id": "mouse", "actions": [pause, *mouse, pause]}]})
 
     def wheel(self, x, y, delta):
         left, top = self.place(x, y)

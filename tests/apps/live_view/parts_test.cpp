@@ -97,10 +97,11 @@ TEST_CASE("a frame tells each page which of its requests it shows", "[live_view]
                 .y = 4,
                 .width = 5,
                 .height = 6,
-                .samples = 258};
+                .samples = 258,
+                .denoised = 1};
     frame.sequences = {{11, 99}};
     const FrameHeader header = frame_header(frame, 11);
-    const std::vector<std::uint32_t> expected{2, 1, 7, 99, 40, 30, 3, 4, 5, 6, 258, 3};
+    const std::vector<std::uint32_t> expected{3, 1, 7, 99, 40, 30, 3, 4, 5, 6, 258, 3, 1};
     for (std::size_t i = 0; i < expected.size(); ++i) {
         CHECK(number_at(header, i) == expected[i]);
     }
@@ -263,14 +264,29 @@ TEST_CASE("requests of pages are checked", "[live_view]")
     CHECK(message_of("") == "a request must be a JSON object");
     CHECK(message_of("[1]") == "a request must be a JSON object");
     CHECK(message_of(R"({"sew": 1})") == "\"sew\": is not a request");
-    for (const char* wrong :
-         {R"({"seq": -1})", R"({"seq": 4294967296})", R"({"move": 3})",
-          R"({"move": {"orbit": [1]}})", R"({"move": {"orbit": [1, "2"]}})",
-          R"({"move": {"dolly": 0}})", R"({"move": {"dolly": 1e300}})", R"({"focus": [1.5, 2]})",
-          R"({"focus": [1, -2]})", R"({"reset": 1})", R"({"set": {"layer": "depth"}})",
-          R"({"set": {"paused": "no"}})", R"({"set": {"intensity": -1}})",
-          R"({"set": {"exposure": "bright"}})", R"({"set": {"environment": 3}})",
-          R"({"set": {"size": 3}})", R"({"inspect": [1, 2], "sample": -1})"}) {
+    for (const char* wrong : {R"({"seq": -1})",
+                              R"({"seq": 4294967296})",
+                              R"({"move": 3})",
+                              R"({"move": {"orbit": [1]}})",
+                              R"({"move": {"orbit": [1, "2"]}})",
+                              R"({"move": {"dolly": 0}})",
+                              R"({"move": {"dolly": 1e300}})",
+                              R"({"focus": [1.5, 2]})",
+                              R"({"focus": [1, -2]})",
+                              R"({"reset": 1})",
+                              R"({"set": {"layer": "depth"}})",
+                              R"({"set": {"paused": "no"}})",
+                              R"({"set": {"intensity": -1}})",
+                              R"({"set": {"exposure": "bright"}})",
+                              R"({"set": {"environment": 3}})",
+                              R"({"set": {"size": 3}})",
+                              R"({"set": {"fov": 180}})",
+                              R"({"set": {"f_stop": 0}})",
+                              R"({"set": {"ground": "shadow"}})",
+                              R"({"set": {"time": "1"}})",
+                              R"({"set": {"denoise": 1}})",
+                              R"({"focus": [1, 2], "turn": 1})",
+                              R"({"inspect": [1, 2], "sample": -1})"}) {
         CAPTURE(wrong);
         CHECK_FALSE(message_of(wrong).empty());
     }

@@ -269,6 +269,156 @@ TEST_CASE("the command and the job of the final render end as asked, not where t
     CHECK_FALSE(has(state, "--spp"));
     CHECK_FALSE(job(viewing).contains("spp"));
     CHECK(state.at("command").get<std::string>().find("--samples=0:") != std::string::npos);
+    CHECK(same_pixels(viewing.saved("save.exr"), viewing.rendered(state, "command.exr")));
+}
+
+TEST_CASE("pages see denoised pictures, and files are as the command writes them", "[live_view]")
+{
+    for (const Words& more : {Words{}, Words{"--background=white", "--ground=shadow"}}) {
+        Words words{"--spp=4", "--integrator=mis", "--denoiser-library=" BDPT_FAKE_OIDN};
+        words.insert(words.end(), more.begin(), more.end());
+        Viewing viewing(words);
+        const json state = viewing.finished();
+        CHECK(state.at("denoise") == true);
+        const auto denoised = viewing.listener().frames().back();
+        CHECK(denoised->denoised == 1);
+        CHECK(denoised->samples == 4);
+        CHECK(denoised->channels == (more.empty() ? 3 : 5));
+        CHECK(same_pixels(viewing.saved("save.exr"), viewing.rendered(state, "command.exr")));
+        CHECK(same_pixels(viewing.saved("save.png"), viewing.rendered(state, "command.png")));
+        CHECK_FALSE(viewing.ask({{"set", {{"denoise", false}}}}).contains("error"));
+        const auto noisy = viewing.listener().frames().back();
+        CHECK(noisy->denoised == 0);
+        CHECK(noisy->pixels != denoised->pixels);
+        // Without samples for a new one, the last denoised picture comes back.
+        CHECK_FALSE(viewing.ask({{"set", {{"denoise", true}}}}).contains("error"));
+        CHECK(viewing.listener().frames().back()->pixels == denoised->pixels);
+        // A denoised picture of another view is never shown.
+        static_cast<void>(viewing.ask({{"move", {{"orbit", {0.3, 0.0}}, {"dolly", 1.0}}}}));
+        static_cast<void>(viewing.finished({"--from="}));
+        CHECK(viewing.listener().frames().back()->denoised == 1);
+        CHECK(viewing.listener().frames().back()->generation > denoised->generation);
+    }
+    Viewing without({"--spp=2", "--denoise=false", "--denoiser-library=" BDPT_FAKE_OIDN});
+    CHECK(without.finished().at("denoise").is_null());
+    CHECK(without.ask({{"set", {{"denoise", true}}}}).contains("error"));
+}
+
+TEST_CASE("pages choose lens, field of view, background and ground", "[live_view]")
+{
+    Viewing viewing({"--spp=2"});
+    const json before = viewing.finished();
+    CHECK(viewing.ask({{"focus", {24, 12}}, {"turn", false}}).contains("error"));  // a pinhole
+    CHECK_FALSE(
+        viewing
+            .ask({{"set",
+                   {{"fov", 30}, {"f_stop", 0.25}, {"background", "white"}, {"ground", true}}}})
+            .contains("error"));
+    CHECK_FALSE(viewing.ask({{"focus", {30, 12}}, {"turn", false}}).contains("error"));
+    json state = viewing.finished({"--fov=30", "--f-stop=0.25", "--background=white",
+                                   "--ground=shadow", "--focus-distance=4"});
+    CHECK(state.at("camera").at("fov").get<double>() == Approx(30.0));
+    CHECK(state.at("camera").at("f_stop").get<double>() == Approx(0.25));
+    CHECK(state.at("camera").at("from") == before.at("camera").at("from"));
+    CHECK(state.at("command").get<std::string>().find("--look-at") == std::string::npos);
+    CHECK(state.at("background") == "#ffffff");
+    CHECK(state.at("ground") == true);
+    CHECK(same_pixels(viewing.saved("save.exr"), viewing.rendered(state, "command.exr")));
+    CHECK_FALSE(
+        viewing.ask({{"set", {{"f_stop", nullptr}, {"ground", false}, {"background", nullptr}}}})
+            .contains("error"));
+    CHECK_FALSE(viewing.ask({{"set", {{"camera", "side"}}}}).contains("error"));
+    state = viewing.finished({"--camera=side"});
+    CHECK(state.at("camera").at("choice") == "side");
+    CHECK(state.at("cameras") == json::parse(R"([["front", "front"], ["side", "side"]])"));
+    for (const char* word : {"--f-stop", "--focus", "--ground", "--background", "--fov"}) {
+        CAPTURE(word);
+        CHECK(state.at("command").get<std::string>().find(word) == std::string::npos);
+    }
+    CHECK(same_pixels(viewing.saved("save.exr"), viewing.rendered(state, "command.exr")));
+    for (const json& wrong : {json{{"camera", "top"}}, json{{"background", "/etc/passwd.png"}},
+                              json{{"variant", "night"}}, json{{"animation", "run"}}}) {
+        CAPTURE(wrong.dump());
+        CHECK(viewing.ask({{"set", wrong}}).contains("error"));
+    }
+}
+
+TEST_CASE("a field of view from a framed camera keeps its place", "[live_view]")
+{
+    Viewing viewing({"--spp=2"}, "");
+    const json before = viewing.finished();
+    CHECK(before.at("camera").at("choice") == "auto");
+    CHECK_FALSE(viewing.ask({{"set", {{"fov", 20}}}}).contains("error"));
+    const json state = viewing.finished({"--fov=20"});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        CHECK(state.at("camera").at("from").at(axis).get<double>() ==
+              Approx(before.at("camera").at("from").at(axis).get<double>()).margin(1e-4));
+    }
+    CHECK(same_pixels(viewing.saved("save.exr"), viewing.rendered(state, "command.exr")));
+}
+
+/// Gives the cube of `file` two variants, and an animation that takes two seconds.
+void animate(const fs::path& file)
+{
+    json scene = json::parse(text_of(file));
+    const std::size_t cube = scene["nodes"].size() - 1;
+    const std::size_t accessor = scene["accessors"].size();
+    scene["extensionsUsed"] = {"KHR_materials_variants"};
+    scene["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "day"}},
+                                                                 {{"name", "night"}}};
+    scene["materials"].push_back({{"emissiveFactor", {1, 1, 1}}});
+    scene["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = {
+        {{"material", 1}, {"variants", {1}}}};
+    // Little-endian floats: 0, 2; 0, 0, 0, 1, 0, 0.
+    scene["buffers"].push_back(
+        {{"byteLength", 32},
+         {"uri",
+          "data:application/octet-stream;base64,AAAAAAAAAEAAAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAA="}});
+    scene["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 32}});
+    scene["accessors"].push_back({{"bufferView", 2},
+                                  {"componentType", 5126},
+                                  {"count", 2},
+                                  {"type", "SCALAR"},
+                                  {"min", {0}},
+                                  {"max", {2}}});
+    scene["accessors"].push_back({{"bufferView", 2},
+                                  {"byteOffset", 8},
+                                  {"componentType", 5126},
+                                  {"count", 2},
+                                  {"type", "VEC3"}});
+    scene["animations"] = {
+        {{"name", "slide"},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", cube}, {"path", "translation"}}}}}},
+         {"samplers", {{{"input", accessor}, {"output", accessor + 1}}}}}};
+    write_text(file, scene.dump());
+}
+
+TEST_CASE("pages choose a variant and the time of an animation", "[live_view]")
+{
+    Viewing viewing({"--spp=2"}, two_cameras, animate);
+    json state = viewing.finished();
+    CHECK(state.at("variants") == json::parse(R"([["day", "day"], ["night", "night"]])"));
+    CHECK(state.at("animations") == json::array({{"slide", "slide"}}));
+    CHECK(state.at("animation_ends") == json::array({2.0}));
+    CHECK(state.at("time").is_null());
+    const fs::path at_rest = viewing.path("at_rest.exr");
+    fs::rename(viewing.saved("save.exr"), at_rest);
+    for (const json& wish : {json{{"variant", "night"}}, json{{"time", 1.5}}}) {
+        CAPTURE(wish.dump());
+        CHECK_FALSE(viewing.ask({{"set", wish}}).contains("error"));
+        state = viewing.finished({wish.contains("time") ? "--frame-time=1.5" : "--variant=night"});
+        CHECK_FALSE(same_pixels(viewing.saved("save.exr"), at_rest));
+        CHECK(same_pixels(viewing.saved("save.exr"), viewing.rendered(state, "command.exr")));
+    }
+    CHECK(state.at("variant") == "night");
+    CHECK(state.at("time") == 1.5);
+    CHECK_FALSE(
+        viewing.ask({{"set", {{"variant", nullptr}, {"time", nullptr}}}}).contains("error"));
+    static_cast<void>(viewing.listener().state([](const json& now) {
+        return now.at("command").dump().find("time") == std::string::npos;
+    }));
+    static_cast<void>(viewing.finished());
+    CHECK(same_pixels(viewing.saved("save.exr"), at_rest));
 }
 
 TEST_CASE("two integrators have the same view and samples of their own", "[live_view]")

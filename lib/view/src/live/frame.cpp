@@ -123,7 +123,7 @@ std::uint16_t to_half(float value)
 
 FrameHeader frame_header(const Frame& frame, ClientId client)
 {
-    constexpr std::uint32_t version = 2;
+    constexpr std::uint32_t version = 3;
     const auto seen = frame.sequences.find(client);
     const std::array<std::uint32_t, frame_header_bytes / 4> numbers{
         version,          frame.slot,
@@ -131,7 +131,8 @@ FrameHeader frame_header(const Frame& frame, ClientId client)
         frame.grid_width, frame.grid_height,
         frame.x,          frame.y,
         frame.width,      frame.height,
-        frame.samples,    frame.channels};
+        frame.samples,    frame.channels,
+        frame.denoised};
     FrameHeader bytes{};
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         bytes[i] = static_cast<std::uint8_t>(numbers[i / 4] >> (8 * (i % 4)));

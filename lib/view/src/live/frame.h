@@ -30,16 +30,17 @@ struct Frame {
     std::uint32_t height = 0;
     std::uint32_t samples = 0;
     std::uint32_t channels = 3;          ///< 3: RGB; 5: RGB, covered and background fraction
+    std::uint32_t denoised = 0;          ///< 1: denoised for the page
     std::vector<std::uint8_t> pixels{};  ///< halves, little-endian
     /// Last request of each page that the picture reflects.
     std::map<ClientId, std::uint32_t> sequences{};
 };
 
 /// Bytes before the pixels.
-inline constexpr std::size_t frame_header_bytes = 48;
+inline constexpr std::size_t frame_header_bytes = 52;
 using FrameHeader = std::array<std::uint8_t, frame_header_bytes>;
 
-/// Returns the header before the pixels for `client`: 12 numbers of 32 bits, little-endian.
+/// Returns the header before the pixels for `client`: 13 numbers of 32 bits, little-endian.
 [[nodiscard]] FrameHeader frame_header(const Frame& frame, ClientId client);
 
 /// Coverage of a background by the pixels of an image; empty if there is none.

@@ -117,6 +117,18 @@ bool LiveRender::advance(const PassStops& stops)
     return true;
 }
 
+RenderArguments with_guides(RenderArguments arguments, const PreparedScene& stage)
+{
+    io::MemoryBudget memory = stage.memory;  // a copy: renders of the view replace each other
+    if (const std::optional<std::vector<Aov>> guides = spend_guides(memory, arguments)) {
+        arguments.guides = *guides;
+        for (const Aov guide : *guides) {
+            arguments.options.film.aovs.insert(guide);
+        }
+    }
+    return arguments;
+}
+
 Matte shown_matte(const RenderArguments& arguments, const RenderResult& part)
 {
     return arguments.display.backdrop ? find_matte(part.aovs.develop(part.film)) : Matte{};
@@ -183,12 +195,13 @@ Download saved_image(const LiveRender& render, const PreparedScene& stage,
     const std::array files{folder.file(fmt::format("image{}", extension))};
     const std::optional<io::Denoiser> denoiser =
         open_denoiser(arguments.denoise, files, arguments.options.system.threads);
-    Attempts attempts;
-    static_cast<void>(write_image_files(
-        files, render.renderer().image(),
+    ImageFileOptions options =
         image_file_options(render.renderer().result(), metadata(render, stage), arguments.exr,
-                           arguments.display, denoiser ? &*denoiser : nullptr, arguments.denoise),
-        attempts));
+                           arguments.display, denoiser ? &*denoiser : nullptr, arguments.denoise);
+    options.guides = arguments.guides;
+    Attempts attempts;
+    static_cast<void>(
+        write_image_files(files, render.renderer().image(), std::move(options), attempts));
     attempts.finish();
     std::ifstream file(files.front(), std::ios::binary);
     return {.type = extension == ".png" ? "image/png" : "image/x-exr",

@@ -86,6 +86,10 @@ private:
     double seconds_a_sample_ = 0.0;
 };
 
+/// Returns `arguments` with the layers that guide the denoiser, as `bdpt render` adds them for
+/// files for screens, if memory suffices.
+[[nodiscard]] RenderArguments with_guides(RenderArguments arguments, const PreparedScene& stage);
+
 /// Returns the opacity towards the background that `arguments` request, by the films of `part`;
 /// empty without one.
 [[nodiscard]] Matte shown_matte(const RenderArguments& arguments, const RenderResult& part);

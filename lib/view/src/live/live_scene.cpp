@@ -85,6 +85,19 @@ void SceneWatch::run(const std::stop_token& finished)
     }
 }
 
+namespace {
+
+std::vector<std::string> choice_of_file(const ViewWords& words)
+{
+    std::vector<std::string> texts;
+    for (const char* option : {"--env", "--variant", "--animation", "--frame-time"}) {
+        texts.push_back(words.text(option));
+    }
+    return texts;
+}
+
+}  // namespace
+
 void LiveScene::load(const ViewWords& words)
 {
     const RenderArguments asked = words.arguments();
@@ -96,20 +109,25 @@ void LiveScene::load(const ViewWords& words)
     }
     RenderArguments as_in_file = asked;
     as_in_file.environment_change = {};
+    as_in_file.scene.images = images_;
     PreparedScene loaded = prepare_within_memory(as_in_file, console_);
     console_.end_progress();
     let_go_();
     still_.reset();
     stage_.emplace(std::move(loaded));
     environment_change_ = {};
-    environment_ = words.text("--env");
+    loaded_ = choice_of_file(words);
     arguments_ = asked;
     change_environment(asked.environment_change);
 }
 
 void LiveScene::show(const ViewWords& words)
 {
-    if (words.text("--env") != environment_ || !stage_) {
+    if (!stage_ || choice_of_file(words) != loaded_) {
+        const bool has_room = stage_ && stage_->memory.spent() < stage_->memory.limit().bytes / 4;
+        if (!images_ && has_room) {  // the user may try one moment after another
+            images_ = std::make_shared<io::ImageCache>(image_cache_bytes(words.arguments()));
+        }
         load(words);
         return;
     }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -101,7 +102,8 @@ private:
     std::optional<PreparedScene> stage_;
     std::optional<Scene> still_;  ///< without `environment_change_`, if that changes anything
     EnvironmentChange environment_change_{};
-    std::string environment_;  ///< as loaded, in the form of --env
+    std::vector<std::string> loaded_;         ///< texts of the options that choose what to load
+    std::shared_ptr<io::ImageCache> images_;  ///< of scenes that are loaded at other times
 };
 
 }  // namespace bdpt::view

@@ -38,10 +38,10 @@ function sum(a, b) {
 }
 
 /**
- * Binds drags, the wheel and double clicks on the stage. Clicks without a drag call `click(pixel)`, double clicks
- * `focus(pixel)`.
+ * Binds drags, the wheel and double clicks on the stage. Clicks without a drag call `click(pixel)`, with the Shift key
+ * `sharpen(pixel)`, double clicks `focus(pixel)`.
  */
-function bindPointer(stage, moves, { click, focus }) {
+function bindPointer(stage, moves, { click, sharpen, focus }) {
   const canvas = stage.canvas;
   const nearby = 4;  // [CSS pixels] a press that moves less far is a click
   let drag = null;
@@ -73,10 +73,10 @@ function bindPointer(stage, moves, { click, focus }) {
   });
   canvas.addEventListener("pointerup", (event) => {
     canvas.classList.remove("dragged");
-    const pixel = drag && !drag.far && event.button === 0 && !event.shiftKey ? stage.pixel(event) : null;
+    const pixel = drag && !drag.far && event.button === 0 ? stage.pixel(event) : null;
     drag = null;
     if (pixel) {
-      click(pixel);
+      (event.shiftKey ? sharpen : click)(pixel);
     }
   });
   canvas.addEventListener("pointercancel", () => {

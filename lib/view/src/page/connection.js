@@ -61,11 +61,11 @@ class Connection {
   }
 
   receiveTile(buffer) {
-    const [version, slot, generation, sequence, gridWidth, gridHeight, x, y, width, height, samples, channels] =
-      new Uint32Array(buffer, 0, 12);
-    if (version === 2) {
+    const [version, slot, generation, sequence, gridWidth, gridHeight, x, y, width, height, samples, channels, denoised] =
+      new Uint32Array(buffer, 0, 13);
+    if (version === 3) {
       this.on.tile({ slot, generation, sequence, grid: { width: gridWidth, height: gridHeight }, tile: { x, y, width, height },
-        samples, channels }, new Uint16Array(buffer, 48));
+        samples, channels, denoised: denoised === 1 }, new Uint16Array(buffer, 52));
     }
   }
 

@@ -9,9 +9,9 @@ let state = null;
 const look = { exposure: 0, automatic: true, curve: "filmic" };
 /**
  * Holds the state that tests and benchmarks read: sequence number and generation of A's picture, width of its grid,
- * samples of A and B, and the number of updates.
+ * samples of A and B and whether they are denoised, and the number of updates.
  */
-const seen = { sequence: 0, generation: 0, updates: 0, grid: 0, samples: [0, 0] };
+const seen = { sequence: 0, generation: 0, updates: 0, grid: 0, samples: [0, 0], denoised: [false, false] };
 
 const connection = new Connection(location.pathname, {
   state: takeState,
@@ -119,12 +119,14 @@ function takeState(next) {
   panel.show(next);
 }
 
-function takeTile({ slot, generation, sequence, grid, tile, samples, channels }, halves) {
+function takeTile({ slot, generation, sequence, grid, tile, samples, channels, denoised }, halves) {
   if (slot === 0 && generation !== seen.generation && inspector.sample) {
     inspector.clear();
   }
   stage.put(slot, grid, tile, halves, channels);
   seen.samples[slot] = samples;
+  seen.denoised[slot] = denoised;
+  byId("denoised").hidden = !(seen.denoised[0] || (stage.pair && seen.denoised[1]));
   seen.updates += 1;
   if (slot === 0) {
     Object.assign(seen, { sequence, generation, grid: grid.width });
@@ -187,6 +189,17 @@ function setExposure(value) {
 const moves = new Moves((move) => ask({ move }));
 const panel = new Panel(change, changeLook);
 
+function toggleDenoising() {
+  if (state && state.denoise !== null) {
+    change({ denoise: !state.denoise });
+  }
+}
+
+function toggleFullscreen() {
+  const change = document.fullscreenElement ? document.exitFullscreen() : byId("screen").requestFullscreen();
+  change.catch((error) => announce(error.message));
+}
+
 function resetView() {
   stage.view.reset();
   stage.requestDraw();
@@ -208,6 +221,7 @@ const KEYS = [
   ["Wheel, Page Up, Page Down", "dolly in and out"],
   ["Double click", "set the target and the focus here"],
   ["Click", "inspect the pixel"],
+  ["Shift + click", "focus here without turning the camera"],
   ["Ctrl + wheel", "magnify the pixels"],
   ["I", "inspect the pixel in the middle", ["i"], () => state && inspect(state.size.map((x) => Math.floor(x / 2)))],
   ["F", "focus on the middle", ["f"], () => state && ask({ focus: state.size.map((x) => Math.floor(x / 2)) }).catch(() => {})],
@@ -220,6 +234,8 @@ const KEYS = [
     const names = Object.keys(CURVES);
     changeLook({ curve: names[(names.indexOf(look.curve) + 1) % names.length] });
   }],
+  ["D", "denoised preview", ["d"], toggleDenoising],
+  ["M", "fullscreen", ["m"], toggleFullscreen],
   ["1 to 4", "layers"],
   ["Space", "pause and continue", [" "], () => state && change({ paused: !state.paused })],
   ["0", "reset the camera", ["0"], resetView],
@@ -256,6 +272,8 @@ function bindKeys() {
 function bindButtons() {
   byId("pause").addEventListener("click", () => state && change({ paused: !state.paused }));
   byId("reset").addEventListener("click", resetView);
+  byId("fullscreen").addEventListener("click", toggleFullscreen);
+  byId("denoise").addEventListener("click", toggleDenoising);
   byId("help").addEventListener("click", () => byId("keys").showModal());
   byId("exposure-auto").addEventListener("click", automaticExposure);
   byId("save-png").addEventListener("click", save.png);
@@ -267,7 +285,11 @@ function bindButtons() {
 
 byId("stage-box").prepend(stage.canvas);
 stage.drawn = () => inspector.draw();
-bindPointer(stage, moves, { click: (pixel) => inspect(pixel), focus: (pixel) => ask({ focus: pixel }).catch(() => {}) });
+bindPointer(stage, moves, {
+  click: (pixel) => inspect(pixel),
+  sharpen: (pixel) => ask({ focus: pixel, turn: false }).catch(() => {}),
+  focus: (pixel) => ask({ focus: pixel }).catch(() => {}),
+});
 bindWiper(stage);
 bindButtons();
 bindKeys();

@@ -10,6 +10,16 @@ class Panel {
     this.look = look;
     this.bindSelect("curve", (value) => look({ curve: value }));
     byId("curve").append(...Object.entries(CURVES).map(([value, { name }]) => html("option", { value }, name)));
+    this.bindSelect("camera", (value) => change({ camera: value }));
+    this.bindSelect("variant", (value) => change({ variant: value || null }));
+    this.bindSelect("animation", (value) => change({ animation: value || null }));
+    this.bindSelect("ground", (value) => change({ ground: value === "shadow" }));
+    this.bindSelect("background", (value) => change({ background: value === "color" ? byId("background-color").value : value || null }));
+    byId("background-color").addEventListener("input", (event) => change({ background: event.target.value }));
+    this.fov = this.bindSlider("fov", (value) => `${digits(value)}°`, (value) => change({ fov: value }));
+    this.aperture = this.bindSlider("aperture", (value) => (value ? `f/${digits(toFStop(value), 2)}` : "all sharp"),
+      (value) => change({ f_stop: value ? toFStop(value) : null }));
+    this.time = this.bindSlider("time", (value) => `${digits(value)} s`, (value) => change({ time: value }));
     this.bindSelect("integrator-a", (value) => change({ integrator_a: value }));
     this.bindSelect("integrator-b", (value) => change({ integrator_b: value || null }));
     this.bindSelect("environment", (value) => change({ environment: value }));
@@ -53,6 +63,12 @@ class Panel {
     byId("strategy-box").hidden = state.layer !== "strategy";
     this.rotation.set(state.rotation);
     this.intensity.set(Math.log2(state.intensity));
+    this.showFile(state);
+    this.showCamera(state.camera);
+    this.showBackground(state);
+    byId("denoise").disabled = state.denoise === null;
+    byId("denoise").title = state.denoise === null ? "Needs Open Image Denoise" : "In this page only";
+    byId("denoise").setAttribute("aria-pressed", String(Boolean(state.denoise)));
     this.showLayers(state);
     const pause = byId("pause");
     pause.textContent = state.paused ? "Continue" : "Pause";
@@ -77,6 +93,50 @@ class Panel {
     }
   }
 
+  /** Shows what the file has to choose from. */
+  showFile(state) {
+    const { cameras, variants, animations } = state;
+    fillOptions("camera", [...cameras, ["auto", "whole scene"]], state.camera.choice);
+    fillOptions("variant", [["", "as in the meshes"], ...variants], state.variant || "");
+    const isSingle = animations.length === 1;
+    fillOptions("animation", [["", isSingle ? animations[0][1] : "first"], ...(isSingle ? [] : [...animations, ["all", "all"]])],
+      state.animation || "");
+    setShown("camera", cameras.length > 0);
+    setShown("variant", variants.length > 0);
+    setShown("animation", animations.length > 1);
+    setShown("time", animations.length > 0);
+    byId("file-box").hidden = variants.length + animations.length === 0;
+    const chosen = animations.findIndex(([value]) => value === state.animation);
+    const end = state.animation === "all" ? Math.max(...state.animation_ends) : state.animation_ends[Math.max(chosen, 0)];
+    const slider = byId("time");
+    slider.max = end || 10;
+    slider.step = 10 ** Math.floor(Math.log10(slider.max / 50));
+    this.time.set(state.time || 0);
+  }
+
+  showCamera(camera) {
+    byId("fov").disabled = camera.fov === null;
+    byId("aperture").disabled = camera.fov === null;
+    this.fov.set(camera.fov || 0);
+    this.aperture.set(camera.f_stop ? Math.min(Math.max(Math.round(fromFStop(camera.f_stop)), 1), 36) : 0);
+  }
+
+  showBackground(state) {
+    const names = { "": "environment", transparent: "transparent", "#ffffff": "white", "#000000": "black" };
+    const value = state.background || "";
+    const isColor = value.startsWith("#") && !(value in names);
+    if (value && !value.startsWith("#") && !(value in names)) {
+      this.photo = value;  // of the command line
+    }
+    fillOptions("background", [...Object.entries(names), ...(this.photo ? [[this.photo, this.photo]] : []), ["color", "colour"]],
+      isColor ? "color" : value);
+    byId("background-color").hidden = !isColor;
+    if (isColor && document.activeElement !== byId("background-color")) {
+      byId("background-color").value = value;
+    }
+    fillOptions("ground", [["", "none"], ["shadow", "shadow"]], state.ground ? "shadow" : "");
+  }
+
   showLayers(state) {
     const names = state.layers;
     const box = byId("layers");
@@ -93,6 +153,20 @@ class Panel {
 }
 
 const LAYERS = { picture: "Picture", strategy: "Strategy", noise: "Noise", rates: "Rates" };
+
+/** Converts positions of the slider of the aperture to f-numbers, from f/38 to f/0.09. */
+function toFStop(position) {
+  return Number((2 ** (5.5 - position / 4)).toPrecision(2));
+}
+
+function fromFStop(number) {
+  return 4 * (5.5 - Math.log2(number));
+}
+
+/** Shows or hides a control with its label. */
+function setShown(id, isShown) {
+  byId(id).closest("label").hidden = !isShown;
+}
 
 function fillOptions(id, options, value) {
   const select = byId(id);

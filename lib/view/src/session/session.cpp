@@ -48,7 +48,11 @@ Session::Session(const ViewWords& words, Audience& audience, Console& console)
       edits_(words),
       shown_words_(words),
       scene_(console, [this] { drop_renders(); }),
-      watch_([this] { mailbox_.post([this] { files_changed_ = true; }, Urgency::soon); })
+      watch_([this] { mailbox_.post([this] { files_changed_ = true; }, Urgency::soon); }),
+      denoiser_(open_preview_denoiser(
+          words.arguments(), [this](std::shared_ptr<const DenoisedPicture> picture) {
+              mailbox_.post([this, picture] { take_denoised(picture); }, Urgency::soon);
+          }))
 {}
 
 void Session::run()
@@ -188,6 +192,9 @@ void Session::check(const ViewSettings& settings) const
         words.set("--integrator", *settings.integrator_b);
         static_cast<void>(words.arguments());  // throws
     }
+    if (settings.denoises.value_or(false) && !denoiser_) {
+        throw Error(ErrorCode::usage, "\"denoise\": there is no Open Image Denoise");
+    }
     if (settings.layer == ViewLayer::rates && !scene_.arguments().rates) {
         throw Error(ErrorCode::usage, "\"layer\": rates of samples need --adaptive or --rates");
     }
@@ -203,23 +210,26 @@ void Session::check(const ViewSettings& settings) const
 void Session::change_settings(const ViewSettings& settings)
 {
     check(settings);
-    edits_.change(settings.options);
+    edits_.change(settings.options, scene_);
     static_cast<void>(edits_.words().arguments());  // throws, before anything else is changed
     if (settings.integrator_b && *settings.integrator_b != integrator_b_) {
-        renders_[1].reset();
+        drop_render(1);
         integrator_b_ = *settings.integrator_b;
     }
     if (settings.paused) {
         is_paused_ = *settings.paused;
     }
     const bool changes_layer = (settings.layer && *settings.layer != layer_) ||
-                               (settings.strategy && *settings.strategy != strategy_);
+                               (settings.strategy && *settings.strategy != strategy_) ||
+                               (settings.denoises && *settings.denoises != denoises_);
+    denoises_ = settings.denoises.value_or(denoises_);
     layer_ = settings.layer.value_or(layer_);
     strategy_ = settings.strategy.value_or(strategy_);
     if (changes_layer) {
         tell(true);
         show_all();
     }
+    denoise_if_due();
 }
 
 std::string Session::inspected(const PixelSample& pixel)
@@ -318,11 +328,19 @@ void Session::restart()
 
 void Session::drop_renders()
 {
-    for (std::optional<LiveRender>& render : renders_) {
-        render.reset();
-    }
+    drop_render(0);
+    drop_render(1);
     strategies_.reset();
     shown_samples_ = {};
+}
+
+void Session::drop_render(std::size_t slot)
+{
+    if (denoiser_) {
+        denoiser_->cancel();
+    }
+    denoised_.at(slot).reset();
+    renders_.at(slot).reset();
 }
 
 bool Session::step()
@@ -388,8 +406,12 @@ bool Session::advance(std::optional<LiveRender>& render, std::size_t slot)
         if (generation_ > 1 && mailbox_.wait_for(rest)) {
             return true;
         }
+        RenderArguments asked = words_of_slot(slot).arguments();
+        if (denoiser_) {
+            asked = with_guides(std::move(asked), scene_.stage());
+        }
         RenderArguments arguments =
-            with_choice(words_of_slot(slot).arguments(), scene_.stage(), quiet_, stops.now);
+            with_choice(std::move(asked), scene_.stage(), quiet_, stops.now);
         if (stops.now.stop_requested()) {
             return true;
         }
@@ -397,7 +419,10 @@ bool Session::advance(std::optional<LiveRender>& render, std::size_t slot)
     }
     // If stopped at once, the picture is obsolete.
     if (render->advance(stops) && !stops.now.stop_requested()) {
-        show(slot);
+        if (!shows_denoised(slot)) {  // between denoised pictures a noisy one would flicker
+            show(slot);
+        }
+        denoise_if_due();
         tell(true);
     }
     return true;

@@ -13,6 +13,7 @@
 #include "live/frame.h"
 #include "live/live_render.h"
 #include "live/live_scene.h"
+#include "live/preview_denoiser.h"
 #include "messages/console.h"
 #include "session/view_edits.h"
 #include "state/view_state.h"
@@ -53,6 +54,9 @@ private:
     std::chrono::steady_clock::time_point told_{};
     bool is_untold_ = false;
 };
+
+/// Pictures as files have them, or for pages only.
+enum class PictureKind : std::uint8_t { rendered, denoised };
 
 /// The session of `bdpt view`: one scene, one camera, rendered by one or two integrators, for all
 /// pages.
@@ -96,12 +100,20 @@ private:
     [[nodiscard]] std::vector<Strategy> known_strategies() const;
     [[nodiscard]] ViewWords words_of_slot(std::size_t slot) const;
     void drop_renders();
+    void drop_render(std::size_t slot);
 
     /// Sends the picture of the current layer of a slot.
     void show(std::size_t slot);
     void show_all();
+    /// Tests whether pages see a denoised picture of the slot.
+    [[nodiscard]] bool shows_denoised(std::size_t slot) const;
+    /// Starts the denoiser on a picture that has twice the samples of the denoised one, or will
+    /// have no more.
+    void denoise_if_due();
+    void take_denoised(std::shared_ptr<const DenoisedPicture> picture);
     void send(std::size_t slot, const Image& image, const Cover& cover, const Size& grid,
-              const PixelRect& region, std::int64_t samples);
+              const PixelRect& region, std::int64_t samples,
+              PictureKind kind = PictureKind::rendered);
     void tell(bool now);
     /// Returns the state for pages: all but pixels. Before a scene is loaded it has no picture.
     [[nodiscard]] nlohmann::ordered_json state();
@@ -119,11 +131,14 @@ private:
     std::array<std::optional<LiveRender>, 2> renders_;
     std::optional<LiveRender> strategies_;
     std::array<std::int64_t, 2> shown_samples_{};  ///< samples of each slot in the last frame sent
+    /// The last denoised pictures of `renders_`.
+    std::array<std::shared_ptr<const DenoisedPicture>, 2> denoised_;
     CoarseToFine coarse_;
     std::string integrator_b_;
     ViewLayer layer_ = ViewLayer::picture;
     Strategy strategy_{.s = 1, .t = 2};
     bool is_paused_ = false;
+    bool denoises_ = true;        ///< pages want denoised pictures
     bool is_stale_ = false;       ///< words have changed
     bool files_changed_ = false;  ///< on disk
     std::string message_;         ///< reason why the last change was refused
@@ -131,7 +146,9 @@ private:
     float automatic_exposure_ = 0.0f;
     bool is_metered_ = false;  ///< `automatic_exposure_` belongs to this scene
     std::uint32_t generation_ = 0;
-    SceneWatch watch_;  // last: its thread uses the mailbox
+    // Last: their threads use the mailbox.
+    SceneWatch watch_;
+    std::unique_ptr<PreviewDenoiser> denoiser_;  ///< null: pictures are not denoised
 };
 
 }  // namespace bdpt::view

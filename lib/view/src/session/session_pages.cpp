@@ -3,6 +3,8 @@
 #include <bdpt/io/display.h>
 #include <bdpt/options/integrators.h>
 #include <bdpt/options/option_fields.h>
+#include <bdpt/thin_lens.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,6 +13,7 @@
 #include <utility>
 
 #include "live/frame.h"
+#include "messages/text.h"
 #include "output/render_report.h"
 #include "output/values.h"
 #include "session/session.h"
@@ -31,6 +34,55 @@ ordered_json scale_json(const Scale& scale)
         ticks.push_back(ordered_json::array({tick.place, tick.text}));
     }
     return {{"label", scale.label}, {"ticks", std::move(ticks)}};
+}
+
+ordered_json text_or_null(const std::string& text)
+{
+    return text.empty() ? ordered_json() : ordered_json(text);
+}
+
+/// Returns the f-number of a camera that has a lens (bdpt/thin_lens.h); else null.
+ordered_json f_stop_json(const CameraDesc& camera)
+{
+    const auto radius = static_cast<double>(camera.lens_radius);
+    return radius > 0.0
+               ? ordered_json(compute_lens_radius(1.0, static_cast<double>(camera.vertical_fov)) /
+                              radius)
+               : ordered_json();
+}
+
+/// Returns values of an option that chooses among `names`, with texts for people.
+ordered_json choices_json(const std::vector<std::string>& names, std::string_view what)
+{
+    ordered_json choices = ordered_json::array();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const bool is_unique =
+            !names[i].empty() && std::count(names.begin(), names.end(), names[i]) == 1;
+        choices.push_back({is_unique ? names[i] : std::to_string(i),
+                           is_unique ? names[i] : fmt::format("{} {}", what, i)});
+    }
+    return choices;
+}
+
+/// Adds what the file has to choose from, and what is chosen.
+void add_choices(ordered_json& state, const ViewWords& words, const PreparedScene& stage)
+{
+    const std::string camera = words.text("--camera");
+    std::vector<std::string> cameras;
+    for (const CameraDesc& one : stage.cameras) {
+        cameras.push_back(one.name);
+    }
+    state["cameras"] = choices_json(cameras, "camera");
+    state["camera"]["choice"] = stage.is_framed  ? ordered_json("auto")
+                                : camera.empty() ? state["cameras"][0][0]
+                                                 : ordered_json(camera);
+    state["variants"] = choices_json(stage.facts.variant_names, "variant");
+    state["variant"] = text_or_null(words.text("--variant"));
+    state["animations"] = choices_json(stage.facts.animation_names, "animation");
+    state["animation"] = text_or_null(words.text("--animation"));
+    state["animation_ends"] = stage.facts.animation_ends;
+    const std::optional<double> time = words.arguments().scene.time;
+    state["time"] = time ? ordered_json(*time) : ordered_json();
 }
 
 std::string to_line(const ordered_json& message)
@@ -153,6 +205,15 @@ void Session::show(std::size_t slot)
             meter(image, &*render);
             tell(true);
         }
+        if (shows_denoised(slot)) {
+            const Cleaned& clean = denoised_[slot]->clean;
+            const bool is_cut_out = render->arguments().display.backdrop.has_value();
+            send(slot, *clean.image,
+                 is_cut_out ? Cover{.alpha = clean.matte.alpha, .shadow = clean.matte.shadow}
+                            : Cover{},
+                 grid, film.region(), denoised_[slot]->samples, PictureKind::denoised);
+            return;
+        }
         const Matte matte = shown_matte(render->arguments(), render->renderer().result());
         send(slot, image, {.alpha = matte.alpha, .shadow = matte.shadow}, grid, film.region(),
              samples);
@@ -165,8 +226,52 @@ void Session::show_all()
     show(1);
 }
 
+bool Session::shows_denoised(std::size_t slot) const
+{
+    return denoises_ && denoised_[slot] && layer_ == ViewLayer::picture;
+}
+
+void Session::denoise_if_due()
+{
+    if (!denoiser_ || !denoises_ || layer_ != ViewLayer::picture || denoiser_->is_busy()) {
+        return;
+    }
+    for (std::size_t slot = 0; slot < renders_.size(); ++slot) {
+        const std::optional<LiveRender>& render = renders_[slot];
+        if (!render || !render->arguments().options.film.aovs.contains(Aov::normal)) {
+            continue;  // memory does not suffice
+        }
+        const std::int64_t there = render->renderer().samples();
+        const std::int64_t before = denoised_[slot] ? denoised_[slot]->samples : 0;
+        const bool rests = render->is_done() || is_paused_;
+        if (there > before && (rests || there >= 2 * before)) {
+            denoiser_->start(*render, slot);
+            return;
+        }
+    }
+}
+
+void Session::take_denoised(std::shared_ptr<const DenoisedPicture> picture)
+{
+    if (picture->stop.stop_requested()) {
+        return;
+    }
+    denoiser_->finish();
+    const std::size_t slot = picture->slot;
+    if (picture->clean.image) {
+        denoised_.at(slot) = std::move(picture);
+        show(slot);
+        denoise_if_due();
+    } else {
+        message_ = "not denoised: " + one_line(picture->clean.failure);
+        denoises_ = false;
+        show_all();
+    }
+    tell(true);
+}
+
 void Session::send(std::size_t slot, const Image& image, const Cover& cover, const Size& grid,
-                   const PixelRect& region, std::int64_t samples)
+                   const PixelRect& region, std::int64_t samples, PictureKind kind)
 {
     auto frame = std::make_shared<Frame>();
     frame->slot = static_cast<std::uint32_t>(slot);
@@ -180,6 +285,7 @@ void Session::send(std::size_t slot, const Image& image, const Cover& cover, con
     frame->samples = static_cast<std::uint32_t>(
         std::min<std::int64_t>(samples, std::numeric_limits<std::uint32_t>::max()));
     frame->channels = cover.alpha.empty() ? 3 : 5;
+    frame->denoised = kind == PictureKind::denoised ? 1 : 0;
     frame->pixels = half_pixels(image, cover);
     shown_samples_.at(slot) = samples;
     clients_.show(std::move(frame));
@@ -203,9 +309,6 @@ void Session::tell(bool now)
 
 nlohmann::ordered_json Session::state()
 {
-    const auto text_or_null = [](const std::string& text) {
-        return text.empty() ? ordered_json() : ordered_json(text);
-    };
     const std::string file = edits_.words().text("file");
     ordered_json state{{"loading", !scene_.is_there() && file_message_.empty()},
                        {"file", file},
@@ -227,7 +330,9 @@ nlohmann::ordered_json Session::state()
         {"name", stage.camera.name},
         {"from", to_json(pose.from, origin)},
         {"look_at", to_json(pose.look_at, origin)},
-        {"fov", has_fov ? ordered_json(degrees(stage.camera.vertical_fov)) : ordered_json()}};
+        {"fov", has_fov ? ordered_json(degrees(stage.camera.vertical_fov)) : ordered_json()},
+        {"f_stop", f_stop_json(stage.camera)}};
+    add_choices(state, edits_.words(), stage);
     for (const IntegratorInfo& integrator : integrators()) {
         state["integrators"].push_back(integrator.name);
     }
@@ -249,6 +354,7 @@ nlohmann::ordered_json Session::state()
     state["exposure_auto"] = static_cast<double>(automatic_exposure_);
     state["exposure_is_auto"] = is_automatic;
     state["curve"] = io::tone_curve_name(arguments.display.curve);
+    state["ground"] = arguments.options.film.aovs.contains(Aov::shadow);
     state["background"] = arguments.display.backdrop
                               ? ordered_json(backdrop_text(*arguments.display.backdrop))
                               : ordered_json();
@@ -268,6 +374,7 @@ nlohmann::ordered_json Session::state()
     }
     state["strategy"] = {strategy_.s, strategy_.t};
     state["paused"] = is_paused_;
+    state["denoise"] = denoiser_ ? ordered_json(denoises_) : ordered_json();
     state["slots"] = ordered_json::array({slot_state(0)});
     if (!integrator_b_.empty()) {
         state["slots"].push_back(slot_state(1));

@@ -26,14 +26,28 @@ public:
     void reset_camera();
     /// Moves the camera of `scene`, or turns it to a pixel, as `request` says. Throws `Error`.
     void move_camera(const PageRequest& request, const LiveScene& scene);
-    /// Changes options (`ViewSettings`). Throws `Error` for an environment that pages may not
-    /// choose.
-    void change(const std::vector<std::pair<std::string, std::string>>& options);
+    /// Changes options (`ViewSettings`) of the view of `scene`. Throws `Error` for what the scene
+    /// does not have, and for files, which pages may not choose.
+    void change(const std::vector<std::pair<std::string, std::string>>& options,
+                const LiveScene& scene);
     /// Goes back to words that could be shown.
     void give_up(const ViewWords& words);
 
 private:
+    void change(const std::string& option, const std::string& text, const LiveScene& scene);
+    /// Puts the camera of `scene` at `pose`, by options.
+    void place_camera(const Pose& pose, const LiveScene& scene);
+    /// Focuses on `target`; a camera that does not turn needs a lens.
+    void focus(Vec3 target, const Pose& pose, const PageRequest& request, const LiveScene& scene);
+    void set_camera(const std::string& name, const LiveScene& scene);
+    void set_field_of_view(const std::string& degrees, const LiveScene& scene);
+    void set_aperture(const std::string& f_stop, const LiveScene& scene);
+    void set_ground(const std::string& kind);
+    void set_background(const std::string& text);
     void set_environment(const std::string& name);
+    void set_or_remove(const std::string& option, const std::string& text);
+    /// Sets the option as on the command line.
+    void restore(const std::string& option);
 
     ViewWords first_words_;
     ViewWords words_;

@@ -64,6 +64,12 @@ Vec2 pair_of_numbers(const Json& value, std::string_view key)
             static_cast<float>(number(value[1], key, -most, most))};
 }
 
+/// Returns the text of a number; "" for null.
+std::string number_or_none(const Json& value, std::string_view key, double least, double most)
+{
+    return value.is_null() ? "" : fmt::format("{}", number(value, key, least, most));
+}
+
 std::string text(const Json& value, std::string_view key)
 {
     constexpr std::size_t longest = 4096;
@@ -71,6 +77,12 @@ std::string text(const Json& value, std::string_view key)
         fail(key, "a text");
     }
     return value.get<std::string>();
+}
+
+/// Returns a text; "" for null.
+std::string text_or_none(const Json& value, std::string_view key)
+{
+    return value.is_null() ? "" : text(value, key);
 }
 
 bool truth(const Json& value, std::string_view key)
@@ -136,7 +148,23 @@ ViewSettings parse_settings(const Json& value)
         if (key == "integrator_a") {
             set("--integrator", text(member, key));
         } else if (key == "integrator_b") {
-            settings.integrator_b = member.is_null() ? "" : text(member, key);
+            settings.integrator_b = text_or_none(member, key);
+        } else if (key == "camera") {
+            set("--camera", text(member, key));
+        } else if (key == "variant") {
+            set("--variant", text_or_none(member, key));
+        } else if (key == "animation") {
+            set("--animation", text_or_none(member, key));
+        } else if (key == "time") {
+            set("--frame-time", number_or_none(member, key, -1e6, 1e6));
+        } else if (key == "fov") {
+            set("--fov", fmt::format("{}", number(member, key, 0.1, 179.0)));
+        } else if (key == "f_stop") {
+            set("--f-stop", number_or_none(member, key, 1e-6, 1e6));
+        } else if (key == "background") {
+            set("--background", text_or_none(member, key));
+        } else if (key == "ground") {
+            set("--ground", truth(member, key) ? "shadow" : "none");
         } else if (key == "environment") {
             set("--env", text(member, key));
         } else if (key == "rotation") {
@@ -149,6 +177,8 @@ ViewSettings parse_settings(const Json& value)
             set("--tone-map", text(member, key));
         } else if (key == "paused") {
             settings.paused = truth(member, key);
+        } else if (key == "denoise") {
+            settings.denoises = truth(member, key);
         } else if (key == "layer") {
             settings.layer = parse_layer(member);
         } else if (key == "strategy") {
@@ -218,6 +248,8 @@ PageRequest parse_request(std::string_view message)
             request.move = parse_move(member);
         } else if (key == "focus") {
             request.focus = pair_of_wholes(member, key);
+        } else if (key == "turn") {
+            request.turns = truth(member, key);
         } else if (key == "reset") {
             request.reset = truth(member, key);
         } else if (key == "set") {

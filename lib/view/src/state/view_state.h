@@ -116,11 +116,12 @@ enum class ViewLayer : std::uint8_t { picture, noise, rates, strategy };
 
 /// Settings that a page requests; only those that are set.
 struct ViewSettings {
-    /// Options of `bdpt render` with their texts. An --env of "scene" is the scene's own, and an
-    /// --exposure of "auto" that of the command line.
+    /// Options of `bdpt render` with their texts; empty: without the option. An --env of "scene" is
+    /// the scene's own, and an --exposure of "auto" that of the command line.
     std::vector<std::pair<std::string, std::string>> options{};
     std::optional<std::string> integrator_b{};  ///< "": no second one
     std::optional<bool> paused{};
+    std::optional<bool> denoises{};  ///< the picture in pages, not files
     std::optional<ViewLayer> layer{};
     std::optional<Strategy> strategy{};
 };
@@ -130,6 +131,7 @@ struct PageRequest {
     std::uint32_t sequence = 0;  ///< number that its answer refers to
     std::optional<Move> move{};
     std::optional<std::array<int, 2>> focus{};  ///< pixel
+    bool turns = true;                          ///< `focus` is the camera's new target, too
     bool reset = false;                         ///< resets the camera
     std::optional<ViewSettings> settings{};
     std::optional<PixelSample> inspect{};

@@ -22,15 +22,15 @@ struct Candidate {
 /// stored. More than one is worth its time only without connections, where light comes out of wax.
 /// Caustics would be smoother, too, but light paths take time from camera paths, whose brightest
 /// contributions, such as caustics seen in mirrors, are too rare for a pilot to notice.
-inline constexpr std::array candidates{
-    Candidate{0.0, 0.0},         Candidate{0.0625, 0.0},       Candidate{0.0625, 0.25},
-    Candidate{0.0625, 1.0},      Candidate{0.0625, 2.0},       Candidate{0.0625, 8.0, 4.0},
-    Candidate{0.0625, 8.0, 8.0}, Candidate{0.0625, 8.0, 12.0}, Candidate{0.0625, 16.0, 12.0},
-    Candidate{0.25, 0.25},       Candidate{0.25, 1.0},         Candidate{0.25, 2.0},
-    Candidate{0.25, 8.0, 4.0},   Candidate{0.25, 8.0, 8.0},    Candidate{0.5, 0.0},
-    Candidate{0.5, 0.25},        Candidate{0.5, 1.0},          Candidate{0.5, 8.0, 8.0},
-    Candidate{1.0, 0.25},        Candidate{1.0, 1.0},          Candidate{1.0, 8.0, 8.0},
-    Candidate{2.0, 0.0},         Candidate{4.0, 0.0}};
+inline constexpr std::array candidates{Candidate{0.0, 0.0},          Candidate{0.0625, 0.0},
+                                       Candidate{0.0625, 1.0},       Candidate{0.0625, 2.0},
+                                       Candidate{0.0625, 8.0, 4.0},  Candidate{0.0625, 8.0, 8.0},
+                                       Candidate{0.0625, 8.0, 12.0}, Candidate{0.0625, 16.0, 12.0},
+                                       Candidate{0.25, 0.25},        Candidate{0.25, 2.0},
+                                       Candidate{0.25, 8.0, 4.0},    Candidate{0.5, 0.0},
+                                       Candidate{0.5, 0.25},         Candidate{0.5, 8.0, 8.0},
+                                       Candidate{1.0, 1.0},          Candidate{2.0, 0.0},
+                                       Candidate{4.0, 0.0}};
 
 template <typename T>
 using PerCandidate = std::array<T, candidates.size()>;

@@ -124,8 +124,8 @@ TEST_CASE("some candidates are taken only for a gain that exceeds the noise of t
     pilot.costs[other] *= 3.0;
     CHECK_FALSE(takes_other());
     // Others need no sure gain.
-    pilot.errors[index_of(0.25, 1.0)] = 0.099;
-    CHECK(chosen_by(pilot) == Candidate{0.25, 1.0});
+    pilot.errors[index_of(0.25, 0.25)] = 0.099;
+    CHECK(chosen_by(pilot) == Candidate{0.25, 0.25});
 }
 
 TEST_CASE("light paths without connections are chosen where they are clearly better", "[pilot]")
@@ -202,12 +202,12 @@ TEST_CASE("an image without error is rendered at the least cost", "[pilot]")
 {
     PilotMeasurements pilot = equal_candidates();
     pilot.errors.fill(1e-7);
-    pilot.errors[index_of(0.25, 1.0)] = 1e-9;
+    pilot.errors[index_of(0.25, 0.25)] = 1e-9;
     pilot.costs[0] = 9.0;
     CHECK(chosen_by(pilot) == Candidate{0.0, 0.0});
     ChoiceConstants exact;
     exact.min_error = 0.0;
-    CHECK(candidates[choose(pilot, candidates, exact)] == Candidate{0.25, 1.0});
+    CHECK(candidates[choose(pilot, candidates, exact)] == Candidate{0.25, 0.25});
 }
 
 TEST_CASE("an image of even noise has no rates", "[pilot]")

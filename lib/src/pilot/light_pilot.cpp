@@ -7,6 +7,7 @@
 #include "path/densities.h"
 #include "path/direct_light.h"
 #include "path/random_walk.h"
+#include "pilot/pilot.h"
 #include "pilot/pilot_constants.h"
 #include "scene/light_set.h"
 
@@ -116,13 +117,6 @@ std::vector<Find> concatenate(const std::vector<Finds>& parts, std::vector<Find>
         all.insert(all.end(), (part.*kind).begin(), (part.*kind).end());
     }
     return all;
-}
-
-int light_pilot_side(const RenderOptions& options)
-{
-    const double pixels = static_cast<double>(options.film.width) * options.film.height;
-    return static_cast<int>(
-        std::clamp<double>(std::sqrt(pixels), light_constants.min_side, light_constants.max_side));
 }
 
 /// Returns the environment; null if there is none, or it is black.
@@ -475,10 +469,23 @@ private:
 
 }  // namespace
 
+int light_pilot_side(const RenderOptions& options)
+{
+    const double pixels = static_cast<double>(options.film.width) * options.film.height;
+    const double worth = std::sqrt(planned_paths(options) / light_constants.samples_per_path);
+    if (worth < light_constants.min_side) {
+        return 0;
+    }
+    return static_cast<int>(std::min(
+        std::clamp<double>(std::sqrt(pixels), light_constants.min_side, light_constants.max_side),
+        worth));
+}
+
 bool can_learn_light(const World& world, const RenderOptions& options)
 {
     // In fog, points of segments are sampled for a light, without a receiver.
-    return options.sampling.environment == EnvironmentSampling::learned &&
+    return light_pilot_side(options) > 0 &&
+           options.sampling.environment == EnvironmentSampling::learned &&
            options.integrator != IntegratorKind::pt && options.integrator != IntegratorKind::nee &&
            options.integrator != IntegratorKind::lt && options.transport.max_depth >= 2 &&
            (find_environment(world) != nullptr || can_learn_groups(world, options) ||

@@ -17,9 +17,14 @@ class LightSet;
 class MovingCamera;
 class World;
 
-/// Tests whether learning can help this render: it needs an environment, several groups of lights,
-/// or light paths and a sun or several lamps; no fog, an integrator with other techniques that find
-/// rare light, and options that request it (`EnvironmentSampling::learned`).
+/// Returns the number of the light pilot's camera paths along each side of the image; 0 if so few
+/// samples are planned that learning is not worth its time.
+[[nodiscard]] int light_pilot_side(const RenderOptions& options);
+
+/// Tests whether learning can help this render: it needs enough planned samples, an environment,
+/// several groups of lights, or light paths and a sun or several lamps; no fog, an integrator with
+/// other techniques that find rare light, and options that request it
+/// (`EnvironmentSampling::learned`).
 [[nodiscard]] bool can_learn_light(const World& world, const RenderOptions& options);
 
 /// Traces camera paths all over the image and records the contributions of light samples at their

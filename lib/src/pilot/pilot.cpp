@@ -30,6 +30,31 @@ RenderOptions with_candidate(RenderOptions options, const Candidate& candidate)
     return options;
 }
 
+double planned_paths(const RenderOptions& options)
+{
+    const std::int64_t samples = options.sampling.planned_samples;
+    return samples == 0 ? std::numeric_limits<double>::infinity()
+                        : static_cast<double>(samples) * options.film.width * options.film.height;
+}
+
+namespace {
+
+/// Returns the number of cells that are worth their time.
+double affordable_cells(const RenderOptions& options)
+{
+    constexpr const PilotSampling& sampling = pilot_constants.sampling;
+    return std::min(sampling.max_cells, planned_paths(options) / sampling.samples_per_cell);
+}
+
+}  // namespace
+
+bool is_worth_measuring(const RenderOptions& options)
+{
+    return affordable_cells(options) >=
+           std::min(pilot_constants.sampling.fewest_cells,
+                    static_cast<double>(options.film.width) * options.film.height);
+}
+
 namespace {
 
 std::uint64_t cache_bytes(const RenderOptions& options)
@@ -140,7 +165,8 @@ PilotMeasurements measure(const World& world, const MovingCamera& camera,
                           const RenderOptions& asked, const LearnedLight* learned,
                           const std::stop_token& abandon)
 {
-    const PilotGrid grid(asked.film.width, asked.film.height);
+    const PilotGrid grid(asked.film.width, asked.film.height,
+                         std::max(1.0, affordable_cells(asked)));
     const RenderOptions options = pilot_options(asked, grid);
     BidirectionalIntegrator integrator(world, camera, options, learned);
     PilotContributions contributions{

@@ -31,11 +31,18 @@ struct PilotMeasurements {
     RenderStats stats;  ///< work of the pilot itself
 };
 
+/// Returns the number of camera samples that are planned for the whole image; infinite if it is not
+/// known.
+[[nodiscard]] double planned_paths(const RenderOptions& options);
+
+/// Tests whether so many samples are planned that a pilot is worth its time.
+[[nodiscard]] bool is_worth_measuring(const RenderOptions& options);
+
 /// Renders a few samples all over the whole image with light paths of their own, and predicts error
 /// and cost of every candidate from them. Its random numbers are its own. The result depends on
-/// scene, camera, size of the film and transport options, but not on seed, samples, crop or
-/// threads. `camera` is that of the whole image, `learned` the light that is learned for it. Once
-/// `abandon` is requested it returns soon, with a meaningless result.
+/// scene, camera, size of the film, planned samples and transport options, but not on seed,
+/// samples, crop or threads. `camera` is that of the whole image, `learned` the light that is
+/// learned for it. Once `abandon` is requested it returns soon, with a meaningless result.
 [[nodiscard]] PilotMeasurements measure(const World& world, const MovingCamera& camera,
                                         const RenderOptions& options,
                                         const LearnedLight* learned = nullptr,

@@ -18,12 +18,15 @@ namespace bdpt {
 /// A grid of cells over the whole image; a pilot samples one pixel of each cell.
 class PilotGrid {
 public:
-    PilotGrid(int width, int height) : width_(width), height_(height)
+    /// Has at most `max_cells`.
+    PilotGrid(int width, int height, double max_cells = pilot_constants.sampling.max_cells)
+        : width_(width), height_(height)
     {
         const double pixels = static_cast<double>(width) * static_cast<double>(height);
-        const double cells = std::clamp(pilot_constants.sampling.cells_per_pixel * pixels,
-                                        std::min(pilot_constants.sampling.min_cells, pixels),
-                                        pilot_constants.sampling.max_cells);
+        constexpr const PilotSampling& sampling = pilot_constants.sampling;
+        const double enough =
+            std::max(sampling.cells_per_pixel * pixels, std::min(sampling.min_cells, pixels));
+        const double cells = std::min(enough, max_cells);
         const double side = std::sqrt(pixels / cells);
         columns_ = std::clamp(static_cast<int>(std::lround(width / side)), 1, width);
         rows_ = std::clamp(static_cast<int>(std::lround(height / side)), 1, height);

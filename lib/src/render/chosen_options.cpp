@@ -46,6 +46,9 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     RenderOptions whole = options;
     whole.film.crop.reset();
     whole.sampling.rates.reset();
+    if (!is_worth_measuring(whole)) {
+        return {.options = with_candidate(options, candidates.front())};
+    }
     const MovingCamera opened = open_camera(scene.world(), camera, whole);
     const auto learned = learned_light(scene.world(), camera, whole, abandon);
     Threads threads(options.system.threads);

@@ -6,6 +6,7 @@
 #include "scene/world.h"
 #include "threads/threads.h"
 
+#include <string>
 #include <utility>
 
 namespace bdpt {
@@ -20,11 +21,11 @@ LearnedMemo::Inputs make_inputs(const CameraDesc& camera, RenderOptions options)
     options.film.aovs = {};
     options.sampling.seed = 0;
     options.sampling.rates.reset();
-    options.sampling.planned_samples = 0;
     options.bidirectional = {};
     LearnedMemo::Inputs inputs;
     add_camera(inputs, camera);
     add_options(inputs, options);
+    inputs.push_back({.name = "camera paths", .value = std::to_string(light_pilot_side(options))});
     return inputs;
 }
 

@@ -122,10 +122,11 @@ SampleRates sample_rates(const Scene& scene, const CameraDesc& camera_desc,
 {
     RenderOptions options = asked;
     options.sampling.rates.reset();
-    options = pilot_options(choose_integrator(scene, camera_desc, options).options);
+    const RenderOptions chosen = choose_integrator(scene, camera_desc, options).options;
+    options = pilot_options(chosen);
     check_takes_rates(options.integrator);
     const MovingCamera camera = open_camera(scene.world(), camera_desc, options);
-    const auto learned = learned_light(scene.world(), camera_desc, options);
+    const auto learned = learned_light(scene.world(), camera_desc, chosen);
     Threads threads(options.system.threads);
     PilotSums sums(options);
     threads.execute([&] {

@@ -126,7 +126,7 @@ TEST_CASE("a plan pins all that auto has chosen", "[plan]")
                                {"type": "spot", "intensity": 10,
                                 "spot": {"outerConeAngle": 0.3}}]}},)"});
     const Words room{
-        path(folder, "room.gltf"), "--size", "24x16", "--max-depth", "4", "--spp", "12", "-o",
+        path(folder, "room.gltf"), "--size", "24x16", "--max-depth", "4", "--spp", "256", "-o",
         path(folder, "out.exr")};
     checked(run(joined(joined({"plan"}, room),
                        {"--parts", "2", "--for", "make", "-d", path(folder, "job")})));
@@ -158,7 +158,7 @@ TEST_CASE("a plan pins how many connections auto has chosen", "[plan]")
                     "--size",
                     "64x48",
                     "--spp",
-                    "4",
+                    "16",
                     "-o",
                     path(folder, "out.exr")};
     checked(run(joined(joined({"plan"}, box),

@@ -49,6 +49,7 @@ RenderOptions options_of(int side)
     RenderOptions options;
     options.film.width = side;
     options.film.height = side;
+    options.sampling.planned_samples = 0;
     options.transport.max_depth = 4;
     options.transport.rr_start = 100;
     return options;

@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 #include "pilot/candidates.h"
+#include "pilot/light_pilot.h"
 #include "pilot/path_shares.h"
 #include "render/open_camera.h"
 #include "scene/world.h"
@@ -46,6 +47,7 @@ RenderOptions small()
     RenderOptions options;
     options.film.width = side;
     options.film.height = side;
+    options.sampling.planned_samples = 0;  // the pilot is as large as for long renders
     options.transport.max_depth = 6;
     return options;
 }
@@ -203,6 +205,37 @@ TEST_CASE("a pilot depends on the scene, not on which samples are wanted", "[pil
     CHECK(again.stats == pilot.stats);
     other.transport.max_depth = 2;
     CHECK_FALSE(pilot_of(scene, inside(), other).errors == pilot.errors);
+}
+
+TEST_CASE("pilots are a small part of the planned work, and there are none for little work",
+          "[pilot]")
+{
+    struct Case {
+        int side;
+        int samples;
+        bool measures;
+    };
+    const auto [pixels, samples, measures] = GENERATE(values<Case>(
+        {{64, 1, false}, {64, 9, false}, {64, 11, true}, {128, 4, true}, {512, 1, true}}));
+    CAPTURE(pixels, samples);
+    const Scene scene = indirect_room();
+    RenderOptions options = small();
+    options.film.width = pixels;
+    options.film.height = pixels;
+    options.integrator = IntegratorKind::mis;
+    options.sampling.samples = {.begin = 0, .end = samples};
+    options.sampling.planned_samples = samples;
+    REQUIRE(is_worth_measuring(options) == measures);
+    const auto work = static_cast<double>(render(scene, inside(), options).stats.rays.total());
+    if (measures) {
+        const auto rays =
+            static_cast<double>(pilot_of(scene, inside(), options).stats.rays.total());
+        CHECK(rays < 0.08 * work);
+        CHECK(rays > 0.01 * work);
+    }
+    const double learning = light_pilot_side(options);
+    CHECK(learning * learning <= 0.03 * planned_paths(options));
+    CHECK((learning > 0.0) == (planned_paths(options) > 10240.0));
 }
 
 TEST_CASE("a pilot does not follow paths as long as renders may", "[pilot]")

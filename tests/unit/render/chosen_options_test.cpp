@@ -19,6 +19,7 @@ RenderOptions small()
     options.film.width = 31;
     options.film.height = 23;
     options.sampling.samples = {.begin = 0, .end = 3};
+    options.sampling.planned_samples = 0;  // as many as anyone has time for
     options.transport.max_depth = 5;
     return options;
 }
@@ -98,6 +99,25 @@ TEST_CASE("auto traces light paths where they pay", "[auto]")
     open.quad({-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}, lambertian(Rgb(0.5f)));
     open.light(DirectionalLightDesc{.direction = {0.3f, -1.0f, 0.2f}, .illuminance = Rgb(3.0f)});
     CHECK(choice(Scene(std::move(open.desc)), small()).integrator == IntegratorKind::mis);
+}
+
+TEST_CASE("auto takes path tracing where few samples are planned", "[auto]")
+{
+    RenderOptions options = small();
+    options.film.width = 64;
+    options.film.height = 64;
+    const Scene scene = hidden_lamp();
+    for (const auto& [samples, kind] :
+         {std::pair(9, IntegratorKind::mis), std::pair(11, IntegratorKind::bdpt),
+          std::pair(0, IntegratorKind::bdpt)}) {
+        CAPTURE(samples);
+        options.sampling.planned_samples = samples;
+        CHECK(choice(scene, options).integrator == kind);
+        // A crop has the pixels of the whole image.
+        options.film.crop = PixelRect{.x0 = 3, .y0 = 4, .x1 = 9, .y1 = 8};
+        CHECK(choice(scene, options).integrator == kind);
+        options.film.crop.reset();
+    }
 }
 
 TEST_CASE("auto tells of light that only vcm finds", "[auto]")

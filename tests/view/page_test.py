@@ -118,6 +118,32 @@ def check_view(window):
     expect(window.codes() == start, "environment, no ground and reset bring the first picture back")
 
 
+def check_drop(window):
+    """Tests that a file that is dropped on the page lights the scene."""
+    drop = """
+        const files = new DataTransfer();
+        files.items.add(new File([new Uint8Array(arguments[1])], arguments[0]));
+        document.querySelector('.stage').dispatchEvent(new DragEvent('drop', { dataTransfer: files, bubbles: true, cancelable: true }));"""
+    sky = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n" + bytes([200, 100, 50, 130] * 8)
+    window.finished()
+    before, picture = window.seen(), window.codes()
+    window.run(drop, "green sky.hdr", list(sky))
+    window.wait_for_generation(before["generation"])
+    window.wait("document.getElementById('environment').value === 'green sky.hdr'")
+    window.finished()
+    expect(window.codes() != picture, "a file that is dropped lights the scene")
+    picture = window.codes()
+    window.run(drop, "broken.hdr", list(sky[:40]))
+    window.wait("document.getElementById('message').textContent.includes('broken.hdr')")
+    window.finished()
+    expect(window.codes() == picture, "a broken one is told, and the picture comes back")
+    window.messages()
+    before = window.seen()
+    window.set("environment", "studio", "change")
+    window.wait_for_generation(before["generation"])
+    window.finished()
+
+
 def check_fullscreen(window):
     window.press("m")
     window.wait("document.fullscreenElement !== null")
@@ -523,6 +549,7 @@ def main():
             job, picture = check_equality(window, bdpt, folder)
             check_camera(window)
             check_light(window)
+            check_drop(window)
             check_fullscreen(window)
             check_pair(window)
             check_layers(window)

@@ -8,15 +8,21 @@ import os
 import pathlib
 import random
 import re
+import shlex
 import socket
 import struct
+import subprocess
 import sys
 import tempfile
 import time
+import urllib.parse
 
 import web_socket
 from served import Server, read_answer, expect, received, wait_for
 from web_socket import WebSocket, handshake
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "apps" / "ids"))
+from exr_file import ExrFile  # noqa: E402
 
 CONNECTIONS = 10_000
 AT_ONCE = 200  # far below the usual limit of 1024 open files; each connection takes two
@@ -125,6 +131,59 @@ def check_bodies(server):
     with server.connect() as connection:
         connection.sendall(f"POST {server.path()} HTTP/1.1\r\nHost: {server.host}\r\nContent-Length: {gigabyte}\r\n\r\n".encode())
         refused(read_answer(connection), "a gigabyte that has not come yet")
+
+
+def put(server, name="sky.hdr", body=b"", **headers):
+    """Gives a file as the page does."""
+    lines = {"Origin": f"http://{server.host}", "Content-Length": str(len(body)), **headers}
+    return server.request(server.path(f"environment?name={urllib.parse.quote(name, safe='')}"), lines, "PUT", body)
+
+
+def check_given_files(server):
+    """Tests who may give an environment, and what the server does with it."""
+    sky = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n" + bytes([200, 100, 50, 130] * 8)
+    for what, answer in (("another origin", put(server, body=sky, Origin="http://evil.example")), ("no origin", put(server, body=sky, Origin=None)),
+                         ("another host", put(server, body=sky, Host="evil.example")),
+                         ("a wrong token", server.request(f"/{'0' * 32}/environment?name=a.hdr", {"Origin": f"http://{server.host}"}, "PUT")),
+                         ("another path", server.request(server.path("save.exr?name=a.hdr"), {"Origin": f"http://{server.host}"}, "PUT"))):
+        refused(answer, f"a file from {what}", (403, 405))
+    for name in ("", "../x.hdr", "/etc/x.hdr", "a\\b.hdr", ".hidden", "none", "studio", "scene", "-", "a\nb.hdr", "a\0.hdr", "a" * 300 + ".hdr"):
+        refused(put(server, name, sky), f"the name {name[:20]!r}", (400,))
+    refused(server.request(server.path("environment?file=a.hdr"), {"Origin": f"http://{server.host}"}, "PUT"), "a file without a name", (400,))
+    for what, lines in (("257 MiB", {"Content-Length": str(257 * MEBIBYTE)}), ("10^30 bytes", {"Content-Length": str(10 ** 30)})):
+        refused(put(server, **lines), f"a file of {what}")
+    with server.connect() as connection:  # whose size is not told
+        connection.sendall(f"PUT {server.path('environment?name=a.hdr')} HTTP/1.1\r\nHost: {server.host}\r\nOrigin: http://{server.host}\r\n"
+                           "Transfer-Encoding: chunked\r\n\r\n".encode())
+        sent = send_repeatedly(connection, b"100000\r\n" + bytes(MEBIBYTE) + b"\r\n", 300 * MEBIBYTE)
+        expect(sent < 300 * MEBIBYTE, f"one that does not end: the connection is closed ({sent >> 20} MiB were sent)")
+    wait_for(lambda: put(server, body=b"")[0] != 503, "the next file is taken")
+    with WebSocket(server) as window:
+        before = window.state(lambda state: "environment" in state)
+        status, text = put(server, "broken.hdr", sky[:-5])
+        expect(status == 400 and b"broken.hdr" in text and b"/tmp" not in text and text.strip().count(b"\n") == 0, f"a broken file: {text}")
+        expect(window.state(lambda state: state["message"])["environment"] == before["environment"], "changes nothing")
+        status, text = put(server, "my sky.hdr", sky)
+        expect(status == 200, f"a file is taken ({status} {text})")
+        state = window.state(lambda state: state["environment"] == "my sky.hdr" and state["slots"][0]["done"])
+        expect(state["message"] is None and "my sky.hdr" in state["environments"], "and chosen")
+    expect("'--env=my sky.hdr'" in state["command"], f"the command has its own name: {state['command'][-120:]}")
+    with tempfile.TemporaryDirectory() as folder:
+        pathlib.Path(folder, "my sky.hdr").write_bytes(sky)
+        subprocess.run([server.process.args[0], *shlex.split(state["command"])[1:], "-o", "command.exr", "--quiet"], check=True, cwd=folder)
+        pathlib.Path(folder, "saved.exr").write_bytes(server.get("save.exr"))
+        of_command, of_page = (ExrFile(pathlib.Path(folder, name)) for name in ("command.exr", "saved.exr"))
+        rows = [{name: [bytes(memoryview(row)) for row in rows] for name, rows in one.values.items()} for one in (of_command, of_page)]
+        expect(rows[0] == rows[1], "and renders the same bits beside the file")
+    expect(json.loads(server.get("save.json"))["env"] == "my sky.hdr", "so has the job")
+    for i in range(12):
+        expect(put(server, f"{i}.hdr", sky)[0] == 200, f"file {i} of many is taken")
+    expect(1 <= len(given_files()) <= 8, f"but not all are kept: {len(given_files())}")
+
+
+def given_files():
+    """Returns the temporary copies of files that pages gave."""
+    return list(pathlib.Path(os.environ["TMPDIR"]).glob("*/*.hdr"))
 
 
 def check_headers(server):
@@ -309,9 +368,16 @@ def check_opened_address(bdpt, scene):
 
 def main():
     bdpt, scene = sys.argv[1:3]
+    with tempfile.TemporaryDirectory() as temporary:
+        os.environ["TMPDIR"] = temporary
+        check_all(bdpt, scene)
+        expect(given_files() == [], "no file that a page gave is left")
+
+
+def check_all(bdpt, scene):
     with Server(bdpt, scene, "--size", "64x48", "--spp", "4") as server:
         for check in (check_loopback, check_page, check_hosts, check_tokens, check_paths, check_methods, check_bodies, check_headers,
-                      check_garbage, check_half_open, check_socket, check_many_connections):
+                      check_garbage, check_given_files, check_half_open, check_socket, check_many_connections):
             print(f"-- {check.__name__}", flush=True)
             check(server)
         check_page(server)

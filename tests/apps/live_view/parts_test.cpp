@@ -156,6 +156,21 @@ TEST_CASE("only who knows the address is answered, under our own names", "[live_
     CHECK(status(foreign) == 200);
     CHECK(status({.method = "POST", .target = "/00ff/", .host = "localhost"}) == 405);
 
+    // A file is only taken from the page itself.
+    const RequestHead file{.method = "PUT",
+                           .target = "/00ff/environment?name=a.hdr",
+                           .host = "localhost",
+                           .origin = "http://localhost"};
+    CHECK(status(file) == 200);
+    RequestHead nobody = file;
+    nobody.origin.reset();
+    CHECK(status(nobody) == 403);
+    CHECK(status({.method = "PUT", .target = "/00ff/", .host = "localhost"}) == 405);
+    CHECK(percent_decoded("a%20%c3%A4.hdr") == "a \xc3\xa4.hdr");
+    for (const char* wrong : {"%", "a%2", "%g0", "%-1", "%+1"}) {
+        CHECK_FALSE(percent_decoded(wrong));
+    }
+
     const Access everywhere("00ff", "beef", "0.0.0.0");
     CHECK_FALSE(everywhere.refusal({.method = "GET", .target = "/00ff/", .host = "10.1.2.3:80"}));
     CHECK(everywhere.refusal({.method = "GET", .target = "/00ff/", .host = "evil.example:80"}));

@@ -85,6 +85,14 @@ class Connection {
   }
 }
 
+/** Gives a file to the server as the environment. Throws the server's reason if it is refused. */
+async function giveEnvironment(connection, file) {
+  const answer = await fetch(connection.address("environment", {}) + `name=${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
+  if (!answer.ok) {
+    throw new Error((await answer.text()).trim());
+  }
+}
+
 /** Sends one request at a time; merges those that wait by `join(waiting, more)`. */
 class OneAtATime {
   /** `send(what)` returns a promise that settles when the server has accepted the request. */

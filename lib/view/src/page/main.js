@@ -27,15 +27,32 @@ const connection = new Connection(location.pathname, {
   },
 });
 
-/** Sends a request and shows its error message, unless the connection is lost, which the page shows already. */
+/** Sends a request and shows its error message. */
 function ask(what) {
   return connection.request(what).catch((error) => {
-    announce(error.message);
-    if (document.documentElement.dataset.connection === "open") {
-      byId("message").textContent = error.message;
-      byId("message").hidden = false;
-    }
+    showFailure(error);
     throw error;
+  });
+}
+
+/** Shows why a request failed, unless the connection is lost, which the page shows already. */
+function showFailure(error) {
+  announce(error.message);
+  if (document.documentElement.dataset.connection === "open") {
+    byId("message").textContent = error.message;
+    byId("message").hidden = false;
+  }
+}
+
+/** Takes an environment that is dropped on the page. */
+function bindDrop() {
+  document.addEventListener("dragover", (event) => event.preventDefault());
+  document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    const file = event.dataTransfer.files[0];
+    if (file) {
+      giveEnvironment(connection, file).catch(showFailure);
+    }
   });
 }
 
@@ -223,6 +240,7 @@ const KEYS = [
   ["Click", "inspect the pixel"],
   ["Shift + click", "focus here without turning the camera"],
   ["Ctrl + wheel", "magnify the pixels"],
+  ["Drop a file", "light the scene by this .exr or .hdr"],
   ["I", "inspect the pixel in the middle", ["i"], () => state && inspect(state.size.map((x) => Math.floor(x / 2)))],
   ["F", "focus on the middle", ["f"], () => state && ask({ focus: state.size.map((x) => Math.floor(x / 2)) }).catch(() => {})],
   ["N", "the next sample of the inspected pixel", ["n"], () => byId("other-sample") && byId("other-sample").click()],
@@ -291,6 +309,7 @@ bindPointer(stage, moves, {
   focus: (pixel) => ask({ focus: pixel }).catch(() => {}),
 });
 bindWiper(stage);
+bindDrop();
 bindButtons();
 bindKeys();
 bindTheme();

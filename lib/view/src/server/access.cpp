@@ -4,7 +4,9 @@
 #include <sys/random.h>
 
 #include <array>
+#include <charconv>
 #include <cstddef>
+#include <system_error>
 #include <utility>
 
 #include "options/value_types.h"
@@ -64,6 +66,29 @@ bool are_equal_in_constant_time(std::string_view a, std::string_view b)
     return different == 0;
 }
 
+std::optional<std::string> percent_decoded(std::string_view text)
+{
+    constexpr std::size_t escape = 3;
+    std::string decoded;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            decoded += text[i];
+            continue;
+        }
+        unsigned code = 0;
+        const std::string_view digits = text.substr(i, escape).substr(1);
+        const auto [end, error] =
+            std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
+        if (error != std::errc() || digits.size() + 1 != escape ||
+            end != digits.data() + digits.size()) {
+            return std::nullopt;
+        }
+        decoded += static_cast<char>(code);
+        i += escape - 1;
+    }
+    return decoded;
+}
+
 Access::Access(std::string token, std::string ticket, std::string host)
     : token_(std::move(token)),
       ticket_(std::move(ticket)),
@@ -89,8 +114,12 @@ std::optional<Refusal> Access::refusal_of_sender(const RequestHead& head) const
     if (head.origin && lower_case(*head.origin) != "http://" + lower_case(head.host)) {
         return Refusal{403, "pages of others may not ask this server"};
     }
-    if (head.method != "GET") {
+    const bool gives_file = head.method == "PUT" && parse_path(head.target) == environment_path;
+    if (head.method != "GET" && !gives_file) {
         return Refusal{405, "only GET is supported"};
+    }
+    if (gives_file && !head.origin) {  // browsers always name it
+        return Refusal{403, "only the page may give a file"};
     }
     return std::nullopt;
 }

@@ -1,12 +1,20 @@
 #include "server/connection.h"
 
+#include <bdpt/error.h>
+
+#include <algorithm>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 #include <chrono>
+#include <limits>
 #include <utility>
+
+#include "messages/text.h"
+#include "options/output_files.h"
+#include "options/render_arguments.h"
 
 namespace bdpt::view {
 
@@ -23,6 +31,7 @@ constexpr std::uint32_t max_header_bytes = 8192;
 constexpr std::size_t max_message_bytes = 65536;
 constexpr std::size_t max_waiting_answers = 256;  // per window
 constexpr int max_clients = 64;
+constexpr std::uint64_t max_file_bytes = std::uint64_t{256} << 20U;
 
 std::string_view to_view(boost::beast::string_view text)
 {
@@ -38,6 +47,18 @@ std::optional<int> parse_slot(std::string_view query)
     return query.empty() || query == "slot=0" ? std::optional(0) : std::nullopt;
 }
 
+constexpr const char* too_large = "the file has more than 256 MiB";
+
+/// Tests whether `name` is that of a file in a folder, and of no word of --env.
+bool is_plain_name(const std::string& name)
+{
+    constexpr std::size_t longest = 200;
+    const bool is_printable = one_line(name) == name;
+    return is_printable && !name.empty() && name.size() <= longest && !name.starts_with('.') &&
+           name.find_first_of("/\\") == std::string::npos && name != "-" && name != "scene" &&
+           is_file_of_environment(name);
+}
+
 /// Returns a name for a header, without characters that could end it.
 std::string header_name(const std::string& name)
 {
@@ -50,6 +71,23 @@ std::string header_name(const std::string& name)
 }
 
 }  // namespace
+
+/// A file that a page gives.
+struct Connection::Upload {
+    Upload(ServerState& state, Parser&& head, std::string file_name)
+        : server(state), parser(std::move(head)), name(std::move(file_name))
+    {
+        server.takes_file = true;
+    }
+    ~Upload() { server.takes_file = false; }
+    Upload(const Upload&) = delete;
+    Upload& operator=(const Upload&) = delete;
+
+    ServerState& server;
+    http::request_parser<http::file_body> parser;
+    std::string name;
+    std::shared_ptr<TemporaryFolder> folder = std::make_shared<TemporaryFolder>();
+};
 
 Connection::Connection(asio::ip::tcp::socket socket, ServerState& server)
     : stream_(std::move(socket)),
@@ -92,6 +130,7 @@ void Connection::read()
 {
     parser_.emplace();
     parser_->header_limit(max_header_bytes);
+    parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // `serve` refuses bodies
     stream_.expires_after(patience);
     http::async_read_header(
         stream_, buffer_, *parser_,
@@ -147,6 +186,10 @@ void Connection::serve()
         refuse(503, "too many windows are open");
         return;
     }
+    if (head.method == "PUT") {
+        take_environment(Access::parse_query(head.target));
+        return;
+    }
     if (parser_->chunked() || parser_->content_length().value_or(0) > 0) {
         refuse(413, "a request must not have a body");
         return;
@@ -176,18 +219,92 @@ void Connection::save(const std::string& name)
     }
     stream_.expires_never();
     server_.session->save(name, *slot, [self = shared_from_this()](Download file) {
-        asio::post(self->stream_.get_executor(), [self, file = std::move(file)]() mutable {
-            if (file.status != 200) {
-                self->refuse(file.status, file.content);
-                return;
-            }
-            Response answer = self->response(200, file.type);
-            answer.set(http::field::content_disposition,
-                       "attachment; filename=\"" + header_name(file.name) + "\"");
-            answer.body() = std::move(file.content);
-            self->send(std::move(answer));
-        });
+        asio::post(self->stream_.get_executor(),
+                   [self, file = std::move(file)]() mutable { self->answer(std::move(file)); });
     });
+}
+
+void Connection::answer(Download file)
+{
+    if (file.status != 200) {
+        refuse(file.status, file.content);
+        return;
+    }
+    Response answer = response(200, file.type);
+    if (!file.name.empty()) {
+        answer.set(http::field::content_disposition,
+                   "attachment; filename=\"" + header_name(file.name) + "\"");
+    }
+    answer.body() = std::move(file.content);
+    send(std::move(answer));
+}
+
+void Connection::take_environment(std::string_view query)
+{
+    constexpr std::string_view key = "name=";
+    const std::optional<std::string> name =
+        query.starts_with(key) ? percent_decoded(query.substr(key.size())) : std::nullopt;
+    if (!name || !is_plain_name(*name)) {
+        refuse(400, "the file has no name that can be used");
+        return;
+    }
+    if (parser_->content_length().value_or(0) > max_file_bytes) {
+        refuse(413, too_large);
+        return;
+    }
+    if (server_.takes_file) {
+        refuse(503, "another file is being sent");
+        return;
+    }
+    try {
+        upload_ = std::make_unique<Upload>(server_, std::move(*parser_), *name);
+    } catch (const Error& error) {
+        refuse(500, one_line(error.what()));
+        return;
+    }
+    error_code failure;
+    upload_->parser.body_limit(max_file_bytes);
+    upload_->parser.get().body().open(upload_->folder->file(*name).c_str(),
+                                      beast::file_mode::write_new, failure);
+    if (failure) {
+        upload_.reset();
+        refuse(500, "the file cannot be stored: " + failure.message());
+        return;
+    }
+    read_environment();
+}
+
+void Connection::read_environment()
+{
+    if (upload_->parser.is_done()) {
+        give_environment();
+        return;
+    }
+    stream_.expires_after(patience);
+    http::async_read_some(stream_, buffer_, upload_->parser,
+                          [self = shared_from_this()](const error_code& error, std::size_t) {
+                              if (error == http::error::body_limit) {
+                                  self->upload_.reset();
+                                  self->refuse(413, too_large);
+                              } else if (error) {
+                                  self->upload_.reset();
+                                  self->close();
+                              } else {
+                                  self->read_environment();
+                              }
+                          });
+}
+
+void Connection::give_environment()
+{
+    upload_->parser.get().body().close();
+    stream_.expires_never();
+    const std::unique_ptr<Upload> upload = std::move(upload_);
+    server_.session->take_environment(
+        upload->name, upload->folder, [self = shared_from_this()](Download file) {
+            asio::post(self->stream_.get_executor(),
+                       [self, file = std::move(file)]() mutable { self->answer(std::move(file)); });
+        });
 }
 
 void Connection::open_window()

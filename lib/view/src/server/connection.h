@@ -7,6 +7,7 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/file_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket.hpp>
@@ -38,6 +39,7 @@ struct ServerState {
     ClientId next_client = 1;
     std::list<Connection*> strangers{};  ///< have not shown the token yet, oldest first
     int clients = 0;                     ///< connections and windows that have
+    bool takes_file = false;             ///< a page gives one at the moment
     bool is_closing = false;
 };
 
@@ -64,6 +66,12 @@ private:
     /// Counts it no longer.
     void leave();
     void save(const std::string& name);
+    /// Takes the environment that a page gives.
+    void take_environment(std::string_view query);
+    void read_environment();
+    void give_environment();
+    /// Tells how a file was saved or taken.
+    void answer(Download file);
     void open_window();
     void refuse(int status, const std::string& line);
     void send(Response response);
@@ -73,6 +81,8 @@ private:
     ServerState& server_;
     boost::beast::flat_buffer buffer_;
     std::optional<Parser> parser_;
+    struct Upload;
+    std::unique_ptr<Upload> upload_;  // a file that is being given
     enum class Standing : std::uint8_t { stranger, client, none };
     Standing standing_ = Standing::stranger;
     std::list<Connection*>::iterator place_;  // of a stranger

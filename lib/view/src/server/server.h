@@ -48,6 +48,12 @@ struct Refusal {
     std::string line;
 };
 
+/// Path, behind the token, that an environment is put to.
+inline constexpr std::string_view environment_path = "environment";
+
+/// Decodes "%20" to a space; none: a % is not followed by two digits.
+[[nodiscard]] std::optional<std::string> percent_decoded(std::string_view text);
+
 /// The parts of a request that identify its sender.
 struct RequestHead {
     std::string_view method;

@@ -145,6 +145,30 @@ void Session::save(const std::string& name, int slot, std::function<void(Downloa
         Urgency::soon);
 }
 
+void Session::take_environment(const std::string& name,
+                               std::shared_ptr<const TemporaryFolder> folder,
+                               std::function<void(Download)> done)
+{
+    mailbox_.post(
+        [this, name, folder = std::move(folder), done = std::move(done)] {
+            Download answer{.type = "text/plain", .name = "", .content = ""};
+            if (!scene_.is_there()) {
+                answer.content = "the scene is not loaded yet";
+            } else {
+                edits_.choose_given(name, folder->file(name));
+                restart();
+                answer.content = message_;
+            }
+            if (answer.content.empty()) {
+                edits_.keep_given(name, folder);
+            } else {
+                answer.status = 400;
+            }
+            done(std::move(answer));
+        },
+        Urgency::now);
+}
+
 void Session::answer(ClientId client, const PageRequest& request)
 {
     nlohmann::ordered_json reply{{"ack", request.sequence}};
@@ -312,7 +336,7 @@ void Session::restart()
     }
     drop_renders();
     if (const auto wrong = catch_failure([&] { scene_.show(edits_.words()); })) {
-        message_ = *wrong;
+        message_ = edits_.words().with_own_names(*wrong);
         edits_.give_up(before);
         shown_words_ = before;
     } else {

@@ -75,6 +75,10 @@ public:
     void ask(ClientId client, const std::string& message);
     /// Saves "save.png", "save.exr" or "save.json"; `done` is called on the render thread.
     void save(const std::string& name, int slot, std::function<void(Download)> done);
+    /// Lights the scene by the file `name` in `folder`, which a page gave; `done` is called on the
+    /// render thread with an empty file, or with the reason why it is refused.
+    void take_environment(const std::string& name, std::shared_ptr<const TemporaryFolder> folder,
+                          std::function<void(Download)> done);
     void stop() { mailbox_.close(); }
 
 private:

@@ -343,8 +343,11 @@ nlohmann::ordered_json Session::state()
         !own.empty() && is_file_of_environment(own)) {
         environments.insert(environments.begin(), own);
     }
+    for (const auto& [name, folder] : edits_.given()) {
+        environments.push_back(name);
+    }
     state["environments"] = environments;
-    const std::string environment = shown_words_.text("--env");
+    const std::string environment = shown_words_.with_own_names(shown_words_.text("--env"));
     state["environment"] = environment.empty() ? "scene" : environment;
     state["rotation"] = arguments.environment_change.rotation;
     state["intensity"] = static_cast<double>(arguments.environment_change.intensity);
@@ -379,7 +382,9 @@ nlohmann::ordered_json Session::state()
     if (!integrator_b_.empty()) {
         state["slots"].push_back(slot_state(1));
     }
-    state["warnings"] = stage.warnings;
+    for (const std::string& warning : stage.warnings) {
+        state["warnings"].push_back(shown_words_.with_own_names(warning));
+    }
     for (const Note& note : stage.notes) {
         state["warnings"].push_back(note.text);
     }

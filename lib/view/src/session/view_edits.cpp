@@ -223,10 +223,29 @@ void ViewEdits::set_background(const std::string& text)
     set_or_remove("--background", text);
 }
 
+void ViewEdits::choose_given(const std::string& name, const std::filesystem::path& file)
+{
+    words_.set_given_file("--env", file, name);
+}
+
+void ViewEdits::keep_given(const std::string& name, std::shared_ptr<const TemporaryFolder> folder)
+{
+    constexpr std::size_t most = 8;  // files that are kept
+    if (given_.size() >= most && !given_.contains(name)) {
+        const auto other = std::find_if(given_.begin(), given_.end(), [this](const auto& one) {
+            return one.second->file(one.first) != words_.text("--env");
+        });
+        given_.erase(other);
+    }
+    given_.insert_or_assign(name, std::move(folder));
+}
+
 void ViewEdits::set_environment(const std::string& name)
 {
     if (name == "scene") {
         words_.remove("--env");
+    } else if (const auto found = given_.find(name); found != given_.end()) {
+        choose_given(name, found->second->file(name));
     } else if (name == "none" || name == "default" || name == "studio" ||
                name == first_words_.text("--env")) {
         words_.set("--env", name);  // no other file: pages must not choose files to read

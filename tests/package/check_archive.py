@@ -71,6 +71,22 @@ def check_tiff_is_refused(program, scenes, folder):
     assert done.returncode == 5 and "libbdpt_oiio.so not found" in done.stderr, (done.returncode, done.stderr)
 
 
+def check_ktx2(program, scenes, folder):
+    """Renders a scene that needs a KTX2 texture."""
+    scene = json.loads((pathlib.Path(scenes) / "cornell-box.gltf").read_text(encoding="utf-8"))
+    for buffer in scene["buffers"]:
+        assert buffer["uri"].startswith("data:"), "the scene has files of its own"
+    shutil.copy(pathlib.Path(scenes).parent / "tests/data/ktx2/uastc-rgb.ktx2", folder / "wall.ktx2")
+    scene["images"] = [{"uri": "wall.ktx2"}]
+    scene["textures"] = [{"extensions": {"KHR_texture_basisu": {"source": 0}}}]
+    scene["materials"][0].setdefault("pbrMetallicRoughness", {})["baseColorTexture"] = {"index": 0}
+    scene["extensionsUsed"] = [*scene.get("extensionsUsed", []), "KHR_texture_basisu"]
+    scene["extensionsRequired"] = ["KHR_texture_basisu"]
+    (folder / "ktx.gltf").write_text(json.dumps(scene), encoding="utf-8")
+    subprocess.run([program, "render", folder / "ktx.gltf", "--size", "16x16", "--spp", "1", "--strict", "--quiet", "-o",
+                    folder / "ktx.exr"], env=BARE, check=True)
+
+
 def check_bare_root(root, glibc, scenes, folder, volume):
     """Runs in a file system that contains nothing but glibc: no shell, no libstdc++."""
     bare = folder / "root"
@@ -113,6 +129,7 @@ def main():
     assert said.startswith(f"bdpt {version}\n"), said
     render([program], scenes, folder / "out.png", openvdb == "1")
     check_tiff_is_refused(program, scenes, folder)
+    check_ktx2(program, scenes, folder)
     link = folder / "bdpt"
     link.symlink_to(program)
     render([link], scenes, folder / "linked.png", openvdb == "1")

@@ -425,8 +425,10 @@ make_archive() {
   mkdir -p "$folder/denoiser/lib"
   cp "$FAKE_OIDN" "$folder/denoiser/lib/libOpenImageDenoise.so.2"
   cp "$SOURCE/cmake/archive/third-party-programs.txt" "$folder/denoiser"
+  mkdir "$folder/ktx"
+  cp "$FAKE_KTX" "$folder/ktx/libktx.so"
   "$CMAKE" -DBUILD="$BUILD" -DCONFIG="$CONFIG" -DNAME="$name" -DCOMPONENTS="$components" -DLIBDIR="$LIBDIR" \
-    -DFOLDER="$folder" -DDENOISER="$folder/denoiser" -DLEVEL=0 -P "$SOURCE/cmake/archive/make_archive.cmake"
+    -DFOLDER="$folder" -DDENOISER="$folder/denoiser" -DKTX="$folder/ktx" -DLEVEL=0 -P "$SOURCE/cmake/archive/make_archive.cmake"
   check_names "$BUILD/archive" "$BUILD" "$SOURCE" "$WORK"
   rm -rf "$BUILD/archive"
   "$PYTHON3" "$here/check_archive.py" "$folder/$name.tar.xz" "$folder" "$SOURCE/scenes" "$VERSION" "$OPENVDB"

@@ -48,8 +48,8 @@ struct Ktx2Header {
 /// file that crashes it costs only one image.
 class Ktx2Decoder {
 public:
-    /// `library` is a file or a folder with libktx.so.4; none: the library that the system finds by
-    /// that name. Nothing is opened yet.
+    /// `library` is a file or a folder with libktx.so.4; none: ktx/libktx.so beside bdpt::io, else
+    /// the library that the system finds by that name. Nothing is opened yet.
     explicit Ktx2Decoder(const std::optional<std::filesystem::path>& library);
 
     /// Returns why no image can be decoded; null: images can. The first call starts a process to

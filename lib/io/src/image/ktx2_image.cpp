@@ -449,10 +449,16 @@ std::optional<std::string> find_obstacle(const std::string& library)
     }
 }
 
+/// Returns the library that comes with this code; empty: none does.
+std::string ktx_beside()
+{
+    return find_companion("ktx/libktx.so").value_or("").string();
+}
+
 }  // namespace
 
 Ktx2Decoder::Ktx2Decoder(const std::optional<std::filesystem::path>& library)
-    : library_(library ? library->string() : std::string())
+    : library_(library ? library->string() : ktx_beside())
 {}
 
 const std::string* Ktx2Decoder::obstacle()

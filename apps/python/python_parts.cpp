@@ -156,11 +156,12 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
         const DefaultLights missing = missing_lights(scene, framed);
         if (missing != DefaultLights::none) {
             scene = scene.with_lights(default_lights(missing, framed));
-            environment = "default";
+            environment = missing == DefaultLights::object ? "object" : "default";
             notes.push_back(
-                missing == DefaultLights::sky
-                    ? job::Note{"default_sky",
-                                "no light: lit by the default environment, a soft sky"}
+                missing == DefaultLights::object
+                    ? job::Note{"default_sky", "no light: lit by a key and a rim light"}
+                : missing == DefaultLights::sky
+                    ? job::Note{"default_sky", "no light: lit by a soft sky"}
                     : job::Note{"default_lamp", "a closed room without light: lit by a lamp"});
         }
     }
@@ -211,7 +212,9 @@ void bind_parts_of_scenes(nb::module_& module)
         "__init__", &make_scene, nb::arg("meshes"), nb::arg("lights") = std::vector<ArrayLight>(),
         nb::arg("camera") = nb::none(), nb::arg("size") = std::pair(1280, 720),
         "Scene of meshes, lights and a camera; without a camera, the whole scene is framed, and "
-        "without light it gets a soft sky (and a lamp in a closed room). Arrays are copied.");
+        "without light it gets a key and a rim light (a room a soft sky, a closed one a lamp). "
+        "Arrays "
+        "are copied.");
 }
 
 void bind_lights(nb::module_& module)

@@ -41,7 +41,7 @@ SCENES = (
     ("car, studio", "Lamborghini/scene.glb", "--env {hdr}/studio.exr"),
     ("car, sunset", "Lamborghini/scene.glb", "--env {hdr}/sunset.exr"),
     ("jungle, sunset", "Jungle/scene.gltf", "--env {hdr}/sunset.exr"),
-    ("jungle, default sky", "Jungle/scene.gltf", ""),
+    ("jungle, default sky", "Jungle/scene.gltf", "--env default"),
     ("shader ball, interior", "ShaderBall_materialx/shaderball.glb", "--env {hdr}/interior.exr"),
     ("floor of 6 m", "floor-6.gltf", "--env {hdr}/courtyard.exr"),
     ("floor of 60 m", "floor-60.gltf", "--env {hdr}/courtyard.exr"),

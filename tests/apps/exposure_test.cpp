@@ -144,7 +144,7 @@ TEST_CASE("white, grey and black things have the same exposure by the light on t
     CHECK(exposure_of("0.2", {"--exposure", "light-0.5"}) == Approx(grey - 0.5).margin(1e-4));
     CHECK(exposure_of("0.2", {"--exposure", "+1"}) == 1.0);
     // Twice the light.
-    CHECK(exposure_of("0.2", {"--env", "default", "--env-intensity", "2"}) ==
+    CHECK(exposure_of("0.2", {"--env", "object", "--env-intensity", "2"}) ==
           Approx(grey - 1.0).margin(1e-3));
 }
 

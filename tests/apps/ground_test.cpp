@@ -146,7 +146,7 @@ TEST_CASE("without --background the visible environment is darkened by the shado
             folder.render(joined(joined(more, how), {"-o", folder.path(name + ".exr"), "-o",
                                                      folder.path(name + ".png")})));
     };
-    write({}, "plain");
+    write({"--ground", "none"}, "plain");
     write({"--ground", "shadow"}, "shaded");
     const std::vector<float> shadow = folder.channel("shaded.exr", "shadow.A");
     const std::vector<Rgb> plain = read_exr(folder.path("plain.exr")).image.pixels;
@@ -307,6 +307,46 @@ TEST_CASE("with --denoise the shadow on the ground is denoised, and the noisy on
         REQUIRE(clean_alpha[i] == Approx(covered + clean[i]).margin(1e-6));
         REQUIRE(codes[i] == static_cast<std::uint16_t>(255.0f * clean_alpha[i] + 0.5f));
     }
+}
+
+TEST_CASE("pictures of an object without light show its shadow, files of light do not")
+{
+    const GroundFolder folder;
+    const auto render = [&](const std::string& name, const Words& more) {
+        const Words words{"--spp",
+                          "16",
+                          "--exposure",
+                          "0",
+                          "--denoise=false",
+                          "-o",
+                          folder.path(name + ".png"),
+                          "-o",
+                          folder.path(name + ".exr")};
+        GroundFolder::check(folder.render(joined(words, more)));
+        return read_png(folder.path(name + ".png"));
+    };
+    const PngFile plain = render("plain", {"--ground", "none"});
+    const PngFile shadowed = render("shadowed", {});
+    std::size_t darker = 0;
+    for (std::size_t i = 0; i < plain.values.size(); ++i) {
+        CHECK(shadowed.values[i] <= plain.values[i]);
+        darker += shadowed.values[i] < plain.values[i] ? 1U : 0U;
+    }
+    CHECK(darker > 20);
+    for (const char* channel : {"R", "G", "B"}) {
+        CHECK(folder.channel("shadowed.exr", channel) == folder.channel("plain.exr", channel));
+    }
+    CHECK_THROWS(folder.channel("shadowed.exr", "shadow.A"));
+    // Only that light has the shadow, and only the visible environment.
+    const Words sky{"--env", "default"};
+    CHECK(render("sky", sky).values ==
+          render("sky_none", joined(sky, {"--ground", "none"})).values);
+    const Words white{"--background", "white"};
+    CHECK(render("white", white).values ==
+          render("white_none", joined(white, {"--ground", "none"})).values);
+    // What --ground shadow makes is in all files.
+    CHECK(render("asked", {"--ground", "shadow"}).values == shadowed.values);
+    CHECK(folder.channel("asked.exr", "G") != folder.channel("plain.exr", "G"));
 }
 
 }  // namespace

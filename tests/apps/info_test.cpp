@@ -21,7 +21,7 @@ TEST_CASE("info tells people what a file holds")
     CHECK(outcome.err.empty());
     for (const char* text :
          {"2.0", "bdpt tests", "12 in meshes, 12 in the scene", "0 \"front\" at 0,0,5",
-          "1 \"side\" at 5,0,0", "-1,-1,-1 to 1,1,1 m", "no light: a render adds a soft sky"}) {
+          "1 \"side\" at 5,0,0", "-1,-1,-1 to 1,1,1 m", "no light: a render adds lights"}) {
         CAPTURE(text);
         CHECK(outcome.out.find(text) != std::string::npos);
     }

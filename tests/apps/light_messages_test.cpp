@@ -160,7 +160,7 @@ std::filesystem::path token_emitter(const ScratchFolder& folder)
     return scene;
 }
 
-const std::string glows = "no light but emissive materials: lit by the default environment";
+const std::string glows = "no light but emissive materials: lit by a key and a rim light";
 
 TEST_CASE("a scene without light but for a token emitter is lit by the sky, and it is said")
 {
@@ -172,7 +172,7 @@ TEST_CASE("a scene without light but for a token emitter is lit by the sky, and 
     CHECK(contains(note, "--env none"));
     CHECK_FALSE(contains(note, "warning"));
     CHECK_FALSE(contains(said(folder, scene, {"--json"}), "warning"));
-    CHECK(contains(said(folder, scene, {"--json"}), R"("environment":"default")"));
+    CHECK(contains(said(folder, scene, {"--json"}), R"("environment":"object")"));
     for (const char* environment : {"default", "none"}) {
         CHECK_FALSE(contains(said(folder, scene, {"--env", environment}), "no light"));
     }
@@ -204,7 +204,7 @@ TEST_CASE("the size of an image does not decide whether a scene gets a sky")
         const std::filesystem::path scene = cube_on_floor(folder, radiance);
         const auto has_sky = [&](const char* size) {
             return contains(said(folder, scene, {"--json", "--size", size}),
-                            R"("environment":"default")");
+                            R"("environment":"object")");
         };
         for (const char* size : {"64x48", "36x64", "96x16"}) {
             CAPTURE(radiance, size);

@@ -72,7 +72,7 @@ TEST_CASE("a file with neither camera nor light gives an image and notes")
     CHECK(outcome.err.find("bdpt: " + scene + ": no camera") != std::string::npos);
     CHECK(outcome.err.find("bdpt: " + scene + ": no light") != std::string::npos);
     CHECK(outcome.err.find("warning") == std::string::npos);
-    CHECK(outcome.err.find("default environment") != std::string::npos);
+    CHECK(outcome.err.find("lit by a key and a rim light") != std::string::npos);
     CHECK(outcome.err.find("a lamp was added") == std::string::npos);
     const Image image = read_exr(out).image;
     // The cube is in the middle, lit from the sky, which is all around it and has no dark places.
@@ -193,8 +193,9 @@ TEST_CASE("option --env chooses the light from all around")
         return render(folder, scene, more).image.at(0, 0).g;
     };
     CHECK(corner({"--env", "none"}) == 0.0f);
-    CHECK(corner({}) == corner({"--env", "default"}));  // the cube glows, but lights nothing
-    CHECK(corner({"--env", "default"}) > 0.4f);
+    CHECK(corner({}) == corner({"--env", "object"}));  // the cube glows, but lights nothing
+    CHECK(corner({"--env", "object"}) > 0.2f);
+    CHECK(corner({"--env", "default"}) > corner({"--env", "object"}));
 
     // The image of a file: its own output, which is a uniform 1 nit when the cube fills it.
     render(folder, scene, {"--spp", "1", "--size", "8x4", "--from", "0,0,1.01"});

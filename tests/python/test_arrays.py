@@ -24,7 +24,7 @@ def test_a_lambertian_floor_under_a_white_sky_has_its_albedo():
 
 def test_arrays_without_light_get_that_of_files():
     scene = bdpt.Scene([floor(base_color=(0.5, 0.5, 0.5))], camera=FROM_ABOVE, size=(8, 8))
-    assert scene.notes == ["no light: lit by the default environment, a soft sky"]
+    assert scene.notes == ["no light: lit by a key and a rim light"]
     assert bdpt.render(scene, spp=8).image.mean() > 0.1
     lit = bdpt.Scene([floor()], [WHITE_SKY], FROM_ABOVE, (8, 8))
     assert lit.notes == [] and lit.lights == 1

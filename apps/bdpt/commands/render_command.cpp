@@ -39,10 +39,10 @@ constexpr const char* render_footer = R"(Examples:
   bdpt render hall.glb -o out.png --volume smoke.vdb --volume-extinction 20
   bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
 
-Without a camera in the file, the whole scene is framed; without light, a soft sky is added (and a
-lamp in a closed room); a note says so. Ctrl-C, or closing the terminal, finishes the current pass
-and writes the image; a second Ctrl-C quits at once. With --part, SIGUSR1 writes a checkpoint, and a
-killed render resumes when the same command runs again.
+Without a camera in the file, the whole scene is framed; without light, a key and a rim light are
+added (in a room a soft sky, in a closed one a lamp); a note says so. Ctrl-C, or closing the
+terminal, finishes the current pass and writes the image; a second Ctrl-C quits at once. With
+--part, SIGUSR1 writes a checkpoint, and a killed render resumes when the same command runs again.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
 5 unsupported feature, 6 output cannot be written, 7 out of memory or threads, 129 stopped by
@@ -85,8 +85,8 @@ std::vector<Essential> render_essentials()
         {"--look-at"},
         {"--fov"},
         {"--env",
-         "Environment map: an equirectangular image, none, default (a soft sky) or studio (soft "
-         "boxes)"},
+         "Environment map: an equirectangular image, none, default (a soft sky), object (a key and "
+         "a rim light) or studio (soft boxes)"},
         {"--orbit", "Turntable: N views, into files with #### in their names"},
     };
 }

@@ -303,9 +303,8 @@ std::vector<std::string> default_lines(const Defaults& defaults)
         lines.emplace_back("no camera: a render frames the whole scene");
     }
     if (defaults.sky) {
-        lines.emplace_back(defaults.glows ? "no light but emissive materials: a render adds a soft "
-                                            "sky"
-                                          : "no light: a render adds a soft sky");
+        lines.emplace_back(defaults.glows ? "no light but emissive materials: a render adds lights"
+                                          : "no light: a render adds lights");
     }
     if (defaults.lamp) {
         lines.emplace_back("a closed room without light: a render adds a lamp");

@@ -28,10 +28,15 @@ namespace bdpt {
 /// Tests whether something in `desc` can be seen: a triangle, or a light with a radius.
 [[nodiscard]] BDPT_EXPORT bool has_surface(const SceneDesc& desc);
 
-/// Returns a soft grey sky for scenes without lights: its radiance is 1 nit on average, lowest
+/// Returns a soft grey sky for rooms without lights: its radiance is 1 nit on average, lowest
 /// below and behind, and highest at the upper left of an observer who faces the front (+z), so that
 /// sides with different orientations differ.
 [[nodiscard]] BDPT_EXPORT EnvironmentLightDesc default_environment();
+
+/// Returns the light of objects without lights: a key light on the left of an observer who faces
+/// the front (+z), a weaker rim light behind on the right, and a sky that is darker than white
+/// objects. Its radiance is 1 nit on average.
+[[nodiscard]] BDPT_EXPORT EnvironmentLightDesc object_environment();
 
 /// Returns a point light for a room that the sky does not reach. A white diffuse surface that faces
 /// it, at the distance from the light to the camera, has 1 nit.
@@ -40,7 +45,8 @@ namespace bdpt {
 /// Default lights of a scene.
 enum class DefaultLights {
     none,          ///< the scene has lights
-    sky,           ///< `default_environment`
+    object,        ///< `object_environment`, as the view is not into a room
+    sky,           ///< `default_environment`, as the view is into an open room
     sky_and_lamp,  ///< `default_environment` and `default_lamp`, as the view is in a closed room
 };
 
@@ -50,7 +56,7 @@ enum class DefaultLights {
 
 /// Returns the default lights that `scene`, built without them, needs; `framed` is its
 /// `metered_view`. None if the scene has a light, or if its emissive materials illuminate it: in an
-/// open scene if half of the framed surfaces receive at least 3 % of the light of the default sky,
+/// open scene if half of the framed surfaces receive at least 3 % of the light of a default sky,
 /// in a closed room if the mean of `white_cards` is at least 0.1 % of the light of the lamp.
 [[nodiscard]] BDPT_EXPORT DefaultLights missing_lights(const Scene& scene,
                                                        const FramedView& framed);

@@ -55,6 +55,8 @@ struct FramedView {
     /// one whose picture is deep and lit, as a pilot of 64 paths each sees it. The choice does not
     /// depend on the aspect ratio and the field of view.
     bool inside = false;
+    /// True if the view is from inside, or into a room that lacks a wall; false for an object.
+    bool room = false;
     /// True if hardly any ray leaves the space around the camera, so that light from infinity would
     /// not reach it.
     bool enclosed = false;

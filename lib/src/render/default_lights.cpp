@@ -18,30 +18,61 @@
 namespace bdpt {
 namespace {
 
-// The key light is on the left of an observer in front of the objects, the rim light behind them on
-// the right.
-const glm::dvec3 key_towards = glm::normalize(glm::dvec3(-0.5, 1.0, 0.87));
-const glm::dvec3 rim_towards = glm::normalize(glm::dvec3(0.5, 0.36, -0.87));
-constexpr double key_radiance = 5.0;  // before normalisation to a mean of 1 nit, like all of these
-constexpr double rim_radiance = 1.0;
+/// A light as wide as a part of the sky: so soft that it causes hardly any noise, and does not look
+/// like a lamp in mirrors.
+struct SoftLight {
+    glm::dvec3 towards;  ///< the middle of the light; any length
+    double radiance;     ///< there; before normalisation to a mean of 1 nit, like all of these
+    int power;           ///< of the cosine that dims it
+};
 
-/// Returns a light as wide as a part of the sky: so soft that it causes hardly any noise, and does
-/// not look like a lamp in mirrors.
-double soft_light(const glm::dvec3& direction, const glm::dvec3& towards, double radiance)
+/// A sky, and a ground that continues from its horizon without an edge, so that it is a backdrop in
+/// views from above. The key light is on the left of an observer in front of the objects, the rim
+/// light behind them on the right.
+struct PaintedSky {
+    double horizon;  ///< radiance
+    double zenith;   ///< radiance
+    double ground;   ///< radiance below 42 degrees under the horizon
+    SoftLight key;
+    SoftLight rim;
+};
+
+constexpr PaintedSky even_sky{.horizon = 0.7,
+                              .zenith = 1.2,
+                              .ground = 0.5,
+                              .key = {{-0.5, 1.0, 0.87}, 5.0, 6},
+                              .rim = {{0.5, 0.36, -0.87}, 1.0, 6}};
+
+// Light from fewer directions shapes objects; darker than white paint, so that it stands out.
+constexpr PaintedSky dark_sky{.horizon = 0.45,
+                              .zenith = 0.25,
+                              .ground = 0.32,
+                              .key = {{-0.8, 0.9, 0.8}, 14.0, 18},
+                              .rim = {{0.4, 0.6, -1.0}, 3.0, 12}};
+
+double radiance(const SoftLight& light, const glm::dvec3& direction)
 {
-    const double cosine = std::max(glm::dot(direction, towards), 0.0);
-    return radiance * cosine * cosine * cosine * cosine * cosine * cosine;
+    const double cosine = std::max(glm::dot(direction, glm::normalize(light.towards)), 0.0);
+    double result = light.radiance;
+    for (int i = 0; i < light.power; ++i) {
+        result *= cosine;
+    }
+    return result;
 }
 
-/// Returns a sky that is brightest above, and a ground that continues from its horizon without an
-/// edge, so that it is a backdrop in views from above.
-double even_sky(double sine)
+double radiance(const PaintedSky& sky, const glm::dvec3& direction)
 {
-    constexpr double horizon = 0.7;
-    constexpr double zenith = 1.2;
-    constexpr double ground = 0.5;
-    return sine > 0.0 ? horizon + (zenith - horizon) * sine
-                      : horizon + (ground - horizon) * smooth_step(-1.5 * sine);
+    const double sine = direction.y;
+    const double even = sine > 0.0
+                            ? sky.horizon + (sky.zenith - sky.horizon) * sine
+                            : sky.horizon + (sky.ground - sky.horizon) * smooth_step(-1.5 * sine);
+    return even + radiance(sky.key, direction) + radiance(sky.rim, direction);
+}
+
+EnvironmentLightDesc paint(const PaintedSky& sky)
+{
+    return painted_environment(
+        painted_32_rows, [&sky](const glm::dvec3& direction) { return radiance(sky, direction); });
 }
 
 double mean(const std::vector<double>& cards)
@@ -120,10 +151,12 @@ bool has_surface(const SceneDesc& desc)
 
 EnvironmentLightDesc default_environment()
 {
-    return painted_environment(painted_32_rows, [](const glm::dvec3& direction) {
-        return even_sky(direction.y) + soft_light(direction, key_towards, key_radiance) +
-               soft_light(direction, rim_towards, rim_radiance);
-    });
+    return paint(even_sky);
+}
+
+EnvironmentLightDesc object_environment()
+{
+    return paint(dark_sky);
 }
 
 PointLightDesc default_lamp(const FramedView& view)
@@ -151,13 +184,17 @@ DefaultLights missing_lights(const Scene& scene, const FramedView& framed)
         (scene.counts().emissive_triangles > 0 && is_lit_by_emitters(scene, framed))) {
         return DefaultLights::none;
     }
-    return framed.enclosed ? DefaultLights::sky_and_lamp : DefaultLights::sky;
+    return framed.enclosed ? DefaultLights::sky_and_lamp
+           : framed.room   ? DefaultLights::sky
+                           : DefaultLights::object;
 }
 
 std::vector<LightDesc> default_lights(DefaultLights missing, const FramedView& framed)
 {
     std::vector<LightDesc> lights;
-    if (missing != DefaultLights::none) {
+    if (missing == DefaultLights::object) {
+        lights.emplace_back(object_environment());
+    } else if (missing != DefaultLights::none) {
         lights.emplace_back(default_environment());
     }
     if (missing == DefaultLights::sky_and_lamp) {

@@ -74,7 +74,7 @@ TEST_CASE("all outputs are written, with their size and how they were made")
     CHECK(settings["heuristic"] == "balance");
     CHECK(settings["sampler"] == "independent");
     CHECK(settings["spp"] == 5);
-    CHECK(settings["environment"] == "default");
+    CHECK(settings["environment"] == "object");
 
     PngFile png = read_png(folder / "b.PNG");
     CHECK(png.width == 40);

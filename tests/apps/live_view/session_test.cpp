@@ -225,7 +225,10 @@ TEST_CASE("what is seen has the bits of the command that can be copied", "[live_
         CHECK(same_pixels(viewing.saved("save.exr"), viewing.rendered(state, "command.exr")));
         CHECK(same_pixels(viewing.saved("save.png"), viewing.rendered(state, "command.png")));
     }
-    // The job renders the same.
+    // The job renders the same, but for the shadow that only pictures have.
+    CHECK(viewing.finished().at("ground") == true);
+    CHECK_FALSE(viewing.ask({{"set", {{"ground", false}}}}).contains("error"));
+    static_cast<void>(viewing.finished({"--ground=none"}));
     const fs::path job = viewing.saved("save.json");
     REQUIRE(run({"render", job.string(), "--quiet", "-o", viewing.path("job.exr")}).exit_code == 0);
     CHECK(same_pixels(viewing.path("job.exr"), viewing.saved("save.exr")));
@@ -328,10 +331,11 @@ TEST_CASE("pages choose lens, field of view, background and ground", "[live_view
         viewing.ask({{"set", {{"f_stop", nullptr}, {"ground", false}, {"background", nullptr}}}})
             .contains("error"));
     CHECK_FALSE(viewing.ask({{"set", {{"camera", "side"}}}}).contains("error"));
-    state = viewing.finished({"--camera=side"});
+    state = viewing.finished({"--camera=side", "--ground=none"});
     CHECK(state.at("camera").at("choice") == "side");
     CHECK(state.at("cameras") == json::parse(R"([["front", "front"], ["side", "side"]])"));
-    for (const char* word : {"--f-stop", "--focus", "--ground", "--background", "--fov"}) {
+    CHECK(state.at("ground") == false);
+    for (const char* word : {"--f-stop", "--focus", "--background", "--fov"}) {
         CAPTURE(word);
         CHECK(state.at("command").get<std::string>().find(word) == std::string::npos);
     }

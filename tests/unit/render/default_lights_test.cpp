@@ -19,9 +19,11 @@ const MaterialDesc wall = test::lambertian(Rgb(0.7f));
 
 }  // namespace
 
-TEST_CASE("the default environment is grey and 1 nit on average", "[default_lights]")
+TEST_CASE("default environments are grey and 1 nit on average", "[default_lights]")
 {
-    const Image sky = default_environment().radiance.to_image();
+    const bool is_object = GENERATE(false, true);
+    const Image sky =
+        (is_object ? object_environment() : default_environment()).radiance.to_image();
     REQUIRE(sky.height > 1);
     double sum = 0.0;
     double weights = 0.0;
@@ -39,27 +41,30 @@ TEST_CASE("the default environment is grey and 1 nit on average", "[default_ligh
     CHECK(sum / weights == Approx(1.0).epsilon(1e-4));
 }
 
+/// Radiance of a white diffuse surface [nit], by all texels. Columns go from +z by -x and -z to +x.
+double card(const Image& sky, Vec3 normal)
+{
+    double sum = 0.0;
+    for (int y = 0; y < sky.height; ++y) {
+        const double polar = std::numbers::pi * (y + 0.5) / sky.height;
+        for (int x = 0; x < sky.width; ++x) {
+            const double azimuth = 2.0 * std::numbers::pi * (x + 0.5) / sky.width;
+            const Vec3 direction(-std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                                 std::sin(polar) * std::cos(azimuth));
+            const double cosine = std::max(0.0f, dot(direction, normal));
+            const double texel = std::sin(polar) * 2.0 * std::numbers::pi * std::numbers::pi /
+                                 (sky.width * sky.height);
+            sum += cosine * texel * static_cast<double>(sky.at(x, y).g);
+        }
+    }
+    return sum / std::numbers::pi;
+}
+
 TEST_CASE("sides of a box that face different ways differ under the default environment",
           "[default_lights]")
 {
-    // The irradiance of a side, by all texels. Columns go from +z by -x and -z to +x.
     const Image sky = default_environment().radiance.to_image();
-    const auto irradiance = [&](Vec3 normal) {
-        double sum = 0.0;
-        for (int y = 0; y < sky.height; ++y) {
-            const double polar = std::numbers::pi * (y + 0.5) / sky.height;
-            for (int x = 0; x < sky.width; ++x) {
-                const double azimuth = 2.0 * std::numbers::pi * (x + 0.5) / sky.width;
-                const Vec3 direction(-std::sin(polar) * std::sin(azimuth), std::cos(polar),
-                                     std::sin(polar) * std::cos(azimuth));
-                const double cosine = std::max(0.0f, dot(direction, normal));
-                const double texel = std::sin(polar) * 2.0 * std::numbers::pi * std::numbers::pi /
-                                     (sky.width * sky.height);
-                sum += cosine * texel * static_cast<double>(sky.at(x, y).g);
-            }
-        }
-        return sum / std::numbers::pi;
-    };
+    const auto irradiance = [&](Vec3 normal) { return card(sky, normal); };
     const double top = irradiance({0.0f, 1.0f, 0.0f});
     const double front = irradiance({0.0f, 0.0f, 1.0f});
     const double right = irradiance({1.0f, 0.0f, 0.0f});
@@ -70,12 +75,37 @@ TEST_CASE("sides of a box that face different ways differ under the default envi
     CHECK(irradiance({0.0f, 0.0f, -1.0f}) > 0.3 * top);
 }
 
-TEST_CASE("there is no edge at the horizon of the default environment", "[default_lights]")
+TEST_CASE(
+    "objects are brighter than what is behind them, and their sides differ, under their light",
+    "[default_lights]")
+{
+    const Image sky = object_environment().radiance.to_image();
+    const double top = card(sky, {0.0f, 1.0f, 0.0f});
+    const double front = card(sky, {0.0f, 0.0f, 1.0f});
+    const double right = card(sky, {1.0f, 0.0f, 0.0f});
+    CHECK(top > 1.15 * front);
+    CHECK(front > 2.0 * right);
+    CHECK(card(sky, {0.0f, -1.0f, 0.0f}) > 0.2 * top);  // nothing is black
+    CHECK(card(sky, {0.0f, 0.0f, -1.0f}) > 1.25 * right);
+    // What is behind them in views from their right front; white paint reflects 0.8.
+    for (int y = sky.height / 2; y < sky.height; ++y) {
+        for (int x = sky.width * 5 / 16; x < sky.width / 2; ++x) {
+            CHECK(static_cast<double>(sky.at(x, y).g) < 0.8 * 0.7 * front);
+        }
+    }
+}
+
+TEST_CASE("there is no edge at the horizon of default environments", "[default_lights]")
 {
     // The radiance changes there as it does a row above and a row below.
-    const Image sky = default_environment().radiance.to_image();
+    const bool is_object = GENERATE(false, true);
+    const Image sky =
+        (is_object ? object_environment() : default_environment()).radiance.to_image();
     const int below = sky.height / 2;
-    for (int x = 0; x < sky.width; ++x) {
+    // Lights of objects are so narrow that they change it; behind objects there are none.
+    const int first = is_object ? sky.width * 5 / 16 : 0;
+    const int last = is_object ? sky.width / 2 : sky.width;
+    for (int x = first; x < last; ++x) {
         const auto step = [&](int y) { return sky.at(x, y - 1).g - sky.at(x, y).g; };
         CHECK(std::abs(step(below) - 0.5f * (step(below - 1) + step(below + 1))) < 0.02f);
     }
@@ -122,7 +152,7 @@ TEST_CASE("a scene without light is told, and one with light or unlit surfaces i
     const Scene scene(dark.desc);
     CHECK(scene.warnings() == told);
     CHECK(scene.with_lights({default_environment()}).warnings().empty());
-    CHECK(add_default_lights(dark.desc) == DefaultLights::sky);
+    CHECK(add_default_lights(dark.desc) == DefaultLights::object);
     CHECK(Scene(dark.desc).warnings().empty());
     test::SceneBuilder unlit;
     MaterialDesc text = wall;
@@ -131,10 +161,10 @@ TEST_CASE("a scene without light is told, and one with light or unlit surfaces i
     CHECK(Scene(unlit.desc).warnings().empty());
 }
 
-TEST_CASE("a scene without light gets a sky, and a closed room a lamp, too", "[default_lights]")
+TEST_CASE("a room without light gets a sky, and a closed one a lamp, too", "[default_lights]")
 {
     test::SceneBuilder open;
-    open.walls(wall, wall);
+    open.walls(wall, wall).ceiling(wall);
     CHECK(add_default_lights(open.desc) == DefaultLights::sky);
     REQUIRE(open.desc.lights.size() == 1);
     CHECK(std::holds_alternative<EnvironmentLightDesc>(open.desc.lights[0]));
@@ -161,7 +191,7 @@ TEST_CASE("emitters that light an open scene are its light, those that glow are 
 
     test::SceneBuilder glows;
     glows.sphere({0, 0, 0}, 1.0f, wall).sphere({0, 1.1f, 0}, 0.1f, test::emitter(Rgb(1.0f)));
-    CHECK(add_default_lights(glows.desc) == DefaultLights::sky);
+    CHECK(add_default_lights(glows.desc) == DefaultLights::object);
     CHECK(glows.desc.lights.size() == 1);
 }
 
@@ -176,7 +206,7 @@ TEST_CASE("an emitter above a floor is its light if half of the floor is lit", "
                    test::emitter(Rgb(50.0f)));
         return add_default_lights(scene.desc);
     };
-    CHECK(lights_beside_emitter(0.05f) == DefaultLights::sky);
+    CHECK(lights_beside_emitter(0.05f) == DefaultLights::object);
     CHECK(lights_beside_emitter(2.0f) == DefaultLights::none);
 }
 

@@ -255,11 +255,12 @@ void add_view_options(OptionList& options, RenderRequest& request)
     add_camera_options(options, arguments.camera, arguments.view);
     options.section("What to render", of_load);
     options
-        .add("--env", "FILE|none|default|studio",
-             "Environment map: an equirectangular .exr, .hdr, .tif, .png or .jpg, none, default "
-             "(the sky that scenes without light get), or studio (soft boxes, for products). "
-             "Replaces the file's",
-             arguments.environment, file_path({"none", "default", "studio", "-"}))
+        .add("--env", "FILE|none|default|object|studio",
+             "Environment map: an equirectangular .exr, .hdr, .tif, .png or .jpg, none, default (a "
+             "soft sky, which rooms without light get), object (a key and a rim light, which "
+             "objects without light get), or studio (soft boxes, for products). Replaces the "
+             "file's",
+             arguments.environment, file_path({"none", "default", "object", "studio", "-"}))
         .uses.plan_render = false;  // plans store files separately
     add_environment_options(options, arguments.environment_change);
     add_fog_options(options, request.fog);
@@ -344,6 +345,8 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
         result.options.film.aovs.insert(Aov::alpha);
     }
     result.options.film = with_ground(request.ground, result.options.film, options);
+    result.may_add_ground = request.ground == Ground::automatic && !result.display.backdrop &&
+                            !result.fog && !result.volume && !result.part;
     if (result.denoise.is_asked()) {
         AovSet& aovs = result.options.film.aovs;
         for (const Aov guide : missing_guides(aovs, result.display.backdrop)) {
@@ -370,7 +373,8 @@ RenderArguments render_arguments(const std::vector<std::string>& words)
 
 bool is_file_of_environment(const std::string& environment)
 {
-    return environment != "none" && environment != "default" && environment != "studio";
+    return std::find(named_environments.begin(), named_environments.end(), environment) ==
+           named_environments.end();
 }
 
 void add_part_options(OptionList& options, PartChoice& part)

@@ -135,7 +135,7 @@ struct RenderArguments {
     Isa isa = Isa::native;
     io::GltfOptions scene{};                   ///< selects the part of the file to render
     io::MemoryLimit memory{};                  ///< for scene and film
-    std::optional<std::string> environment{};  ///< a file, or "none", "default" or "studio"
+    std::optional<std::string> environment{};  ///< a file, or one of `named_environments`
     TextureFilter texture_filter = TextureFilter::bilinear;
     ContactKind contacts = ContactKind::automatic;
     EnvironmentChange environment_change{};  ///< applied to whichever environment it is
@@ -145,8 +145,10 @@ struct RenderArguments {
     /// Exposure of a white card [EV], if the light was metered.
     std::optional<float> light_exposure{};
     DenoiseArguments denoise{};
-    /// Layers of the film that only guide the denoiser: no file has them.
-    std::vector<Aov> guides{};
+    /// Layers of the film for files for screens alone: they guide the denoiser, or darken the
+    /// ground. No file has them.
+    std::vector<Aov> screen_aovs{};
+    bool may_add_ground = false;  ///< if the scene gets the light of objects without lights
     ExrFormat exr{};
     std::optional<std::filesystem::path> stats{};  ///< file for statistics of the render
     std::optional<StrategyFiles> strategies{};     ///< files of strategy images
@@ -195,7 +197,7 @@ struct RenderRequest {
     std::optional<SampleRange> samples{};
     std::optional<std::uint64_t> max_memory{};  ///< [bytes]
     PathsOnly only = PathsOnly::all;
-    Ground ground = Ground::none;
+    Ground ground = Ground::automatic;
     Adaptivity adaptive = Adaptivity::automatic;
     MediumDesc fog{};
     VolumeChoice volume{};
@@ -242,6 +244,10 @@ struct RenderOptionList {
 
 /// Parses `words` after `bdpt render`, as `give_words` takes them. Throws `OptionError`.
 [[nodiscard]] RenderArguments render_arguments(const std::vector<std::string>& words);
+
+/// Words of --env; others are paths of files.
+inline constexpr std::array<std::string_view, 4> named_environments{"default", "object", "studio",
+                                                                    "none"};
 
 /// Tests whether --env `environment` is the path of a file; else it is a word.
 [[nodiscard]] bool is_file_of_environment(const std::string& environment);

@@ -199,16 +199,62 @@ Cleaned cleaned(const Image& image, const Matte& noisy, const ImageFileOptions& 
 
 namespace {
 
-/// Removes the layers that only guide the denoiser.
-void drop_guides(ImageFileOptions& options)
+bool is_for_screens_only(Aov aov, const ImageFileOptions& options)
 {
-    std::erase_if(options.layers, [&options](const Layer& layer) {
-        return std::any_of(aov_layers.begin(), aov_layers.end(), [&](const AovLayer& aov) {
-            return aov.layer == layer.name &&
-                   std::find(options.guides.begin(), options.guides.end(), aov.aov) !=
-                       options.guides.end();
+    const std::vector<Aov>& aovs = options.screen_aovs;
+    return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
+}
+
+void drop_layer(Aov aov, std::vector<Layer>& layers)
+{
+    std::erase_if(layers, [aov](const Layer& layer) {
+        return std::any_of(aov_layers.begin(), aov_layers.end(), [&](const AovLayer& known) {
+            return known.aov == aov && known.layer == layer.name;
         });
     });
+}
+
+/// Writes files that all have the layers of `options` but those for screens.
+WrittenImages write_alike(std::span<const fs::path> outputs, const Image& rendered,
+                          ImageFileOptions options, Attempts& attempts)
+{
+    if (outputs.empty()) {
+        return {};
+    }
+    const Matte noisy = find_matte(options.layers);
+    const std::optional<Image> shadowed = darkened(rendered, noisy, options.display);
+    const Image& image = shadowed ? *shadowed : rendered;
+    const bool is_shown = std::any_of(outputs.begin(), outputs.end(), is_for_screens);
+    std::optional<Image> behind =
+        is_shown ? backplate(options.display, image, options.exr.placement) : std::nullopt;
+    Cleaned clean = cleaned(image, noisy, options);
+    for (const Aov aov : options.screen_aovs) {
+        drop_layer(aov, options.layers);
+    }
+    if (!clean.image) {
+        WrittenImages written = write_as_they_are(
+            outputs, image, {.image = image, .matte = noisy, .backplate = std::move(behind)},
+            options, attempts);
+        written.why_noisy = std::move(clean.failure);
+        return written;
+    }
+    const std::string denoiser = "Open Image Denoise " + options.denoiser->version();
+    if (options.denoising == Denoising::image) {
+        put(clean.matte, noisy, {.alpha = "noisyAlpha", .shadow = "noisyShadow"}, options.layers);
+        options.layers.push_back(to_layer(image, "noisy"));
+        options.exr.metadata.denoiser = denoiser;
+    } else if (options.denoising == Denoising::layer) {
+        put(noisy, clean.matte, {.alpha = "denoisedAlpha", .shadow = "denoisedShadow"},
+            options.layers);
+        options.layers.push_back(to_layer(*clean.image, "denoised"));
+        options.exr.metadata.denoiser = denoiser;
+    }
+    return write_as_they_are(outputs, options.denoising == Denoising::image ? *clean.image : image,
+                             {.image = *clean.image,
+                              .matte = std::move(clean.matte),
+                              .backplate = std::move(behind),
+                              .denoiser = denoiser},
+                             options, attempts);
 }
 
 }  // namespace
@@ -251,41 +297,29 @@ ImageFileOptions image_file_options(const RenderResult& part, io::ImageMetadata 
 WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& rendered,
                                 ImageFileOptions options, Attempts& attempts)
 {
-    if (outputs.empty()) {
-        return {};
+    if (!is_for_screens_only(Aov::shadow, options)) {
+        return write_alike(outputs, rendered, std::move(options), attempts);
     }
-    const Matte noisy = find_matte(options.layers);
-    const std::optional<Image> shadowed = darkened(rendered, noisy, options.display);
-    const Image& image = shadowed ? *shadowed : rendered;
-    const bool is_shown = std::any_of(outputs.begin(), outputs.end(), is_for_screens);
-    std::optional<Image> behind =
-        is_shown ? backplate(options.display, image, options.exr.placement) : std::nullopt;
-    Cleaned clean = cleaned(image, noisy, options);
-    drop_guides(options);
-    if (!clean.image) {
-        WrittenImages written = write_as_they_are(
-            outputs, image, {.image = image, .matte = noisy, .backplate = std::move(behind)},
-            options, attempts);
-        written.why_noisy = std::move(clean.failure);
-        return written;
+    std::vector<fs::path> screens(outputs.begin(), outputs.end());
+    const auto others = std::stable_partition(screens.begin(), screens.end(), is_for_screens);
+    const std::vector<fs::path> lights(others, screens.end());
+    screens.erase(others, screens.end());
+    WrittenImages written = write_alike(screens, rendered, options, attempts);
+    drop_layer(Aov::shadow, options.layers);
+    if (options.denoising == Denoising::automatic) {
+        options.denoiser = nullptr;
     }
-    const std::string denoiser = "Open Image Denoise " + options.denoiser->version();
-    if (options.denoising == Denoising::image) {
-        put(clean.matte, noisy, {.alpha = "noisyAlpha", .shadow = "noisyShadow"}, options.layers);
-        options.layers.push_back(to_layer(image, "noisy"));
-        options.exr.metadata.denoiser = denoiser;
-    } else if (options.denoising == Denoising::layer) {
-        put(noisy, clean.matte, {.alpha = "denoisedAlpha", .shadow = "denoisedShadow"},
-            options.layers);
-        options.layers.push_back(to_layer(*clean.image, "denoised"));
-        options.exr.metadata.denoiser = denoiser;
-    }
-    return write_as_they_are(outputs, options.denoising == Denoising::image ? *clean.image : image,
-                             {.image = *clean.image,
-                              .matte = std::move(clean.matte),
-                              .backplate = std::move(behind),
-                              .denoiser = denoiser},
-                             options, attempts);
+    const WrittenImages more = write_alike(lights, rendered, std::move(options), attempts);
+    written.clamped_pixels = more.clamped_pixels;
+    const auto add = [&outputs](std::vector<fs::path>& files, const std::vector<fs::path>& others) {
+        files.insert(files.end(), others.begin(), others.end());
+        std::ranges::sort(files, {}, [&outputs](const fs::path& file) {
+            return std::find(outputs.begin(), outputs.end(), file) - outputs.begin();
+        });
+    };
+    add(written.files, more.files);
+    add(written.denoised, more.denoised);
+    return written;
 }
 
 TexelImage screen_image(const Image& rendered, const ImageFileOptions& options)

@@ -164,8 +164,8 @@ void check_metered(const std::optional<Exposure>& asked, const io::ImageMetadata
 
 struct ImageFileOptions {
     io::ExrOptions exr;
-    std::vector<Layer> layers;  ///< layers of EXR files, beside the image, and `guides`
-    std::vector<Aov> guides{};  ///< layers that only guide the denoiser: EXR files lack them
+    std::vector<Layer> layers;  ///< layers of EXR files, and of `screen_aovs`
+    std::vector<Aov> screen_aovs{};  ///< layers for files for screens: EXR files lack them
     DisplayArguments display;   ///< options of files for screens
     const io::Denoiser* denoiser = nullptr;  ///< null: images are not denoised
     Denoising denoising = Denoising::image;
@@ -208,7 +208,8 @@ struct WrittenImages {
 
 /// Writes all `outputs`, each by its extension. With a denoiser, files for screens are denoised
 /// and, if that was asked for, EXR files have both images; automatic denoising needs layers that
-/// guide it. A file for screens with a backdrop needs the layer with alpha. Failures are collected
+/// guide it. A shadow on the ground that is for screens alone darkens no other file. A file for
+/// screens with a backdrop needs the layer with alpha. Failures are collected
 /// in `attempts`, but those of automatic denoising leave the image noisy.
 WrittenImages write_image_files(std::span<const std::filesystem::path> outputs,
                                 const Image& rendered, ImageFileOptions options,

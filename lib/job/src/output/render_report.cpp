@@ -225,7 +225,9 @@ ordered_json make_settings(const RenderArguments& arguments, const PreparedScene
         settings["background"] = backdrop_text(*arguments.display.backdrop);
     }
     add("light_exposure", arguments.light_exposure);
-    if (options.film.aovs.contains(Aov::shadow)) {
+    const std::vector<Aov>& added = arguments.screen_aovs;
+    if (options.film.aovs.contains(Aov::shadow) &&
+        std::find(added.begin(), added.end(), Aov::shadow) == added.end()) {
         settings["ground"] = "shadow";
         const Vec3 lowest(to_file(stage.scene.bounds().min, stage.scene.description().origin));
         settings["ground_height"] = options.film.ground_height.value_or(lowest.y);

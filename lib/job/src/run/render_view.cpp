@@ -344,7 +344,7 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
     ImageFileOptions options =
         image_file_options(result, completed(metadata, result.film.sample_count(), result.seconds),
                            arguments.exr, arguments.display, session.denoiser, arguments.denoise);
-    options.guides = arguments.guides;
+    options.screen_aovs = arguments.screen_aovs;
     const bool is_whole = !arguments.options.film.crop;
     if (is_whole && stage.scene.counts().lights > 0 && is_black(image, options.layers)) {
         console.warning(black_image_text(arguments.file.string()));

@@ -150,6 +150,7 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
     std::optional<Scene> still;              // before its environment was turned
     std::optional<float> exposure;           // by the light of the first frame, for all frames
     std::optional<std::vector<Aov>> guides;  // of automatic denoising
+    std::optional<bool> has_ground;          // though it was not requested
     JobResult result;
     for (const SequenceView& view : views) {
         if (interrupt.stopped_by()) {
@@ -183,6 +184,7 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
             first.reset();
             still.reset();
             guides.reset();
+            has_ground.reset();
             stage = load(image, console);
             time = image.scene.time;
         }
@@ -208,11 +210,18 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
                 image.denoise.kind = Denoising::none;
             }
         }
-        if (guides) {
-            image.guides = *guides;
-            for (const Aov guide : *guides) {
-                image.options.film.aovs.insert(guide);
+        if (!has_ground) {
+            has_ground = adds_ground(image, *stage) &&
+                         std::any_of(image.outputs.begin(), image.outputs.end(), is_for_screens);
+            if (*has_ground) {
+                spend_ground(stage->memory, asked);
             }
+        }
+        for (const Aov guide : guides.value_or(std::vector<Aov>())) {
+            image = with_screen_aov(std::move(image), guide);
+        }
+        if (*has_ground) {
+            image = with_screen_aov(std::move(image), Aov::shadow);
         }
         Viewpoint seen = sequence_viewpoint(*stage, *first, image);
         if (view.turn && image.sequence->motion == TurntableMotion::object) {

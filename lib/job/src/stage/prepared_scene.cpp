@@ -116,6 +116,7 @@ struct LitScene {
     std::vector<std::string> warnings{};
     std::vector<Note> notes{};
     std::size_t added = 0;  ///< default lights that were added
+    bool has_object_light = false;
 };
 
 bool is_environment(const LightDesc& light)
@@ -160,10 +161,11 @@ LitScene choose_environment(SceneDesc desc, const RenderArguments& arguments)
         lit.sky = Sky::chosen;
         lit.environment_name = choice;
         lit.desc.lights.emplace_back(default_environment());
-    } else if (choice == "studio") {
+    } else if (choice == "object" || choice == "studio") {
         lit.sky = Sky::chosen;
         lit.environment_name = choice;
-        lit.desc.lights.emplace_back(studio_environment());
+        lit.desc.lights.emplace_back(choice == "object" ? object_environment()
+                                                        : studio_environment());
     } else if (!choice.empty()) {
         io::LoadedEnvironment loaded =
             io::load_environment(choice, {.limits = arguments.scene.limits,
@@ -198,20 +200,19 @@ void add_lights(LitScene& lit, DefaultLights missing, const FramedView& framed,
         lit.sky = Sky::none;
         return;
     }
+    const bool is_object = lit.sky == Sky::if_wanted && missing == DefaultLights::object;
     if (lit.sky == Sky::if_wanted) {
         lit.notes.push_back(
             {"default_sky",
-             has_light(lit.desc)
-                 ? fmt::format("{}: no light but emissive materials: lit by the default "
-                               "environment, a soft sky (--env none disables it)",
-                               file)
-                 : fmt::format("{}: no light: lit by the default environment, a soft sky (--env "
-                               "chooses another)",
-                               file)});
+             fmt::format("{}: no light{}: lit by {} (--env {})", file,
+                         has_light(lit.desc) ? " but emissive materials" : "",
+                         is_object ? "a key and a rim light" : "a soft sky",
+                         has_light(lit.desc) ? "none removes it" : "chooses another")});
         ++lit.added;
+        lit.has_object_light = is_object;
     }
-    lit.environment_name = "default";
-    lit.desc.lights.emplace_back(default_environment());
+    lit.environment_name = is_object ? "object" : "default";
+    lit.desc.lights.emplace_back(is_object ? object_environment() : default_environment());
     if (missing == DefaultLights::sky_and_lamp) {
         lit.notes.push_back(
             {"default_lamp",
@@ -431,6 +432,7 @@ PreparedScene prepare_scene(const RenderArguments& asked)
                         seconds(building_end - loading_end),
                         std::move(loaded.facts),
                         lights,
+                        lit.has_object_light,
                         !from_file.has_value(),
                         std::move(loaded.cameras),
                         std::move(loaded.files),
@@ -488,6 +490,18 @@ std::string size_text(const PreparedScene& stage)
     return fmt::format(
         "{}{}, {}", counted(counts.instanced_triangles, "triangle"), emissive,
         counted(stage.lights - std::min(stage.lights, counts.emissive_triangles), "light"));
+}
+
+bool adds_ground(const RenderArguments& arguments, const PreparedScene& stage)
+{
+    return arguments.may_add_ground && stage.has_object_light;
+}
+
+RenderArguments with_screen_aov(RenderArguments arguments, Aov aov)
+{
+    arguments.options.film.aovs.insert(aov);
+    arguments.screen_aovs.push_back(aov);
+    return arguments;
 }
 
 bool has_environment(const PreparedScene& stage)

@@ -25,8 +25,9 @@ namespace bdpt::job {
 /// A scene with light and a camera, ready to render.
 struct PreparedScene {
     Scene scene;
-    CameraDesc camera;             ///< with its name or index, or "auto"
-    std::string environment_name;  ///< for people: its file, "scene", "default", "studio" or "none"
+    CameraDesc camera;  ///< with its name or index, or "auto"
+    /// For people: its file, "scene", "default", "object", "studio" or "none".
+    std::string environment_name;
     Size size;
     std::vector<std::string> warnings;  ///< one line each
     std::vector<Note> notes{};          ///< additions to a file that lacks something
@@ -35,6 +36,7 @@ struct PreparedScene {
     io::GltfFacts facts{};              ///< about the whole file
     /// Lights of the file and of --env, without those added to a dark scene.
     std::size_t lights = 0;
+    bool has_object_light = false;               ///< it got the light of objects without lights
     bool is_framed = false;                      ///< the camera is not one of the file
     std::vector<CameraDesc> cameras{};           ///< those of the scene
     std::vector<std::filesystem::path> files{};  ///< that the scene names
@@ -43,6 +45,13 @@ struct PreparedScene {
 
 /// Returns "36 triangles (2 emissive), 1 light".
 [[nodiscard]] std::string size_text(const PreparedScene& stage);
+
+/// Tests whether files for screens show the shadow of the scene on the ground though it was not
+/// requested.
+[[nodiscard]] bool adds_ground(const RenderArguments& arguments, const PreparedScene& stage);
+
+/// Returns `arguments` with `aov` in the film, for files for screens alone.
+[[nodiscard]] RenderArguments with_screen_aov(RenderArguments arguments, Aov aov);
 
 /// Tests whether an environment lights the scene.
 [[nodiscard]] bool has_environment(const PreparedScene& stage);
@@ -119,6 +128,10 @@ void tell_of_no_effect(Console& console, const RenderArguments& arguments,
 /// Charges the memory of the film of a render of `size` and its layers. Throws `Error` if that is
 /// too much.
 void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Size& size);
+
+/// Charges the memory of the shadow on the ground for the film of `arguments`, which lack it.
+/// Throws `Error` if that is too much.
+void spend_ground(io::MemoryBudget& memory, const RenderArguments& arguments);
 
 /// Returns the layers that guide automatic denoising and that `arguments` do not ask for, and
 /// charges their memory; none if that would leave too little for the denoiser. A part has no

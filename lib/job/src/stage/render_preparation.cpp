@@ -279,6 +279,15 @@ void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Si
                  film_bytes(options, size));
 }
 
+void spend_ground(io::MemoryBudget& memory, const RenderArguments& arguments)
+{
+    const Size size = largest_size(arguments);
+    RenderOptions more = arguments.options;
+    more.film.aovs.insert(Aov::shadow);
+    memory.spend(fmt::format("the shadow on the ground of {}x{} pixels", size.width, size.height),
+                 film_bytes(more, size) - film_bytes(arguments.options, size));
+}
+
 std::optional<std::vector<Aov>> spend_guides(io::MemoryBudget& memory,
                                              const RenderArguments& arguments)
 {

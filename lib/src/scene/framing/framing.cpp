@@ -315,6 +315,7 @@ FramedView frame_scene(const Scene& scene, float aspect, const FrameOptions& opt
             const Mat3 axes(look_at(*towards_eye, Vec3(0.0f), outside_fov).world_from_camera);
             view.camera = frame_from_outside(world, axes, aspect, box_margin, options);
             view.lamp_position = lamp_in(world, box);
+            view.room = true;
             return view;
         }
     }
@@ -325,6 +326,7 @@ FramedView frame_scene(const Scene& scene, float aspect, const FrameOptions& opt
         view.camera.vertical_fov = options.vertical_fov.value_or(inside_fov);
         view.lamp_position = inside.lamp;
         view.inside = true;
+        view.room = true;
         view.enclosed = probe_visibility(world, Vec3(view.camera.world_from_camera[3])).escaped <
                         enclosed_escape;
     }

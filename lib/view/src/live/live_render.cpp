@@ -71,7 +71,8 @@ void CoarseToFine::done(double seconds_taken)
 }
 
 LiveRender::LiveRender(RenderArguments arguments, const PreparedScene& stage)
-    : arguments_(std::move(arguments)),
+    : arguments_(adds_ground(arguments, stage) ? with_screen_aov(std::move(arguments), Aov::shadow)
+                                               : std::move(arguments)),
       renderer_(stage.scene, stage.camera, arguments_.options),
       noise_(std::numeric_limits<double>::infinity())
 {
@@ -121,9 +122,8 @@ RenderArguments with_guides(RenderArguments arguments, const PreparedScene& stag
 {
     io::MemoryBudget memory = stage.memory;  // a copy: renders of the view replace each other
     if (const std::optional<std::vector<Aov>> guides = spend_guides(memory, arguments)) {
-        arguments.guides = *guides;
         for (const Aov guide : *guides) {
-            arguments.options.film.aovs.insert(guide);
+            arguments = with_screen_aov(std::move(arguments), guide);
         }
     }
     return arguments;
@@ -198,7 +198,7 @@ Download saved_image(const LiveRender& render, const PreparedScene& stage,
     ImageFileOptions options =
         image_file_options(render.renderer().result(), metadata(render, stage), arguments.exr,
                            arguments.display, denoiser ? &*denoiser : nullptr, arguments.denoise);
-    options.guides = arguments.guides;
+    options.screen_aovs = arguments.screen_aovs;
     Attempts attempts;
     static_cast<void>(
         write_image_files(files, render.renderer().image(), std::move(options), attempts));

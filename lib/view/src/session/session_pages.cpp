@@ -338,7 +338,8 @@ nlohmann::ordered_json Session::state()
     }
     state["integrator_a"] = to_name(arguments.options.integrator);
     state["integrator_b"] = text_or_null(integrator_b_);
-    std::vector<std::string> environments{"scene", "default", "studio", "none"};
+    std::vector<std::string> environments{"scene"};
+    environments.insert(environments.end(), named_environments.begin(), named_environments.end());
     if (const std::string own = edits_.first_words().text("--env");
         !own.empty() && is_file_of_environment(own)) {
         environments.insert(environments.begin(), own);
@@ -357,7 +358,8 @@ nlohmann::ordered_json Session::state()
     state["exposure_auto"] = static_cast<double>(automatic_exposure_);
     state["exposure_is_auto"] = is_automatic;
     state["curve"] = io::tone_curve_name(arguments.display.curve);
-    state["ground"] = arguments.options.film.aovs.contains(Aov::shadow);
+    state["ground"] =
+        arguments.options.film.aovs.contains(Aov::shadow) || adds_ground(arguments, stage);
     state["background"] = arguments.display.backdrop
                               ? ordered_json(backdrop_text(*arguments.display.backdrop))
                               : ordered_json();

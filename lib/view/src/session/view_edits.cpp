@@ -205,10 +205,8 @@ void ViewEdits::set_ground(const std::string& kind)
     words_.remove("--ground-height");
     if (kind != "none") {
         restore("--ground-height");
-        words_.set("--ground", kind);
-    } else {
-        words_.remove("--ground");
     }
+    words_.set("--ground", kind);
 }
 
 void ViewEdits::set_background(const std::string& text)
@@ -246,8 +244,7 @@ void ViewEdits::set_environment(const std::string& name)
         words_.remove("--env");
     } else if (const auto found = given_.find(name); found != given_.end()) {
         choose_given(name, found->second->file(name));
-    } else if (name == "none" || name == "default" || name == "studio" ||
-               name == first_words_.text("--env")) {
+    } else if (!is_file_of_environment(name) || name == first_words_.text("--env")) {
         words_.set("--env", name);  // no other file: pages must not choose files to read
     } else {
         throw Error(ErrorCode::usage, fmt::format("\"environment\": there is none \"{}\"", name));

@@ -84,13 +84,14 @@ void add_ground_option(OptionList& options, Ground& ground)
     options.add("--ground", "shadow|none",
                 "shadow: shadow catcher, a horizontal ground that is invisible itself, also in "
                 "reflections. The shadow is black: it darkens the visible environment, or adds to "
-                "the alpha of --background; .exr also gets it as layer shadow.A. Default: none",
+                "the alpha of --background; .exr also gets it as layer shadow.A. Default: in .png, "
+                ".jpg and .webp files of objects without light, with their --env object",
                 ground, grounds.type());
 }
 
 FilmOptions with_ground(Ground ground, FilmOptions film, const OptionList& options)
 {
-    if (ground == Ground::none) {
+    if (ground != Ground::shadow) {
         if (options.given("--ground-height")) {
             throw OptionError("--ground-height needs --ground shadow");
         }

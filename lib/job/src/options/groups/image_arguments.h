@@ -31,7 +31,7 @@ namespace bdpt::job {
 [[nodiscard]] std::optional<PixelRect> parse_crop(std::string_view text);
 
 /// Kinds of ground below the scene.
-enum class Ground : std::uint8_t { none, shadow };
+enum class Ground : std::uint8_t { automatic, none, shadow };
 
 /// Adds --ground.
 void add_ground_option(OptionList& options, Ground& ground);

@@ -398,8 +398,8 @@ def test_adaptive_renders_have_the_bits_of_the_command(command, tmp_path):
 
 
 def test_every_door_leads_to_the_default_image(command, tmp_path):
-    file, options = SCENES / "alpha.gltf", {"size": (128, 128), "spp": 8}
-    words = ("render", file, "--size", "128x128", "--spp", "8", "-q", "--part")
+    file, options = SCENES / "alpha.gltf", {"size": (128, 128), "spp": 16}
+    words = ("render", file, "--size", "128x128", "--spp", "16", "-q", "--part")
     command(*words, tmp_path / "its.part.exr")
     its = bdpt.read_part(tmp_path / "its.part.exr")
     bdpt.run(file, part=tmp_path / "job.part.exr", **options)

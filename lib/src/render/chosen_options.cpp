@@ -6,11 +6,44 @@
 #include "render/open_camera.h"
 #include "threads/threads.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <variant>
 
 namespace bdpt {
 namespace {
+
+/// Tests for a light that rays cannot hit.
+bool has_no_size(const LightDesc& light)
+{
+    const auto* point = std::get_if<PointLightDesc>(&light);
+    const auto* spot = std::get_if<SpotLightDesc>(&light);
+    return std::holds_alternative<DirectionalLightDesc>(light) ||
+           (point != nullptr && point->radius == 0.0f) || (spot != nullptr && spot->radius == 0.0f);
+}
+
+/// Tests for a surface that makes caustics.
+bool is_shiny(const MaterialDesc& material)
+{
+    constexpr float smooth = 0.1f;
+    const bool is_coated =
+        material.clearcoat.factor > 0.0f && material.clearcoat.roughness < smooth;
+    return is_coated || (material.roughness < smooth &&
+                         (material.metallic > 0.0f || material.transmission > 0.0f));
+}
+
+/// Returns what renders take whose pilot is not worth its time: `mis`, and a few light paths where
+/// it would miss the caustics of lights without a size.
+Candidate unmeasured(const Scene& scene)
+{
+    constexpr Candidate few_splats = candidates[1];
+    static_assert(few_splats.light_paths > 0.0 && few_splats.connections == 0.0);
+    const auto& desc = scene.description();
+    const bool may_miss_light = std::any_of(desc.lights.begin(), desc.lights.end(), has_no_size) &&
+                                std::any_of(desc.materials.begin(), desc.materials.end(), is_shiny);
+    return may_miss_light ? few_splats : candidates.front();
+}
 
 /// Tests for options that only bdpt supports, disabled strategies and strategy images, and for
 /// heuristics that pilots do not predict: they predict balance and power alone.
@@ -47,7 +80,7 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     whole.film.crop.reset();
     whole.sampling.rates.reset();
     if (!is_worth_measuring(whole)) {
-        return {.options = with_candidate(options, candidates.front())};
+        return {.options = with_candidate(options, unmeasured(scene))};
     }
     const MovingCamera opened = open_camera(scene.world(), camera, whole);
     const auto learned = learned_light(scene.world(), camera, whole, abandon);

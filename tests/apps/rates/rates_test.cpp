@@ -98,25 +98,25 @@ TEST_CASE("the library renders the command's default image to the bit", "[comman
             joined({"render", file, "--size", "128x128", "-o", path(folder, "image.exr")}, more));
         return pixels(folder, "image.exr");
     };
-    const std::vector<Rgb> expected = by_command({"--spp", "8"});
+    const std::vector<Rgb> expected = by_command({"--spp", "16"});
     io::LoadedScene loaded = io::load_gltf(file);
     const Scene scene(std::move(loaded.scene));
     const CameraDesc& camera = loaded.cameras.at(0);
     RenderOptions options{.film = {.width = 128, .height = 128},
-                          .sampling = {.samples = {.begin = 0, .end = 8}, .planned_samples = 8}};
+                          .sampling = {.samples = {.begin = 0, .end = 16}, .planned_samples = 16}};
     REQUIRE(chosen_options(scene, camera, options).sampling.rates);
     CHECK(bdpt::render(scene, camera, options).image().pixels == expected);
     Renderer renderer(scene, camera, options);
-    renderer.render(3);  // which takes the whole group of 8
-    CHECK(renderer.samples() == 8);
+    renderer.render(11);  // which takes two whole groups of 8
+    CHECK(renderer.samples() == 16);
     CHECK(renderer.image().pixels == expected);
     // What the command does without rates, the library does with the choice alone.
     CHECK(bdpt::render(scene, camera, choose_integrator(scene, camera, options).options)
               .image()
-              .pixels == by_command({"--spp", "8", "--adaptive=false"}));
-    options.sampling.samples = {.begin = 0, .end = 7};
-    options.sampling.planned_samples = 7;
-    CHECK(bdpt::render(scene, camera, options).image().pixels == by_command({"--spp", "7"}));
+              .pixels == by_command({"--spp", "16", "--adaptive=false"}));
+    options.sampling.samples = {.begin = 0, .end = 15};
+    options.sampling.planned_samples = 15;
+    CHECK(bdpt::render(scene, camera, options).image().pixels == by_command({"--spp", "15"}));
 }
 
 TEST_CASE("adaptive renders, their saved rates and their parts make the same pixels", "[command]")

@@ -101,6 +101,25 @@ TEST_CASE("auto traces light paths where they pay", "[auto]")
     CHECK(choice(Scene(std::move(open.desc)), small()).integrator == IntegratorKind::mis);
 }
 
+TEST_CASE("auto splats caustics of lights without a size where few samples are planned", "[auto]")
+{
+    RenderOptions options = small();
+    options.sampling.planned_samples = 1;
+    const auto splats = [&](const MaterialDesc& material, const LightDesc& light) {
+        SceneBuilder builder;
+        builder.walls(lambertian(Rgb(0.6f)), lambertian(Rgb(0.6f)));
+        builder.sphere({0.0f, -0.4f, 0.0f}, 0.4f, material).light(light);
+        return choice(Scene(std::move(builder.desc)), options).integrator == IntegratorKind::bdpt;
+    };
+    PointLightDesc lamp;
+    lamp.position = {0.0f, 0.8f, 0.0f};
+    CHECK(splats(glass(0.0f), lamp));
+    CHECK(splats(metal(Rgb(0.9f), 0.05f), DirectionalLightDesc{}));
+    CHECK_FALSE(splats(lambertian(Rgb(0.5f)), lamp));
+    lamp.radius = 0.1f;
+    CHECK_FALSE(splats(glass(0.0f), lamp));
+}
+
 TEST_CASE("auto takes path tracing where few samples are planned", "[auto]")
 {
     RenderOptions options = small();

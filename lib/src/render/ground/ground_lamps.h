@@ -16,7 +16,7 @@ public:
     GroundLamps(const LightSet& lights, const GroundOccluders& occluders, float height,
                 float elsewhere);
 
-    /// Returns the probability of taking a sample, in [1 / 16, 1].
+    /// Returns the probability of taking a sample, in [1 / 128, 1].
     [[nodiscard]] float chance(std::size_t place) const
     {
         return chances_.empty() ? 1.0f : chances_[place];

@@ -63,6 +63,13 @@ EqualityCase film()
     return ball("iridescence", material);
 }
 
+EqualityCase clay()
+{
+    MaterialDesc material = plastic({0.8f, 0.4f, 0.2f}, 0.4f);
+    material.diffuse_roughness.factor = 1.0f;
+    return ball("diffuse roughness", material);
+}
+
 /// A sphere of wax, whose inside absorbs.
 EqualityCase translucent()
 {
@@ -183,7 +190,7 @@ std::vector<EqualityCase> volume_cases()
 
 std::vector<EqualityCase> layer_cases()
 {
-    return {clearcoat(), cloth(), brushed(), film(), translucent(), dispersion()};
+    return {clearcoat(), cloth(), brushed(), film(), clay(), translucent(), dispersion()};
 }
 
 std::vector<EqualityCase> normal_map_cases()

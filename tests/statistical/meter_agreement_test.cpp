@@ -2,6 +2,7 @@
 // ground_shadow_test.cpp.
 
 #include "catch.hpp"
+#include "math/rgb.h"
 #include "scene_builder.h"
 
 #include <bdpt/light/light_meter.h>

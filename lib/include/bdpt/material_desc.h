@@ -97,6 +97,13 @@ struct DiffuseTransmissionDesc {
     std::optional<TextureRef> color_texture;  ///< sRGB
 };
 
+/// Roughness of the diffuse base, such as that of clay or sandstone, which makes it look flatter
+/// [KHR_materials_diffuse_roughness, a draft]. The mean albedo stays the base colour.
+struct DiffuseRoughnessDesc {
+    float factor = 0.0f;                ///< [0, 1]; 0: Lambertian
+    std::optional<TextureRef> texture;  ///< linear; R, times factor
+};
+
 /// Scattering within a body, whose attenuation sets the density [KHR_materials_volume_scatter and
 /// KHR_materials_scatter, drafts].
 struct VolumeScatterDesc {
@@ -106,9 +113,9 @@ struct VolumeScatterDesc {
 };
 
 /// glTF 2.0 metallic-roughness material with KHR_materials_{anisotropy, clearcoat,
-/// diffuse_transmission, dispersion, emissive_strength, iridescence, ior, sheen, specular,
-/// transmission, volume, volume_scatter, unlit}; names, defaults and ranges are those of the
-/// specification [glTF 2.0, sec. 3.9; KHR extensions of these names].
+/// diffuse_roughness, diffuse_transmission, dispersion, emissive_strength, iridescence, ior, sheen,
+/// specular, transmission, volume, volume_scatter, unlit}; names, defaults and ranges are those of
+/// the specification [glTF 2.0, sec. 3.9; KHR extensions of these names].
 struct MaterialDesc {
     std::string name{};
     Vec4 base_color{1.0f};  ///< [0, 1]
@@ -137,6 +144,7 @@ struct MaterialDesc {
     AnisotropyDesc anisotropy{};
     IridescenceDesc iridescence{};
     DiffuseTransmissionDesc diffuse_transmission{};
+    DiffuseRoughnessDesc diffuse_roughness{};
     VolumeScatterDesc volume_scatter{};
 
     std::optional<TextureRef> base_color_texture;          ///< sRGB, times base_color
@@ -197,6 +205,11 @@ inline constexpr auto fields<DiffuseTransmissionDesc> = all_fields(
     Number{"diffuse transmission colour", &DiffuseTransmissionDesc::color, Limits::unit()},
     Field{"diffuse transmission texture", &DiffuseTransmissionDesc::texture},
     Field{"diffuse transmission colour texture", &DiffuseTransmissionDesc::color_texture});
+/// Fields of `DiffuseRoughnessDesc`, with names and limits.
+template <>
+inline constexpr auto fields<DiffuseRoughnessDesc> =
+    all_fields(Number{"diffuse roughness", &DiffuseRoughnessDesc::factor, Limits::unit()},
+               Field{"diffuse roughness texture", &DiffuseRoughnessDesc::texture});
 /// Fields of `VolumeScatterDesc`, with names and limits.
 template <>
 inline constexpr auto fields<VolumeScatterDesc> =
@@ -228,6 +241,7 @@ inline constexpr auto fields<MaterialDesc> = all_fields(
     Field{"anisotropy", &MaterialDesc::anisotropy},
     Field{"iridescence", &MaterialDesc::iridescence},
     Field{"diffuse transmission", &MaterialDesc::diffuse_transmission},
+    Field{"diffuse roughness", &MaterialDesc::diffuse_roughness},
     Field{"volume scatter", &MaterialDesc::volume_scatter},
     Field{"base colour texture", &MaterialDesc::base_color_texture},
     Field{"metallic roughness texture", &MaterialDesc::metallic_roughness_texture},

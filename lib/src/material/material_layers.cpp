@@ -23,7 +23,8 @@ bool has_layers(const MaterialDesc& desc)
 {
     return !desc.unlit && (desc.clearcoat.factor > 0.0f || !is_black(desc.sheen.color) ||
                            desc.anisotropy.strength > 0.0f || desc.iridescence.factor > 0.0f ||
-                           desc.diffuse_transmission.factor > 0.0f);
+                           desc.diffuse_transmission.factor > 0.0f ||
+                           desc.diffuse_roughness.factor > 0.0f);
 }
 
 MaterialLayers::MaterialLayers(const MaterialDesc& desc, const TextureImages& images,
@@ -33,6 +34,7 @@ MaterialLayers::MaterialLayers(const MaterialDesc& desc, const TextureImages& im
       anisotropy_(desc.anisotropy),
       film_(desc.iridescence),
       transmission_(desc.diffuse_transmission),
+      diffuse_roughness_(desc.diffuse_roughness.factor),
       coat_maps_{make_texture(coat_.texture, images, Encoding::linear),
                  make_texture(coat_.roughness_texture, images, Encoding::linear),
                  make_normal_map(coat_.normal_texture, coat_.normal_scale, images)},
@@ -42,6 +44,8 @@ MaterialLayers::MaterialLayers(const MaterialDesc& desc, const TextureImages& im
                  make_texture(film_.thickness_texture, images, Encoding::linear)},
       transmission_maps_{make_texture(transmission_.texture, images, Encoding::linear),
                          make_texture(transmission_.color_texture, images, Encoding::srgb)},
+      diffuse_roughness_map_(
+          make_texture(desc.diffuse_roughness.texture, images, Encoding::linear)),
       anisotropy_map_(make_texture(anisotropy_.texture, images.at_full_size(), Encoding::linear))
 {
     for (const Wavelength channel : {Wavelength::red, Wavelength::green, Wavelength::blue}) {
@@ -144,6 +148,9 @@ Bsdf MaterialLayers::bsdf(const ShadingPoint& point, const Frame& shading,
     }
     if (transmission_.factor > 0.0f) {
         add_transmission(point, layers);
+    }
+    if (diffuse_roughness_ > 0.0f) {
+        layers.diffuse_roughness = Unit8(diffuse_roughness_ * at(diffuse_roughness_map_, point).x);
     }
     const Layered model(layers);
     return is_mapped ? Bsdf(point.ng, point.ns, frame, point.wo, model)

@@ -63,10 +63,12 @@ private:
     AnisotropyDesc anisotropy_;
     IridescenceDesc film_;
     DiffuseTransmissionDesc transmission_;
+    float diffuse_roughness_;
     CoatMaps coat_maps_;
     SheenMaps sheen_maps_;
     FilmMaps film_maps_;
     TransmissionMaps transmission_maps_;
+    std::optional<Texture> diffuse_roughness_map_;
     std::optional<Texture> anisotropy_map_;
     std::array<LayeredConstants, wavelengths> constants_;
 };

@@ -25,6 +25,20 @@ private:
     std::uint16_t bits_ = 0;
 };
 
+/// A number in [0, 1] in 8 bits.
+class Unit8 {
+public:
+    Unit8() = default;
+    /// Clamps `value` to [0, 1].
+    explicit Unit8(float value)
+        : bits_(static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f))
+    {}
+    [[nodiscard]] float value() const { return static_cast<float>(bits_) * (1.0f / 255.0f); }
+
+private:
+    std::uint8_t bits_ = 0;
+};
+
 /// A colour in [0, 1] in 48 bits.
 class Color16 {
 public:

@@ -1,7 +1,9 @@
 #include "bsdf_cases.h"
 #include "catch.hpp"
 #include "material/lobes/interreflection.h"
+#include "material/lobes/rough_diffuse.h"
 #include "math/rgb.h"
+#include "math/warp.h"
 #include "statistics.h"
 
 #include <array>
@@ -79,6 +81,67 @@ TEST_CASE("a white surface without loss is invisible in a white furnace", "[long
             CHECK(sum.standard_error() < 0.0015);
             CHECK(std::abs(sum.mean() - 1.0) < 0.001 + 4.0 * sum.standard_error());
         }
+    }
+}
+
+TEST_CASE("a rough diffuse white surface is invisible in a white furnace, below any boundary",
+          "[long]")
+{
+    const Rgb white{1.0f};
+    for (const float diffuse_roughness : {0.3f, 1.0f}) {
+        const LayeredParameters layers = test::rough_diffuse(diffuse_roughness);
+        const std::vector<test::BsdfCase> cases{
+            {"without a boundary", {white, 0, 1, 0}, 1.5f, layers},
+            {"smooth", {white, 0, 0}, 1.5f, layers},
+            {"smooth, index 1.2", {white, 0, 0}, 1.2f, layers},
+            {"0.3", {white, 0, 0.3f}, 1.5f, layers},
+            {"0.7, half specular", {white, 0, 0.7f, 0.5f}, 1.5f, layers},
+            {"1, index 2.4", {white, 0, 1}, 2.4f, layers},
+        };
+        for (const test::BsdfCase& bsdf_case : cases) {
+            const test::TestedBsdf bsdf(bsdf_case);
+            for (const Vec3 wo : test::bsdf_directions()) {
+                CAPTURE(bsdf_case.name, diffuse_roughness, wo.z);
+                const test::Moments sum = albedo_of(bsdf, wo, 100000)[0];
+                CHECK(sum.standard_error() < 0.0015);
+                CHECK(sum.mean() < 1.001 + 4.0 * sum.standard_error());
+                CHECK(sum.mean() > 0.995 - 4.0 * sum.standard_error());
+            }
+        }
+    }
+}
+
+TEST_CASE("the mean albedo of a rough diffuse surface is its colour", "[diffuse]")
+{
+    const Rgb color{0.2f, 0.5f, 0.9f};
+    for (const float roughness : {0.1f, 0.5f, 1.0f}) {
+        const RoughDiffuseReflection lobe(color, RoughDiffuse(roughness));
+        test::Random random(7);
+        std::array<test::Moments, 3> sums;
+        for (int i = 0; i < 40000; ++i) {
+            const Vec3 wo = square_to_cosine_hemisphere(random.next_2d());
+            const float u_lobe = random.next();
+            const auto sampled =
+                lobe.sample(wo, u_lobe, random.next_2d(), TransportMode::importance);
+            const BsdfEval value = lobe.eval(wo, sampled->wi, TransportMode::importance);
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                sums[channel].add(static_cast<double>(value.f_cos[static_cast<int>(channel)] /
+                                                      value.pdf_fwd.value));
+            }
+        }
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            CAPTURE(roughness, channel);
+            CHECK(sums[channel].mean() ==
+                  Approx(static_cast<double>(color[static_cast<int>(channel)])).epsilon(0.005));
+            // Cosine-weighted directions vary by half of the value.
+            CHECK(sums[channel].standard_error() < 0.0015);
+        }
+        // It reflects more light back to where it came from.
+        const Vec3 low = normalize(Vec3(1.0f, 0.0f, 0.5f));
+        const auto brightness = [&](Vec3 wi) {
+            return lobe.eval(low, wi, TransportMode::importance).f_cos.g / wi.z;
+        };
+        CHECK(brightness(low) > (1.0f + 0.5f * roughness) * brightness({-low.x, 0.0f, low.z}));
     }
 }
 

@@ -137,6 +137,12 @@ private:
     return layers;
 }
 
+[[nodiscard]] inline LayeredParameters rough_diffuse(float roughness, LayeredParameters layers = {})
+{
+    layers.diffuse_roughness = Unit8(roughness);
+    return layers;
+}
+
 /// Materials with layers, over all kinds of bases.
 [[nodiscard]] inline std::vector<BsdfCase> layered_cases()
 {
@@ -190,6 +196,16 @@ private:
          {blue, 0, 0.4f, 1, white, 0.5f, solid},
          1.5f,
          translucent(0.5f, white)},
+        {"rough lambert", {blue, 0, 1, 0}, 1.5f, rough_diffuse(0.5f)},
+        {"rough base below dielectric 0.3", {blue, 0, 0.3f}, 1.5f, rough_diffuse(1)},
+        {"rough base below a smooth coat",
+         {blue, 0, 1},
+         1.5f,
+         coated(1, 0, {0, 0, 1}, rough_diffuse(1))},
+        {"half translucent rough base",
+         {blue, 0, 0.5f},
+         1.5f,
+         translucent(0.4f, white, rough_diffuse(0.8f))},
         {"all layers",
          {blue, 0.3f, 0.4f, 0.8f, white, 0.3f, thin},
          1.4f,

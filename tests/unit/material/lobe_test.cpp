@@ -5,6 +5,7 @@
 #include "material/lobes/boundary_lobes.h"
 #include "material/lobes/coat.h"
 #include "material/lobes/diffuse.h"
+#include "material/lobes/rough_diffuse.h"
 #include "material/lobes/sheen.h"
 #include "math/rgb.h"
 
@@ -57,6 +58,13 @@ Boundary<NoFilm> dielectric(float transmission, bool is_solid)
             .albedo = PackedPointer(&albedo())};
 }
 
+RoughDiffuse below_boundary(float roughness)
+{
+    RoughDiffuse surface(roughness);
+    surface.set_boundary(1.05f);
+    return surface;
+}
+
 constexpr auto always = [](float) { return 1.0f; };
 
 std::vector<LobeCase> lobes()
@@ -70,6 +78,8 @@ std::vector<LobeCase> lobes()
     std::vector<LobeCase> result{
         {"diffuse reflection", DiffuseReflection(f)},
         {"diffuse transmission", DiffuseTransmission(f)},
+        {"rough diffuse reflection", RoughDiffuseReflection(f, RoughDiffuse(0.4f))},
+        {"very rough diffuse reflection", RoughDiffuseReflection(f, below_boundary(1.0f))},
         {"reflection of plastic", GgxReflection(plastic, 0.3f)},
         {"reflection of brushed plastic", GgxReflection(plastic, brushed)},
         {"reflection of glass", GgxReflection(glass, 0.3f), 1.5f},

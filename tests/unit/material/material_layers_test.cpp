@@ -206,7 +206,8 @@ TEST_CASE("unlit materials have no layers, and layers of factor 0 are none")
         [](MaterialDesc& d) { d.sheen.color.b = 0.1f; },
         [](MaterialDesc& d) { d.anisotropy.strength = 0.1f; },
         [](MaterialDesc& d) { d.iridescence.factor = 0.1f; },
-        [](MaterialDesc& d) { d.diffuse_transmission.factor = 0.1f; }};
+        [](MaterialDesc& d) { d.diffuse_transmission.factor = 0.1f; },
+        [](MaterialDesc& d) { d.diffuse_roughness.factor = 0.1f; }};
     for (const auto& change : changes) {
         MaterialDesc changed = desc;
         change(changed);

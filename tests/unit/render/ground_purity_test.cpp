@@ -106,9 +106,10 @@ TEST_CASE("pixels beside the scene skip rays that find no shadow, and no bit cha
     const CameraDesc above = in_parallel(camera_above(), 12.0f);
     // The others see the horizon, and the last has the scene to its left. Their axes are those of
     // the world, so that motion rounds no matrix.
-    const auto ahead = [](Vec3 from) { return camera_at(from, from - Vec3(0.0f, 0.0f, 1.0f), 0.9f); };
-    for (const CameraDesc& camera :
-         {above, ahead({1.0f, 2.0f, 6.0f}), ahead({5.0f, 2.0f, 6.0f})}) {
+    const auto ahead = [](Vec3 from) {
+        return camera_at(from, from - Vec3(0.0f, 0.0f, 1.0f), 0.9f);
+    };
+    for (const CameraDesc& camera : {above, ahead({1.0f, 2.0f, 6.0f}), ahead({5.0f, 2.0f, 6.0f})}) {
         RenderOptions o = options(IntegratorKind::pt);
         o.film.ground_height = 0.0f;
         o.film.aovs = {Aov::alpha, Aov::shadow, Aov::opacity, Aov::depth, Aov::object};
@@ -120,8 +121,8 @@ TEST_CASE("pixels beside the scene skip rays that find no shadow, and no bit cha
         CHECK(some.aovs == all.aovs);
         CHECK(some.ids == all.ids);
         CHECK(compute_mean(compute_shadow(some).opacity) > 0.0);
-        const double ratio = static_cast<double>(some.stats.rays.aov) /
-                             static_cast<double>(all.stats.rays.aov);
+        const double ratio =
+            static_cast<double>(some.stats.rays.aov) / static_cast<double>(all.stats.rays.aov);
         CAPTURE(has_lamp, ratio);
         CHECK(ratio < 0.85);
     }

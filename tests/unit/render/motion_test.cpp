@@ -249,12 +249,11 @@ TEST_CASE("motions that make no sense are refused by name", "[motion][validate]"
     check_refused("motion of 3 steps, but its mesh has 2",
                   [&](SceneDesc& d) { last(d).motion.push_back(last(d).motion.back()); });
     check_refused(": reaches 2e+15 m", [&](SceneDesc& d) { last(d).motion[0][3].y = 2e15f; });
-    check_refused("because an instanced or moving mesh is scaled down very much",
-                  [](SceneDesc& d) {
-                      d.instances[0].motion.assign(1, glm::scale(Mat4(1.0f), Vec3(1e-16f, 1, 1)));
-                      d.instances[0].world_from_object = d.instances[0].motion[0];
-                      d.instances[0].motion[0][3].x = 1e3f;
-                  });
+    check_refused("because an instanced or moving mesh is scaled down very much", [](SceneDesc& d) {
+        d.instances[0].motion.assign(1, glm::scale(Mat4(1.0f), Vec3(1e-16f, 1, 1)));
+        d.instances[0].world_from_object = d.instances[0].motion[0];
+        d.instances[0].motion[0][3].x = 1e3f;
+    });
     MeshDesc* (*deforming)(SceneDesc&) = [](SceneDesc& d) {
         return &*std::find_if(d.meshes.begin(), d.meshes.end(),
                               [](const MeshDesc& mesh) { return !mesh.motion.empty(); });

@@ -133,6 +133,8 @@ TEST_CASE("materials: ranges and textures", "[validate]")
                   [](SceneDesc& d) { d.materials[0].iridescence.ior = 0.9f; });
     check_refused("material 0: iridescence thickness minimum is -5",
                   [](SceneDesc& d) { d.materials[0].iridescence.thickness_minimum = -5.0f; });
+    check_refused("material 0: diffuse roughness is -1",
+                  [](SceneDesc& d) { d.materials[0].diffuse_roughness.factor = -1.0f; });
     check_refused("material 0: diffuse transmission is 2",
                   [](SceneDesc& d) { d.materials[0].diffuse_transmission.factor = 2.0f; });
     check_refused("material 0: image 4, but the number of images is 1", [](SceneDesc& d) {

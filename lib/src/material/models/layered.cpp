@@ -20,8 +20,9 @@ namespace {
             ThinFilm{.factor = parameters.film.value(),
                      .ior = parameters.constants->film_ior,
                      .thickness = parameters.film_thickness},
-            TranslucentBase(parameters.diffuse_transmission.value(),
-                            parameters.transmission_color.value())};
+            TranslucentBase(
+                parameters.diffuse_transmission.value(), parameters.transmission_color.value(),
+                RoughDiffuse(parameters.diffuse_roughness.value(), parameters.coat.value()))};
 }
 
 /// Returns the approximate albedo of the base; above 0.

@@ -14,7 +14,7 @@
 namespace bdpt {
 
 /// Layers over the glTF material model: KHR_materials_{clearcoat, sheen}, and a base with
-/// KHR_materials_{anisotropy, diffuse_transmission, iridescence}. Directions as in all models; +x
+/// KHR_materials_{anisotropy, diffuse_roughness, diffuse_transmission, iridescence}. Directions as in all models; +x
 /// is the rougher direction. Layers cover the outside of solid bodies, and both sides of all other
 /// surfaces.
 ///

@@ -62,6 +62,9 @@ BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
     const float base_max = max_component(boundary_.base_color);
     transmission_weight_ = boundary_.transmission * base_max;
     metal_weight_ = metallic * (base_max + (1.0f - base_max) * mean_schlick_weight);
+    if (base_.needs_boundary() && base_weight_ > 0.0f && boundary_.exists) {
+        base_.set_boundary(side(1.0f).base_transmitted / reaches_base());
+    }
 }
 
 template <typename Film, typename Roughness, typename Base>

@@ -5,6 +5,7 @@
 #include "material/lobes/diffuse.h"
 #include "material/lobes/fresnel.h"
 #include "material/lobes/interreflection.h"
+#include "material/lobes/rough_diffuse.h"
 #include "material/lobes/roughness.h"
 #include "material/models/scattering_model.h"
 #include "math/elementary.h"
@@ -44,6 +45,8 @@ struct GltfParameters {
 // Interface of the base below the boundary.
 // - `set_up`: `diffuse` is the fraction of light for which there is a base, `reaches_base` the
 //   average transmission of the boundary. Returns the largest component of the albedo.
+// - `set_boundary`: what the boundary transmits at normal incidence, over its average; called if
+//   `needs_boundary`.
 // - `add_to`: adds the lobes; `coupling` is the fraction of light that the boundary transmits, in
 //   and out, and `choice_fwd` and `choice_rev` are the probabilities of the base from wo and wi.
 
@@ -63,6 +66,8 @@ public:
         add(sum, chosen(lobe.eval(wo, wi, mode), choice_fwd, choice_rev));
     }
     [[nodiscard]] float reflected_share() const noexcept { return 1.0f; }
+    [[nodiscard]] bool needs_boundary() const noexcept { return false; }
+    void set_boundary(float) noexcept {}
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_base, Vec2 u,
                                                    TransportMode mode) const noexcept
     {
@@ -73,18 +78,21 @@ private:
     float per_color_ = 0.0f;  ///< f over base colour [1/sr]
 };
 
-/// A Lambertian base that transmits a fraction to the other side if the body is thin.
+/// A base, Lambertian or rough, that transmits a fraction to the other side if the body is thin;
+/// that part is Lambertian.
 class TranslucentBase {
 public:
     TranslucentBase() = default;
-    /// Arguments are clamped to [0, 1].
-    TranslucentBase(float share, Rgb color) : transmitted_(color), transmitted_choice_(share) {}
+    /// `share` and `color` are clamped to [0, 1].
+    TranslucentBase(float share, Rgb color, const RoughDiffuse& surface)
+        : transmitted_(color), transmitted_choice_(share), surface_(surface)
+    {}
 
     [[nodiscard]] float set_up(Rgb base_color, float diffuse, float reaches_base,
                                const GltfParameters& parameters)
     {
         const float all = diffuse * max_component(base_color);
-        reflected_ = base_color * (diffuse * inv_pi / reaches_base);
+        per_color_ = diffuse / reaches_base;
         const float share =
             parameters.body == Body::solid ? 0.0f : std::clamp(transmitted_choice_, 0.0f, 1.0f);
         transmitted_choice_ = 0.0f;
@@ -93,19 +101,24 @@ public:
         }
         const Rgb color = glm::clamp(transmitted_, 0.0f, 1.0f);
         transmitted_ = color * (share * diffuse * inv_pi / reaches_base);
-        reflected_ *= 1.0f - share;
+        per_color_ *= 1.0f - share;
         reflected_share_ = 1.0f - share;
         const float transmitted = share * diffuse * max_component(color);
         const float weight = (1.0f - share) * all + transmitted;
         transmitted_choice_ = weight > 0.0f ? transmitted / weight : 0.0f;
         return weight;
     }
-    void add_to(BsdfEval& sum, Rgb, float coupling, float choice_fwd, float choice_rev, Vec3 wo,
-                Vec3 wi, TransportMode mode) const noexcept
+    void add_to(BsdfEval& sum, Rgb base_color, float coupling, float choice_fwd, float choice_rev,
+                Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
     {
         const float reflected_choice = 1.0f - transmitted_choice_;
-        add(sum, chosen(DiffuseReflection(reflected_, coupling).eval(wo, wi, mode),
-                        reflected_choice * choice_fwd, reflected_choice * choice_rev));
+        const BsdfEval reflected =
+            surface_.is_rough()
+                ? RoughDiffuseReflection(base_color, surface_, per_color_ * coupling)
+                      .eval(wo, wi, mode)
+                : DiffuseReflection(base_color * (per_color_ * inv_pi), coupling)
+                      .eval(wo, wi, mode);
+        add(sum, chosen(reflected, reflected_choice * choice_fwd, reflected_choice * choice_rev));
         if (transmitted_choice_ > 0.0f) {
             add(sum, chosen(DiffuseTransmission(transmitted_, coupling).eval(wo, wi, mode),
                             transmitted_choice_ * choice_fwd, transmitted_choice_ * choice_rev));
@@ -114,19 +127,27 @@ public:
     /// Returns the fraction of the light scattered by a white base that stays on the side it came
     /// from.
     [[nodiscard]] float reflected_share() const noexcept { return reflected_share_; }
+    [[nodiscard]] bool needs_boundary() const noexcept { return surface_.is_rough(); }
+    void set_boundary(float normal_over_mean) noexcept { surface_.set_boundary(normal_over_mean); }
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_base, Vec2 u,
                                                    TransportMode mode) const noexcept
     {
-        return u_base < transmitted_choice_
-                   ? DiffuseTransmission(transmitted_).sample(wo, u_base, u, mode)
-                   : DiffuseReflection(reflected_).sample(wo, u_base, u, mode);
+        if (u_base < transmitted_choice_) {
+            return DiffuseTransmission(transmitted_).sample(wo, u_base, u, mode);
+        }
+        if (surface_.is_rough()) {
+            const float u_lobe = (u_base - transmitted_choice_) / (1.0f - transmitted_choice_);
+            return RoughDiffuseReflection(Rgb(0.0f), surface_).sample(wo, u_lobe, u, mode);
+        }
+        return DiffuseReflection(Rgb(0.0f)).sample(wo, u_base, u, mode);
     }
 
 private:
-    Rgb reflected_{0.0f};              ///< f [1/sr]
+    float per_color_ = 0.0f;           ///< pi f over base colour, if Lambertian
     Rgb transmitted_{0.0f};            ///< f on the other side [1/sr]
     float transmitted_choice_ = 0.0f;  ///< probability of the other side
     float reflected_share_ = 1.0f;
+    RoughDiffuse surface_;
 };
 
 /// The scattering model of glTF 2.0 metallic-roughness with KHR_materials_{ior, specular,

@@ -141,6 +141,23 @@ TEST_CASE("diffuse transmission is read")
     CHECK(grey_image(loaded, through.color_texture) == 2);
 }
 
+TEST_CASE("diffuse roughness is read, as a draft")
+{
+    const LoadedScene loaded =
+        with_extension("KHR_materials_diffuse_roughness",
+                       {{"diffuseRoughnessFactor", 0.75}, {"diffuseRoughnessTexture", texture(1)}})
+            .load();
+    CHECK(loaded.warnings.empty());
+    CHECK(loaded.notes.size() == 1);
+    const DiffuseRoughnessDesc& rough = loaded.scene.materials.at(0).diffuse_roughness;
+    CHECK(rough.factor == 0.75f);
+    CHECK(grey_image(loaded, rough.texture) == 1);
+    const LoadedScene smooth =
+        with_extension("KHR_materials_diffuse_roughness", {{"diffuseRoughnessTexture", texture(1)}})
+            .load();
+    CHECK(smooth.scene.materials.at(0).diffuse_roughness.factor == 0.0f);
+}
+
 TEST_CASE("specular-glossiness becomes a dielectric with a specular colour")
 {
     GltfFixture fixture = with_extension("KHR_materials_pbrSpecularGlossiness",
@@ -214,6 +231,7 @@ TEST_CASE("each property of an extension must have its type")
         {"anisotropy", "anisotropyRotation"},
         {"clearcoat", "clearcoatFactor"},
         {"clearcoat", "clearcoatRoughnessFactor"},
+        {"diffuse_roughness", "diffuseRoughnessFactor"},
         {"diffuse_transmission", "diffuseTransmissionFactor"},
         {"diffuse_transmission", "diffuseTransmissionColorFactor", "3 numbers"},
         {"dispersion", "dispersion"},

@@ -85,6 +85,17 @@ DiffuseTransmissionDesc read_diffuse_transmission(const MaterialExtension& from)
     return through;
 }
 
+/// Drafts differ in the default: it is that of OpenPBR, as in other readers.
+DiffuseRoughnessDesc read_diffuse_roughness(const MaterialExtension& from)
+{
+    DiffuseRoughnessDesc rough;
+    rough.factor = from.number("diffuseRoughnessFactor", 0.0, 0.0, 1.0);
+    if (rough.factor > 0.0f) {
+        rough.texture = from.texture("diffuseRoughnessTexture");
+    }
+    return rough;
+}
+
 float read_dispersion(const MaterialExtension& from)
 {
     return from.number("dispersion", 0.0, 0.0, no_limit);
@@ -110,6 +121,8 @@ void read_layers(const MaterialValues& values, MaterialDesc& desc)
     read_extension(values, "KHR_materials_iridescence", read_iridescence, desc.iridescence);
     read_extension(values, "KHR_materials_diffuse_transmission", read_diffuse_transmission,
                    desc.diffuse_transmission);
+    read_extension(values, "KHR_materials_diffuse_roughness", read_diffuse_roughness,
+                   desc.diffuse_roughness);
     read_extension(values, "KHR_materials_dispersion", read_dispersion, desc.dispersion);
 }
 

@@ -71,7 +71,7 @@ void check_encodings(const MaterialDesc& material, ImageTable& images)
           &material.transmission_texture, &material.clearcoat.texture,
           &material.clearcoat.roughness_texture, &material.clearcoat.normal_texture,
           &material.anisotropy.texture, &material.iridescence.texture,
-          &material.iridescence.thickness_texture}) {
+          &material.iridescence.thickness_texture, &material.diffuse_roughness.texture}) {
         check(*texture, ColorEncoding::linear);
     }
 }

@@ -129,6 +129,7 @@ void Connection::close()
 void Connection::read()
 {
     parser_.emplace();
+    keeps_alive_ = false;
     parser_->header_limit(max_header_bytes);
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // `serve` refuses bodies
     stream_.expires_after(patience);
@@ -160,6 +161,7 @@ void Connection::take(const error_code& error)
 void Connection::serve()
 {
     const auto& request = parser_->get();
+    keeps_alive_ = request.keep_alive();
     const auto host = request[http::field::host];
     const auto origin = request.find(http::field::origin);
     if (request.count(http::field::host) > 1) {
@@ -344,7 +346,7 @@ void Connection::refuse(int status, const std::string& line)
 void Connection::send(Response answer)
 {
     auto kept = std::make_shared<Response>(std::move(answer));
-    kept->keep_alive(kept->keep_alive() && parser_->get().keep_alive());
+    kept->keep_alive(kept->keep_alive() && keeps_alive_);
     kept->prepare_payload();
     stream_.expires_after(3 * patience);
     http::async_write(

@@ -81,6 +81,7 @@ private:
     ServerState& server_;
     boost::beast::flat_buffer buffer_;
     std::optional<Parser> parser_;
+    bool keeps_alive_ = false;  // as the request wants
     struct Upload;
     std::unique_ptr<Upload> upload_;  // a file that is being given
     enum class Standing : std::uint8_t { stranger, client, none };

@@ -156,13 +156,12 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
         const DefaultLights missing = missing_lights(scene, framed);
         if (missing != DefaultLights::none) {
             scene = scene.with_lights(default_lights(missing, framed));
-            environment = missing == DefaultLights::object ? "object" : "default";
+            environment = job::environment_name(missing);
             notes.push_back(
-                missing == DefaultLights::object
-                    ? job::Note{"default_sky", "no light: lit by a key and a rim light"}
-                : missing == DefaultLights::sky
-                    ? job::Note{"default_sky", "no light: lit by a soft sky"}
-                    : job::Note{"default_lamp", "a closed room without light: lit by a lamp"});
+                missing == DefaultLights::sky_and_lamp
+                    ? job::Note{"default_lamp", "a closed room without light: lit by a lamp"}
+                    : job::Note{"default_sky", fmt::format("no light: lit by {}",
+                                                           job::environment_text(missing))});
         }
     }
     const float aspect = static_cast<float>(size.first) / static_cast<float>(size.second);
@@ -213,8 +212,7 @@ void bind_parts_of_scenes(nb::module_& module)
         nb::arg("camera") = nb::none(), nb::arg("size") = std::pair(1280, 720),
         "Scene of meshes, lights and a camera; without a camera, the whole scene is framed, and "
         "without light it gets a key and a rim light (a room a soft sky, a closed one a lamp). "
-        "Arrays "
-        "are copied.");
+        "Arrays are copied.");
 }
 
 void bind_lights(nb::module_& module)

@@ -40,7 +40,7 @@ struct LayeredConstants {
 /// parameters are inherited, so that no byte is lost to padding. Compact, as it lives in path
 /// vertices; `LayeredBsdf` makes a model of it.
 struct LayeredParameters : GltfParameters {
-    Unit8 diffuse_roughness{};  ///< of the base; 0: Lambertian
+    Unit8 diffuse_roughness{};  ///< 0: Lambertian. First: the base ends in padding
     Unit16 coat{};              ///< coated fraction of the surface
     Unit16 coat_roughness{};    ///< perceptual
     Direction16 coat_normal{};  ///< local, like all directions of a `LayeredBsdf`

@@ -43,7 +43,7 @@ constexpr PaintedSky even_sky{.horizon = 0.7,
                               .key = {{-0.5, 1.0, 0.87}, 5.0, 6},
                               .rim = {{0.5, 0.36, -0.87}, 1.0, 6}};
 
-// Light from fewer directions shapes objects; darker than white paint, so that it stands out.
+// Narrow lights shape objects. The sky is darker than white paint, so that white objects stand out.
 constexpr PaintedSky dark_sky{.horizon = 0.45,
                               .zenith = 0.25,
                               .ground = 0.32,

@@ -200,26 +200,26 @@ void add_lights(LitScene& lit, DefaultLights missing, const FramedView& framed,
         lit.sky = Sky::none;
         return;
     }
-    const bool is_object = lit.sky == Sky::if_wanted && missing == DefaultLights::object;
     if (lit.sky == Sky::if_wanted) {
         lit.notes.push_back(
             {"default_sky",
              fmt::format("{}: no light{}: lit by {} (--env {})", file,
                          has_light(lit.desc) ? " but emissive materials" : "",
-                         is_object ? "a key and a rim light" : "a soft sky",
+                         environment_text(missing),
                          has_light(lit.desc) ? "none removes it" : "chooses another")});
         ++lit.added;
-        lit.has_object_light = is_object;
+        lit.has_object_light = missing == DefaultLights::object;
+    } else if (missing != DefaultLights::sky_and_lamp) {
+        missing = DefaultLights::sky;  // --env default
     }
-    lit.environment_name = is_object ? "object" : "default";
-    lit.desc.lights.emplace_back(is_object ? object_environment() : default_environment());
+    lit.environment_name = environment_name(missing);
+    lit.desc.lights = default_lights(missing, framed);
     if (missing == DefaultLights::sky_and_lamp) {
         lit.notes.push_back(
             {"default_lamp",
              fmt::format("{}: a closed room without light: a lamp was added at "
                          "{} (--env none removes it)",
                          file, place_text(framed.lamp_position, lit.desc.origin, 3))});
-        lit.desc.lights.emplace_back(default_lamp(framed));
         ++lit.added;
     }
 }
@@ -490,6 +490,16 @@ std::string size_text(const PreparedScene& stage)
     return fmt::format(
         "{}{}, {}", counted(counts.instanced_triangles, "triangle"), emissive,
         counted(stage.lights - std::min(stage.lights, counts.emissive_triangles), "light"));
+}
+
+const char* environment_name(DefaultLights lights)
+{
+    return lights == DefaultLights::object ? "object" : "default";
+}
+
+const char* environment_text(DefaultLights lights)
+{
+    return lights == DefaultLights::object ? "a key and a rim light" : "a soft sky";
 }
 
 bool adds_ground(const RenderArguments& arguments, const PreparedScene& stage)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/default_lights.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/light_desc.h>
 #include <bdpt/render_options.h>
@@ -45,6 +46,11 @@ struct PreparedScene {
 
 /// Returns "36 triangles (2 emissive), 1 light".
 [[nodiscard]] std::string size_text(const PreparedScene& stage);
+
+/// Returns the word of --env for the environment among default lights.
+[[nodiscard]] const char* environment_name(DefaultLights lights);
+/// Returns that environment as people call it: "a soft sky".
+[[nodiscard]] const char* environment_text(DefaultLights lights);
 
 /// Tests whether files for screens show the shadow of the scene on the ground though it was not
 /// requested.

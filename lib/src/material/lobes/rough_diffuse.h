@@ -22,8 +22,8 @@ namespace bdpt {
 /// Below a boundary, which transmits less at grazing angles, light reaches the facets from other
 /// directions, so single reflections bring another share of it: `flattening` is 0 without a
 /// boundary, 1 below a smooth one of index 1.5, and in between proportional to how much more is
-/// transmitted at normal incidence than on average. With it, a white surface reflects all light,
-/// within half a percent; what the fit would add at some angles is left out at all of them.
+/// transmitted at normal incidence than on average. With it, a white surface reflects between 99.5
+/// and 100.1 % of the light: the lobe is scaled down by what the fit adds at the worst angle.
 class RoughDiffuse {
 public:
     RoughDiffuse() = default;
@@ -42,8 +42,8 @@ public:
     }
     [[nodiscard]] bool is_rough() const { return roughness_ > 0.0f; }
 
-    /// Returns f(wo, wi) |cos(wi)| over that of a white Lambertian surface times |cos(wi)|, and the
-    /// densities. `color` is in [0, 1].
+    /// Returns f(wo, wi) |cos(wi)| of a surface of this colour, in [0, 1], times `scale`, and the
+    /// densities.
     [[nodiscard]] BsdfEval eval(Rgb color, float scale, Vec3 wo, Vec3 wi) const noexcept
     {
         if (!same_side(wo, wi)) {
@@ -165,11 +165,11 @@ private:
 
     float roughness_ = 0.0f;
     float single_ = 1.0f;  ///< the model's factor of single reflections
-    float kept_ = 1.0f;
+    float kept_ = 1.0f;    ///< scales the lobe, so that errors of the fit make no light
     float flattening_ = 0.0f;
 };
 
-/// The same as a lobe.
+/// The lobe of a rough diffuse surface of one colour.
 class RoughDiffuseReflection {
 public:
     /// `coupling` as in `DiffuseReflection`.

@@ -81,12 +81,13 @@ std::optional<PixelRect> parse_crop(std::string_view text)
 void add_ground_option(OptionList& options, Ground& ground)
 {
     const Choices<Ground> grounds{{{"shadow", Ground::shadow}, {"none", Ground::none}}};
-    options.add("--ground", "shadow|none",
-                "shadow: shadow catcher, a horizontal ground that is invisible itself, also in "
-                "reflections. The shadow is black: it darkens the visible environment, or adds to "
-                "the alpha of --background; .exr also gets it as layer shadow.A. Default: in .png, "
-                ".jpg and .webp files of objects without light, with their --env object",
-                ground, grounds.type());
+    options.add(
+        "--ground", "shadow|none",
+        "shadow: shadow catcher, a horizontal ground that is invisible itself, also in "
+        "reflections. The shadow is black: it darkens the visible environment, or adds to "
+        "the alpha of --background; .exr also gets it as layer shadow.A. Default: shadow in "
+        ".png, .jpg and .webp files of an object that gets default light, else none",
+        ground, grounds.type());
 }
 
 FilmOptions with_ground(Ground ground, FilmOptions film, const OptionList& options)

@@ -1,4 +1,3 @@
-#include <bdpt/error.h>
 #include <bdpt/eval/metric.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>
@@ -7,32 +6,18 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <exception>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "arrays.h"
 #include "interpreter_lock.h"
+#include "python_errors.h"
 #include "python_scene.h"
 
 namespace {
 
 namespace nb = nanobind;
-
-nb::object* error_type = nullptr;  // lives as long as the module
-
-/// Translates bdpt::Error to bdpt.Error, whose `code` is the exit code of the command.
-void translate(const std::exception_ptr& exception, void* /*payload*/)
-{
-    try {
-        std::rethrow_exception(exception);
-    } catch (const bdpt::Error& error) {
-        nb::object raised = (*error_type)(error.what());
-        raised.attr("code") = static_cast<int>(error.code());
-        PyErr_SetObject(error_type->ptr(), raised.ptr());
-    }
-}
 
 /// Waits for renders. Called when Python ends, before it destroys anything.
 void wait_for_renders()
@@ -52,7 +37,7 @@ std::map<std::string, double> compare(const bdpt::python::ImageInput& image,
     for (const std::string& name : metrics) {
         const auto metric = bdpt::eval::parse_metric(name);
         if (!metric) {
-            throw bdpt::Error(bdpt::ErrorCode::usage, fmt::format("there is no metric {}", name));
+            throw bdpt::python::ValueError(fmt::format("there is no metric {}", name));
         }
         const bdpt::python::Unlocked unlocked;
         errors[name] = evaluate(*metric, left, right);
@@ -68,12 +53,7 @@ NB_MODULE(_bdpt, module)
     // Leak warnings are for developers, and daemon threads leak the objects they use.
     nb::set_leak_warnings(false);
     module.attr("__version__") = BDPT_VERSION;
-    error_type = new nb::object(nb::steal(PyErr_NewExceptionWithDoc(
-        "bdpt.Error",
-        "Invalid input, or a failure of a library; `code` is the exit code of the command.",
-        PyExc_RuntimeError, nullptr)));
-    module.attr("Error") = *error_type;
-    nb::register_exception_translator(translate);
+    bdpt::python::bind_errors(module);
     nb::module_::import_("atexit").attr("register")(nb::cpp_function(&wait_for_renders));
     bdpt::python::bind_scene(module);
     bdpt::python::bind_parts_of_scenes(module);

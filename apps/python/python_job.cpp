@@ -15,6 +15,7 @@
 
 #include "interpreter_lock.h"
 #include "options/option_list.h"
+#include "python_errors.h"
 #include "python_scene.h"
 #include "words.h"
 
@@ -99,16 +100,20 @@ std::vector<JobImage> run_job(const nb::object& file, const nb::object& progress
                               const nb::object& message, const nb::kwargs& options)
 {
     const std::filesystem::path path = to_path(file);
-    RenderJob job = job::is_job(path) ? RenderJob::from_file(path) : RenderJob(path);
-    set_options(job, options);
     Observer observer(progress, message);
-    JobResult result;
-    {
-        const Unlocked unlocked;
-        result = run(job, observer.control());
-    }
-    observer.raise_interrupt();
-    return result.images;
+    std::vector<std::filesystem::path> files = given_paths(options, Call::run);
+    files.insert(files.begin(), path);
+    return with_missing_file(files, [&] {
+        RenderJob job = job::is_job(path) ? RenderJob::from_file(path) : RenderJob(path);
+        set_options(job, options);
+        JobResult result;
+        {
+            const Unlocked unlocked;
+            result = run(job, observer.control());
+        }
+        observer.raise_interrupt();
+        return result.images;
+    });
 }
 
 }  // namespace
@@ -128,7 +133,11 @@ void bind_job(nb::module_& module)
             "How long the image has been rendered.")
         .def_prop_ro(
             "noise", [](const JobProgress& now) { return now.render.noise; },
-            "As Render.noise, when it was last measured.");
+            "As Render.noise, when it was last measured.")
+        .def("__repr__", [](const JobProgress& now) {
+            return fmt::format("<bdpt.JobProgress image {} of {}, {:.0f} %, {} spp>", now.image,
+                               now.images, 100.0 * now.fraction, now.render.samples_done);
+        });
     nb::class_<JobImage>(module, "JobImage", "An image that run() rendered and wrote.")
         .def_ro("files", &JobImage::files, "All files that were written.")
         .def_ro("frame", &JobImage::frame, "Number of the frame or view, in a sequence.")

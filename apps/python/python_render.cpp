@@ -26,6 +26,7 @@
 #include "output/image_files.h"
 #include "output/parts.h"
 #include "output/render_report.h"
+#include "python_errors.h"
 #include "python_render.h"
 #include "stage/prepared_scene.h"
 
@@ -111,9 +112,8 @@ private:
     job::Size own_size_;
 };
 
-}  // namespace
-
-Task prepare(PythonScene& scene, const nb::kwargs& options)
+/// As `prepare`, but not yet with `MissingFile`.
+Task prepare_task(PythonScene& scene, const nb::kwargs& options)
 {
     const Words own = to_words(options, Call::render);
     Task task{.arguments = understand_render(combined(scene.words, own)),
@@ -159,12 +159,20 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
         }
         task.metadata = make_metadata(arguments, scene.stage, settings);
     }
+    job::check_backplate(arguments.display);
     return task;
+}
+
+}  // namespace
+
+Task prepare(PythonScene& scene, const nb::kwargs& options)
+{
+    return with_missing_file(given_paths(options, Call::render),
+                             [&] { return prepare_task(scene, options); });
 }
 
 Render empty_render(const PythonScene& scene, const Task& task)
 {
-    job::check_backplate(task.arguments.display);
     return {.part = {},
             .notes = {.goal = SampleSet(task.arguments.samples), .metadata = task.metadata},
             .backdrop = task.arguments.display.backdrop,
@@ -268,7 +276,7 @@ nb::object to_srgb(const Render& render, const nb::kwargs& options)
 
 Render read_part(const fs::path& file)
 {
-    const io::PartInfo info = io::read_part_info(file);
+    const io::PartInfo info = with_missing_file({file}, [&] { return io::read_part_info(file); });
     Render render{.part = {}, .notes = info.notes};
     io::MemoryBudget memory(job::memory_limit(std::nullopt));
     io::merge_part(render.part, info, &memory);
@@ -315,9 +323,8 @@ std::pair<std::optional<std::string>, nb::kwargs> split_format(const nb::kwargs&
         } else if (!value.is_none()) {
             format = nb::cast<std::string>(nb::str(value));
             if (std::find(known.begin(), known.end(), *format) == known.end()) {
-                throw Error(ErrorCode::usage,
-                            fmt::format("format \"{}\": expected exr, hdr, png, jpg, webp or part",
-                                        *format));
+                throw ValueError(fmt::format("format={}: expected exr, hdr, png, jpg, webp or part",
+                                             written(value)));
             }
         }
     }

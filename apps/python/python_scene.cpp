@@ -17,6 +17,7 @@
 
 #include "interpreter_lock.h"
 #include "options/output_files.h"
+#include "python_errors.h"
 
 namespace bdpt::python {
 
@@ -116,6 +117,8 @@ PythonScene load_bytes(const nb::bytes& contents, const Words& words)
         scene.file = name;
         scene.origin.reset();
         return scene;
+    } catch (const job::UnknownName& error) {
+        throw job::UnknownName(renamed(error.what(), file.string(), name));
     } catch (const Error& error) {
         throw Error(error.code(), renamed(error.what(), file.string(), name));
     }
@@ -125,7 +128,13 @@ PythonScene load(const nb::object& source, const nb::kwargs& options)
 {
     const Words words = to_words(options, Call::load);
     const std::optional<nb::bytes> contents = read_contents(source);
-    return contents ? load_bytes(*contents, words) : load_file(to_path(source), words);
+    std::vector<fs::path> files = given_paths(options, Call::load);
+    if (contents) {
+        return with_missing_file(files, [&] { return load_bytes(*contents, words); });
+    }
+    const fs::path file = to_path(source);
+    files.push_back(file);
+    return with_missing_file(files, [&] { return load_file(file, words); });
 }
 
 std::tuple<std::string, Words> get_state(const PythonScene& scene)

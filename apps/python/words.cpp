@@ -13,6 +13,7 @@
 #include "options/groups/view_arguments.h"
 #include "options/option_list.h"
 #include "options/value_types.h"
+#include "python_errors.h"
 
 namespace bdpt::python {
 namespace {
@@ -35,6 +36,13 @@ struct SaveRequest {
     SaveArguments arguments{};
     job::OptionList options{};
 };
+
+/// Returns all options of the command.
+const job::OptionList& render_options()
+{
+    static const job::RenderOptionList options;
+    return options.list;
+}
 
 bool belongs(const job::Option& option, Call call)
 {
@@ -212,17 +220,84 @@ const char* format_call(Call call)
 {
     for (const Call other : {Call::load, Call::render, Call::save, Call::run}) {
         if (collect_options(other).contains(keyword)) {
-            throw Error(ErrorCode::usage, fmt::format("{} is an option of {}, not of {}", keyword,
-                                                      format_call(other), format_call(call)));
+            throw CallError(
+                fmt::format("{} got an unexpected keyword argument '{}': it is an option of {}",
+                            format_call(call), keyword, format_call(other)));
         }
     }
     const bool is_size = (keyword == "width" || keyword == "height" || keyword == "resolution") &&
                          collect_options(call).contains("size");
-    const auto meant = is_size ? std::optional<std::string>("size")
-                               : job::closest(keyword, collect_keywords(call));
-    throw Error(ErrorCode::usage,
-                fmt::format("{} has no option {}{}", format_call(call), keyword,
-                            meant ? fmt::format(" (did you mean {}?)", *meant) : ""));
+    fail_keyword(format_call(call), keyword,
+                 is_size ? "size" : job::closest(keyword, collect_keywords(call)));
+}
+
+/// Tests whether a value can be an option: a text, a path, a number, or several of them.
+bool can_be_option(const job::Option& option, nb::handle value)
+{
+    const bool is_bool = PyBool_Check(value.ptr()) != 0;
+    const bool is_number = PyNumber_Check(value.ptr()) != 0;
+    if (is_bool || (is_number && !has_items(value))) {
+        const bool is_whole = is_bool || PyIndex_Check(value.ptr()) != 0;
+        return is_bool ? option.is_flag()
+                       : is_whole || option.info.json != job::JsonType::whole_number;
+    }
+    return has_items(value) || PyUnicode_Check(value.ptr()) != 0 ||
+           nb::hasattr(value, "__fspath__");
+}
+
+/// Throws unless the values are as their options expect. Paths and combinations are checked later.
+void check_values(const nb::kwargs& values, Call call)
+{
+    SaveRequest save;
+    job::RenderOptionList render;
+    for (job::Option& option : (call == Call::save ? save.options : render.list).all()) {
+        const std::string keyword = to_keyword(option);
+        const char* const given =
+            keyword == "from_" && values.contains("from") ? "from" : keyword.c_str();
+        if (!belongs(option, call) || !values.contains(given) || values[given].is_none()) {
+            continue;
+        }
+        const nb::object value = values[given];
+        const auto expect = [&](const std::string& meant) {
+            return fmt::format("{}={}: expected {}{}", keyword, written(value), option.expected,
+                               meant);
+        };
+        if (!can_be_option(option, value)) {
+            throw CallError(expect(""));
+        }
+        if (PyBool_Check(value.ptr()) != 0) {
+            continue;
+        }
+        std::vector<std::string> texts;
+        if (option.repeats && has_items(value)) {
+            for (const nb::handle item : nb::iter(value)) {
+                texts.push_back(to_text(item));
+            }
+        } else {
+            texts.push_back(to_text(option, value));
+        }
+        for (const std::string& text : texts) {
+            if (!option.store(option.spelled(text))) {
+                const auto meant = option.meant(text);
+                throw Error(call == Call::run ? ErrorCode::invalid_input : ErrorCode::usage,
+                            expect(meant ? fmt::format(" (did you mean '{}'?)", *meant) : ""));
+            }
+        }
+    }
+}
+
+/// Throws unless all keywords are options of `call`. Returns those options.
+std::map<std::string, job::Option> find_options(const nb::kwargs& values, Call call)
+{
+    std::map<std::string, job::Option> known = collect_options(call);
+    for (const auto& [key, value] : values) {
+        const auto keyword = nb::cast<std::string>(key);
+        if (!known.contains(keyword == "from" ? "from_" : keyword)) {
+            fail_unknown(keyword, call);
+        }
+    }
+    check_values(values, call);
+    return known;
 }
 
 /// Wraps `text` to lines of at most 100 columns, each behind `indent` spaces.
@@ -300,16 +375,11 @@ Words combined(const Words& of_load, const Words& of_render)
 
 Words to_words(const nb::kwargs& options, Call call)
 {
-    const std::map<std::string, job::Option> known = collect_options(call);
+    const std::map<std::string, job::Option> known = find_options(options, call);
     Words words;
     for (const auto& [key, value] : options) {
-        auto keyword = nb::cast<std::string>(key);
-        keyword = keyword == "from" ? "from_" : keyword;
-        const auto found = known.find(keyword);
-        if (found == known.end()) {
-            fail_unknown(keyword, call);
-        }
-        const job::Option& option = found->second;
+        const auto keyword = nb::cast<std::string>(key);
+        const job::Option& option = known.at(keyword == "from" ? "from_" : keyword);
         const bool is_off = option.is_flag() && value.ptr() == Py_False;
         if (value.is_none() || (is_off && !option.default_is_chosen)) {
             continue;
@@ -330,14 +400,10 @@ Words to_words(const nb::kwargs& options, Call call)
 
 void set_options(RenderJob& job, const nb::kwargs& options)
 {
-    const std::map<std::string, job::Option> known = collect_options(Call::run);
+    const std::map<std::string, job::Option> known = find_options(options, Call::run);
     for (const auto& [key, value] : options) {
         const auto keyword = nb::cast<std::string>(key);
-        const auto found = known.find(keyword == "from" ? "from_" : keyword);
-        if (found == known.end()) {
-            fail_unknown(keyword, Call::run);
-        }
-        const job::Option& option = found->second;
+        const job::Option& option = known.at(keyword == "from" ? "from_" : keyword);
         if (value.is_none()) {
             continue;
         }
@@ -345,6 +411,49 @@ void set_options(RenderJob& job, const nb::kwargs& options)
             option.is_flag() && value.ptr() == Py_False && !option.default_is_chosen;
         job.set(to_key(option), is_off ? JobValue(nullptr) : to_value(option, value));
     }
+}
+
+std::vector<std::filesystem::path> given_paths(const nb::kwargs& options, Call call)
+{
+    std::vector<std::filesystem::path> paths;
+    visit_options(call, [&](const job::Option& option) {
+        const std::string keyword = to_keyword(option);
+        // Not the files that it writes.
+        if (!option.info.is_path || !option.is_harmless() || !options.contains(keyword.c_str())) {
+            return;
+        }
+        const std::string text = to_text(options[keyword.c_str()]);
+        if (std::find(option.info.words.begin(), option.info.words.end(), text) ==
+            option.info.words.end()) {
+            paths.emplace_back(text);
+        }
+    });
+    return paths;
+}
+
+std::string in_keywords(std::string_view message)
+{
+    std::string text;
+    std::size_t done = 0;
+    for (std::size_t at = message.find("--"); at != std::string_view::npos;
+         at = message.find("--", at + 2)) {
+        constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz-0123456789";
+        const std::size_t end = std::min(message.find_first_not_of(letters, at), message.size());
+        const bool begins = at == 0 || message[at - 1] == ' ' || message[at - 1] == '(';
+        const bool is_part_of_path = end < message.size() && message[end] == '/';
+        const auto* const option = render_options().find(message.substr(at, end - at));
+        if (!begins || is_part_of_path || option == nullptr) {
+            continue;
+        }
+        text += message.substr(done, at - done);
+        text += to_keyword(*option);
+        done = end;
+        if (message.substr(end).starts_with(" \"")) {
+            text += '=';
+            ++done;
+        }
+    }
+    return text + std::string(message.substr(done));
 }
 
 job::RenderArguments understand_render(const Words& words)

@@ -3,6 +3,7 @@
 #include <bdpt/job.h>
 #include <nanobind/nanobind.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,13 +22,20 @@ using Words = std::vector<std::string>;
 /// The Python call that an option belongs to.
 enum class Call { load, render, save, run };
 
-/// Returns the words for `options`. Throws `Error` (usage) for options that do not belong to
-/// `call`, saying where they belong.
+/// Returns the words for `options`. Throws `CallError` for options that do not belong to `call`,
+/// saying where they belong, and for values of wrong types; `Error` (usage) for other wrong values.
 [[nodiscard]] Words to_words(const nanobind::kwargs& options, Call call);
 
-/// Sets `options` in `job`. Throws `Error`: usage for options that do not belong to run(), and
-/// invalid_input for their values.
+/// Sets `options` in `job`. Throws as `to_words`, but invalid_input for wrong values.
 void set_options(RenderJob& job, const nanobind::kwargs& options);
+
+/// Returns a message of the command with the keywords of Python for its options: "samples cannot be
+/// combined with spp".
+[[nodiscard]] std::string in_keywords(std::string_view message);
+
+/// Returns the files that `options` name to be read.
+[[nodiscard]] std::vector<std::filesystem::path> given_paths(const nanobind::kwargs& options,
+                                                             Call call);
 
 /// Tests whether one of `words` chooses a camera, or changes its position or its lens.
 [[nodiscard]] bool change_view(const Words& words);

@@ -90,7 +90,7 @@ def test_a_renderer_writes_into_objects():
 def test_formats_are_for_objects_and_objects_want_formats(tmp_path):
     render = bdpt.render(bdpt.load(BOX), **SMALL)
     for target, options, message in [(io.BytesIO(), {}, 'give format="png"'), (tmp_path / "a.png", {"format": "png"}, "name"),
-                                     (io.BytesIO(), {"format": "bmp"}, 'format "bmp": expected exr')]:
+                                     (io.BytesIO(), {"format": "bmp"}, "format='bmp': expected exr")]:
         with pytest.raises(bdpt.Error, match=message) as raised:
             render.save(target, **options)
         assert raised.value.code == 2
@@ -206,11 +206,11 @@ def test_a_scene_is_loaded_strictly_and_from_allowed_folders(tmp_path):
             buffer["uri"] = "../" + buffer["uri"]
     document["images"] = [{"uri": "../image.png"}]
     file.write_text(json.dumps(document))
-    with pytest.raises(bdpt.Error, match="outside of the scene's folder; --allow-folder allows others") as refused:
+    with pytest.raises(bdpt.Error, match="outside of the scene's folder; allow_folder allows others") as refused:
         bdpt.load(file)
     assert refused.value.code == 4
     for folders in (tmp_path, [tmp_path], [tmp_path / "scene", str(tmp_path)]):
         assert any("EXT_unheard_of" in warning for warning in bdpt.load(file, allow_folder=folders).warnings)
-    with pytest.raises(bdpt.Error, match="EXT_unheard_of is unknown and ignored; --strict refuses this") as strict:
+    with pytest.raises(bdpt.Error, match="EXT_unheard_of is unknown and ignored; strict refuses this") as strict:
         bdpt.load(file, allow_folder=tmp_path, strict=True)
     assert strict.value.code == 5

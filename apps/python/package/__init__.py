@@ -10,12 +10,14 @@
 import operator
 from typing import Any, Iterator
 
-from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, JobImage, JobProgress, Material, Mesh,
-                    PointLight, Render, Renderer, Scene, SpotLight, __version__, compare, load, read_part, render, run)
+from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, InvalidCallError, InvalidValueError, JobImage,
+                    JobProgress, Material, Mesh, MissingFileError, OutOfMemoryError, OutputError, PointLight, Render,
+                    Renderer, Scene, SpotLight, __version__, compare, load, read_part, render, run)
 from ._signatures import with_signature
 
-__all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "JobImage", "JobProgress", "Material",
-           "Mesh", "PointLight", "Render", "Renderer", "Scene", "SpotLight", "compare", "load", "orbit", "read_part", "render",
+__all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "InvalidCallError", "InvalidValueError",
+           "JobImage", "JobProgress", "Material", "Mesh", "MissingFileError", "OutOfMemoryError", "OutputError",
+           "PointLight", "Render", "Renderer", "Scene", "SpotLight", "compare", "load", "orbit", "read_part", "render",
            "run"]
 
 load = with_signature(load)

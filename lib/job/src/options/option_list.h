@@ -26,6 +26,12 @@ public:
     explicit OptionError(const std::string& message) : Error(ErrorCode::usage, message) {}
 };
 
+/// Error of a name that a file does not have, such as that of a camera.
+class UnknownName : public Error {
+public:
+    explicit UnknownName(const std::string& message) : Error(ErrorCode::not_found, message) {}
+};
+
 /// Throws the `OptionError` that names all three: `--spp "VALUE": expected EXPECTED`.
 [[noreturn]] void reject(std::string_view option, std::string_view value,
                          std::string_view expected);

@@ -144,8 +144,7 @@ std::vector<int> list_frames(const FrameRange& range)
 void check_names(const std::vector<std::string>& cameras, const RenderArguments& arguments)
 {
     if (cameras.empty()) {
-        throw Error(
-            ErrorCode::not_found,
+        throw UnknownName(
             fmt::format("{}: the scene has no camera for --cameras all", arguments.file.string()));
     }
     std::map<fs::path, std::string> owners;

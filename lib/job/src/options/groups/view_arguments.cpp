@@ -63,8 +63,7 @@ const CameraDesc& select_camera(std::span<const CameraDesc> cameras,
         return cameras[*index];
     }
     const std::string what = fmt::format("{}: no camera \"{}\"", file, name_or_index);
-    throw Error(
-        ErrorCode::not_found,
+    throw UnknownName(
         cameras.empty()
             ? fmt::format("{}; the scene has none (--camera auto frames it)", what)
             : fmt::format("{}; this scene has {}: {}", what,

@@ -44,6 +44,15 @@ PythonScene with_scene(const PythonScene& original, Scene scene, std::string env
             .words = original.words};
 }
 
+std::vector<std::string> material_names(const PythonScene& scene)
+{
+    std::vector<std::string> names;
+    for (const MaterialDesc& material : scene.stage.scene.description().materials) {
+        names.push_back(material.name);
+    }
+    return names;
+}
+
 /// Returns the index of the only material of that name. Throws `Error`: not_found, or invalid_input
 /// if there are several.
 std::size_t find_number(const PythonScene& scene, const std::string& name)
@@ -52,7 +61,10 @@ std::size_t find_number(const PythonScene& scene, const std::string& name)
     const auto is_it = [&name](const MaterialDesc& material) { return material.name == name; };
     const auto found = std::find_if(materials.begin(), materials.end(), is_it);
     if (found == materials.end()) {
-        throw Error(ErrorCode::not_found, fmt::format("no material \"{}\"", name));
+        const auto meant = job::closest(name, material_names(scene));
+        throw job::UnknownName(
+            fmt::format("no material \"{}\"{}", name,
+                        meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
     }
     if (std::any_of(found + 1, materials.end(), is_it)) {
         throw Error(ErrorCode::invalid_input,
@@ -71,19 +83,9 @@ std::size_t find_number(const PythonScene& scene, const NameOrNumber& material)
     }
     const std::size_t count = scene.stage.scene.description().materials.size();
     if (*number >= count) {
-        throw Error(ErrorCode::not_found,
-                    fmt::format("no material {}: the scene has {}", *number, count));
+        throw job::UnknownName(fmt::format("no material {}: the scene has {}", *number, count));
     }
     return *number;
-}
-
-std::vector<std::string> material_names(const PythonScene& scene)
-{
-    std::vector<std::string> names;
-    for (const MaterialDesc& material : scene.stage.scene.description().materials) {
-        names.push_back(material.name);
-    }
-    return names;
 }
 
 std::shared_ptr<ArrayMaterial> make_array_material(const PythonScene& scene,
@@ -134,10 +136,12 @@ PythonScene with_lights(const PythonScene& scene, const std::vector<ArrayLight>&
 }
 
 PythonScene with_environment(const PythonScene& scene,
-                             const std::optional<EnvironmentLightDesc>& environment)
+                             const std::shared_ptr<Editable<EnvironmentLightDesc>>& environment)
 {
     const Unlocked unlocked;
-    return with_scene(scene, scene.stage.scene.with_environment(environment),
+    return with_scene(scene,
+                      scene.stage.scene.with_environment(
+                          environment ? std::optional(environment->desc) : std::nullopt),
                       environment ? "scene" : "none");
 }
 

@@ -1,5 +1,4 @@
 #include <bdpt/default_lights.h>
-#include <bdpt/error.h>
 #include <bdpt/framing.h>
 #include <bdpt/light_desc.h>
 #include <bdpt/scene_desc.h>
@@ -11,6 +10,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -57,8 +57,7 @@ std::vector<UVec3> to_triangles(const IndexInput& array)
     std::vector<UVec3> triangles(array.shape(0));
     for (std::size_t i = 0; i < 3 * triangles.size(); ++i) {
         if (!std::in_range<std::uint32_t>(indices[i])) {
-            throw Error(ErrorCode::invalid_input,
-                        fmt::format("triangles: triangle {} has index {}", i / 3, indices[i]));
+            throw ValueError(fmt::format("triangles: triangle {} has index {}", i / 3, indices[i]));
         }
         triangles[i / 3][static_cast<int>(i % 3)] = static_cast<std::uint32_t>(indices[i]);
     }
@@ -75,7 +74,7 @@ std::vector<UVec3> to_triangles_of(const IndexInput& array)
     if constexpr (sizeof...(Others) > 0) {
         return to_triangles_of<Others...>(array);
     }
-    throw Error(ErrorCode::usage, "triangles: expected integers");
+    throw CallError("triangles: expected integers");
 }
 
 /// Converts integers of any size. NumPy would wrap those that are out of range, and truncate
@@ -102,7 +101,43 @@ ArrayMesh make_mesh(const FloatsLike<nb::shape<-1, 3>>& positions,
     mesh.desc.uvs[0] = uvs ? to_vectors<Vec2>(uvs->array) : std::vector<Vec2>();
     mesh.material = material ? material : std::make_shared<ArrayMaterial>();
     mesh.transforms = to_matrices(transforms);
+    const std::size_t count = mesh.desc.positions.size();
+    for (const auto& [what, size] :
+         {std::pair("normals", mesh.desc.normals.size()), {"uvs", mesh.desc.uvs[0].size()}}) {
+        if (size != 0 && size != count) {
+            throw ValueError(fmt::format("{} for {} positions: {}", what, count, size));
+        }
+    }
+    for (std::size_t i = 0; i < mesh.desc.triangles.size(); ++i) {
+        const UVec3& triangle = mesh.desc.triangles[i];
+        const std::uint32_t largest = std::max({triangle.x, triangle.y, triangle.z});
+        if (largest >= count) {
+            throw ValueError(
+                fmt::format("triangles: triangle {} has index {}, but there are {} "
+                            "positions",
+                            i, largest, count));
+        }
+    }
     return mesh;
+}
+
+std::string to_text(const ArrayMesh& mesh)
+{
+    std::string text = fmt::format("Mesh(positions={}, triangles={}",
+                                   array_text("float32", {mesh.desc.positions.size(), 3}),
+                                   array_text("uint32", {mesh.desc.triangles.size(), 3}));
+    if (!mesh.desc.normals.empty()) {
+        text += ", normals=" + array_text("float32", {mesh.desc.normals.size(), 3});
+    }
+    if (!mesh.desc.uvs[0].empty()) {
+        text += ", uvs=" + array_text("float32", {mesh.desc.uvs[0].size(), 2});
+    }
+    const std::string material = to_text(*mesh.material, "Material");
+    text += material == "Material()" ? "" : ", material=" + material;
+    if (mesh.transforms != std::vector{Mat4(1.0f)}) {
+        text += ", transforms=" + array_text("float32", {mesh.transforms.size(), 4, 4});
+    }
+    return text + (mesh.desc.name.empty() ? "" : ", name=" + value_text(mesh.desc.name)) + ")";
 }
 
 CameraDesc make_camera(const Three& from, const Three& look_at, float fov, float lens_radius,
@@ -146,7 +181,8 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
                 const std::pair<int, int>& size)
 {
     if (size.first < 1 || size.second < 1) {
-        throw Error(ErrorCode::usage, fmt::format("size: {} x {} pixels", size.first, size.second));
+        throw ValueError(fmt::format("size=({}, {}): expected one pixel a side or more", size.first,
+                                     size.second));
     }
     Scene scene(describe(meshes, lights));
     std::string environment = "scene";
@@ -179,6 +215,12 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
                                      .memory = io::MemoryBudget(job::memory_limit(std::nullopt))},
                            .file = {},
                            .words = {}};
+    for (const ArrayMesh& mesh : meshes) {
+        mesh.material->is_frozen = true;
+    }
+    for (const ArrayLight& light : lights) {
+        std::visit([](const auto& part) { part->is_frozen = true; }, light);
+    }
 }
 
 void bind_mesh_and_camera(nb::module_& module)
@@ -190,7 +232,8 @@ void bind_mesh_and_camera(nb::module_& module)
              nb::arg("name") = "",
              "positions, normals: float32 (n, 3); triangles: integers (m, 3), counter-clockwise "
              "from the front; uvs: float32 (n, 2), v points down; transforms: float32 (k, 4, 4), "
-             "one per instance.");
+             "one per instance.")
+        .def("__repr__", [](const ArrayMesh& mesh) { return to_text(mesh); });
     nb::class_<CameraDesc>(module, "Camera", "A camera; +y is up.")
         .def(
             nb::new_(&make_camera), nb::arg("from_"), nb::arg("look_at"), nb::arg("fov") = 45.0f,
@@ -212,42 +255,30 @@ void bind_parts_of_scenes(nb::module_& module)
         nb::arg("camera") = nb::none(), nb::arg("size") = std::pair(1280, 720),
         "Scene of meshes, lights and a camera; without a camera, the whole scene is framed, and "
         "without light it gets a key and a rim light (a room a soft sky, a closed one a lamp). "
-        "Arrays are copied.");
+        "Everything is copied; afterwards its materials and lights refuse changes.");
 }
 
 void bind_lights(nb::module_& module)
 {
-    nb::class_<PointLightDesc> point(module, "PointLight", "A point light: isotropic.");
-    point.def("__init__", &construct<PointLightDesc>, nb::arg("attributes"));
-    point.def_rw("name", &PointLightDesc::name, "Name in id layers.");
-    def_vec(point, "position", &PointLightDesc::position, "[m]");
-    def_vec(point, "intensity", &PointLightDesc::intensity, "[cd]");
-    point.def_rw("radius", &PointLightDesc::radius, "[m] 0: a point; else a sphere that is seen.");
-    nb::class_<SpotLightDesc> spot(module, "SpotLight", "A point light in a cone.");
-    spot.def("__init__", &construct<SpotLightDesc>, nb::arg("attributes"));
-    spot.def_rw("name", &SpotLightDesc::name, "Name in id layers.");
-    def_vec(spot, "position", &SpotLightDesc::position, "[m]");
-    def_vec(spot, "direction", &SpotLightDesc::direction, "The axis.");
-    def_vec(spot, "intensity", &SpotLightDesc::intensity, "[cd] within the inner cone");
-    spot.def_rw("inner_cone_angle", &SpotLightDesc::inner_cone_angle, "[rad] from the axis");
-    spot.def_rw("outer_cone_angle", &SpotLightDesc::outer_cone_angle, "[rad] from the axis");
-    spot.def_rw("radius", &SpotLightDesc::radius, "[m] 0: a point; else a sphere that is seen.");
-    nb::class_<DirectionalLightDesc> sun(module, "DirectionalLight", "A directional light.");
-    sun.def("__init__", &construct<DirectionalLightDesc>, nb::arg("attributes"));
-    def_vec(sun, "direction", &DirectionalLightDesc::direction,
-            "Direction in which the light "
-            "travels.");
-    def_vec(sun, "illuminance", &DirectionalLightDesc::illuminance,
-            "[lx] on a surface facing the light");
-    nb::class_<EnvironmentLightDesc>(module, "EnvironmentLight", "Light from infinity.")
+    bind_editable<PointLightDesc>(module, "PointLight", "A point light: isotropic.");
+    bind_editable<SpotLightDesc>(module, "SpotLight", "A point light in a cone.");
+    bind_editable<DirectionalLightDesc>(module, "DirectionalLight", "A directional light.");
+    using EnvironmentLight = Editable<EnvironmentLightDesc>;
+    nb::class_<EnvironmentLight>(module, "EnvironmentLight", "Light from infinity.")
         .def(
             "__init__",
-            [](EnvironmentLightDesc* self, const ImageInput& radiance) {
-                new (self) EnvironmentLightDesc{.radiance = to_image(radiance)};
+            [](EnvironmentLight* self, const ImageInput& radiance) {
+                new (self) EnvironmentLight{.desc = {.radiance = to_image(radiance)}};
             },
             nb::arg("radiance"),
             "An equirectangular array of float32 (height, width, 3) [nit]: the top row is +y, the "
-            "centre column is seen along -z. Of shape (1, 1, 3) it is constant.");
+            "centre column is seen along -z. Of shape (1, 1, 3) it is constant.")
+        .def("__repr__", [](const EnvironmentLight& light) {
+            const EnvironmentImage& image = light.desc.radiance;
+            return fmt::format("EnvironmentLight(radiance={})",
+                               array_text("float32", {static_cast<std::size_t>(image.height()),
+                                                      static_cast<std::size_t>(image.width()), 3}));
+        });
 }
 
 }  // namespace bdpt::python

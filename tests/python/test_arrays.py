@@ -69,7 +69,7 @@ def test_without_a_camera_all_is_framed():
 @pytest.mark.parametrize("make, words", [
     (lambda: bdpt.Scene([bdpt.Mesh(SQUARE, TRIANGLES + 2)]), "triangle"),
     (lambda: bdpt.Scene([floor(roughness=2.0)]), "roughness"),
-    (lambda: bdpt.Scene([floor()], size=(0, 4)), "0 x 4"),
+    (lambda: bdpt.Scene([floor()], size=(0, 4)), r"size=\(0, 4\)"),
     (lambda: bdpt.Material(base_color_texture=np.zeros((2, 2, 3), np.int64)), "uint8"),
     (lambda: bdpt.Material(base_color=(1, 1)), "three or four"),
 ])
@@ -109,7 +109,7 @@ def test_images_without_pixels_are_errors(shape):
 
 
 def test_unknown_attributes_and_shapes_are_python_errors():
-    with pytest.raises(AttributeError):
-        bdpt.Material(shininess=3)
+    with pytest.raises(TypeError, match=r"Material\(\) got an unexpected keyword argument 'rougness'; did you mean 'roughness'\?"):
+        bdpt.Material(rougness=3)
     with pytest.raises(TypeError):
         bdpt.Mesh(SQUARE[:, :2], TRIANGLES)

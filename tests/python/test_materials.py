@@ -1,5 +1,6 @@
 """Tests materials made in Python, and edits of scenes."""
 
+import copy
 import re
 
 import bdpt
@@ -33,7 +34,8 @@ def test_all_fields_of_the_library_are_attributes():
     ("multi_scatter_color", [0.5, 0.5, 1.0]), ("scatter_anisotropy", -0.5), ("specular_color", [2.0, 1.0, 0.5]),
 ])
 def test_attributes_keep_their_values(name, value):
-    assert getattr(bdpt.Material(**{name: value}), name) == value
+    kept = getattr(bdpt.Material(**{name: value}), name)
+    assert kept == (tuple(value) if isinstance(value, list) else value)
 
 
 def test_defaults_are_those_of_gltf():
@@ -78,12 +80,69 @@ def test_textures_of_layers_reach_the_surface():
 @pytest.mark.parametrize("make, words", [
     (lambda: bdpt.Material(alpha_mode="glass"), "expected opaque, mask or blend"),
     (lambda: bdpt.Material(sheen_texture=1), "sheen_texture"),
-    (lambda: bdpt.Scene([floor(iridescence_thickness_minimum=-1.0)]), "iridescence thickness minimum"),
+    (lambda: bdpt.Scene([floor(iridescence_thickness_minimum=-1.0)]), r"iridescence_thickness_minimum=-1\.0: -1 is out of range \(at least 0\)"),
     (lambda: bdpt.Material(clearcoat_texture=np.zeros((2, 2, 5), np.uint8)), "1 to 4"),
 ])
 def test_bad_materials_are_errors(make, words):
     with pytest.raises((bdpt.Error, AttributeError), match=words):
         make()
+
+
+# Checks and texts
+
+
+@pytest.mark.parametrize("make, kind, message", [
+    (lambda: bdpt.Material(base_color=(2, 0, 0)), ValueError, r"^base_color=\(2, 0, 0\): 2 is out of range \(0 to 1\)$"),
+    (lambda: bdpt.Material(sheen_color=np.array([0, -1, 0])), ValueError, "^sheen_color=array.*: -1 is out of range"),
+    (lambda: bdpt.Material(metallic=float("nan")), ValueError, "^metallic=nan: nan is not a finite number$"),
+    (lambda: bdpt.Material(attenuation_distance=0), ValueError, "above 0"),
+    (lambda: bdpt.Material(roughness="low"), TypeError, "^roughness='low': expected a number$"),
+    (lambda: bdpt.Material(base_color="red"), TypeError, "^base_color='red': expected numbers$"),
+    (lambda: bdpt.Material(unlit=2), TypeError, "^unlit=2: expected True or False$"),
+    (lambda: bdpt.Material(name=3), TypeError, "^name=3: expected a text$"),
+    (lambda: bdpt.PointLight(position=(0, np.inf, 0)), ValueError, "^position=.*not a finite number$"),
+    (lambda: bdpt.SpotLight(intensity=(-1, 0, 0)), ValueError, r"^intensity=\(-1, 0, 0\): -1 is out of range \(at least 0\)$"),
+    (lambda: bdpt.DirectionalLight(direction=(1, 2)), ValueError, "expected three numbers"),
+    (lambda: bdpt.PointLight(intenstiy=(1, 1, 1)), TypeError, "did you mean 'intensity'"),
+])
+def test_values_are_checked_where_they_are_given(make, kind, message):
+    with pytest.raises(kind, match=message) as raised:
+        make()
+    assert isinstance(raised.value, bdpt.Error) and raised.value.code == 2
+    assert bdpt.Material(attenuation_distance=np.inf).attenuation_distance == np.inf
+
+
+@pytest.mark.parametrize("text", [
+    "Material()", "Material(name='it\\'s', base_color=(0.8, 0.1, 0.1, 1), alpha_mode='blend', metallic=0, sheen_color=(0.5, 0, 0))",
+    "PointLight(position=(0, 2, 0), intensity=(10, 10, 10), radius=0.1)", "SpotLight(direction=(0, -1, 0), outer_cone_angle=0.5)",
+    "DirectionalLight(name='sun', illuminance=(3, 3, 3))"])
+def test_texts_of_objects_construct_them(text):
+    made = eval("bdpt." + text)
+    assert repr(made).replace('"', "'").replace("it's", "it\\'s") == text
+
+
+def test_texts_of_arrays_are_short():
+    material = bdpt.Material(base_color_texture=np.zeros((4, 5, 3), np.uint8), metallic=0.5)
+    assert repr(material) == "Material(metallic=0.5, base_color_texture=<uint8 (4, 5, 3)>)"
+    assert repr(floor()) == ("Mesh(positions=<float32 (4, 3)>, triangles=<uint32 (2, 3)>, uvs=<float32 (4, 2)>, "
+                             "material=Material(metallic=0, specular=0))")
+    assert repr(WHITE_SKY) == "EnvironmentLight(radiance=<float32 (1, 1, 3)>)"
+    assert repr(bdpt.Scene([floor()])) == "<bdpt.Scene of arrays, 2 triangles>"
+
+
+def test_what_a_scene_was_made_of_refuses_changes():
+    mesh, paint, lamp = floor(), bdpt.Material(), bdpt.PointLight()
+    paint.base_color = (0.5, 0, 0)  # no scene yet
+    scene = bdpt.Scene([mesh, bdpt.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], material=paint)], [lamp])
+    for change in (lambda: setattr(paint, "base_color", (0, 0, 1)), lambda: setattr(lamp, "radius", 1), lambda: setattr(scene, "size", (1, 1)),
+                   lambda: setattr(paint, "base_color_texture", None), lambda: setattr(paint, "colour", 1)):
+        with pytest.raises(AttributeError, match="copy.copy|no setter|no attribute"):
+            change()
+    with pytest.raises(TypeError):
+        paint.base_color[0] = 1  # a part of a value is no attribute
+    for other in (copy.copy(paint), copy.deepcopy(paint), scene.material(1)):
+        other.base_color = (0, 0, 1)
+        assert other.base_color == (0, 0, 1, 1) and paint.base_color == (0.5, 0, 0, 1)
 
 
 # Edits

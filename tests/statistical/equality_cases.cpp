@@ -323,6 +323,21 @@ void add_materials(std::vector<EqualityCase>& cases)
     cases.push_back(in_room("glossy floor", lit_room(plastic(white, 0.15f))));
 }
 
+/// A view from the side through a lens whose film is shifted back to the room, with oblong pixels.
+EqualityCase shifted_film(std::string name, float lens_radius)
+{
+    SceneBuilder builder = lit_room(plastic(white, 0.3f));
+    builder.sphere({0.1f, -0.4f, 0.0f}, 0.5f, lambertian(red), 24);
+    EqualityCase result = in_room(std::move(name), std::move(builder));
+    const Vec3 eye(-2.0f, 1.1f, 3.4f);
+    result.camera = camera_at(eye, eye - Vec3(0.0f, 0.0f, 1.0f), 0.75f);
+    result.camera.pixel_aspect = 1.5f;
+    result.camera.shift = {0.5f, -0.4f};
+    result.camera.lens_radius = lens_radius;
+    result.camera.focus_distance = 3.4f;
+    return result;
+}
+
 }  // namespace
 
 std::vector<EqualityCase> silhouette_cases()
@@ -366,6 +381,8 @@ std::vector<EqualityCase> equality_cases()
         cases.push_back(std::move(with_alpha));
     }
     cases.push_back(sunny_sky());
+    cases.push_back(shifted_film("shifted film", 0.0f));
+    cases.push_back(shifted_film("shifted film behind a lens", 0.3f));
     return cases;
 }
 

@@ -119,6 +119,15 @@ struct CameraDesc {
     Projection projection = Projection::perspective;
     float vertical_fov = 0.7853982f;  ///< perspective: [rad], in (0, pi)
     float vertical_extent = 2.0f;     ///< orthographic: height of the view [m], > 0
+    /// Lens shift: place of the middle of the film relative to the camera's axis, in widths and
+    /// heights of the film, in [-100, 100]. The view moves to the right with x and upwards with y.
+    /// The axis (principal point) is at cx = width * (0.5 - shift.x), cy = height * (0.5 + shift.y)
+    /// [pixels, from the top left].
+    Vec2 shift{0.0f};
+    /// Width over height of a pixel in the plane of the film, in [0.001, 1000]. In pixels, the
+    /// focal lengths of a perspective camera are fy = height / (2 tan(vertical_fov / 2)) and
+    /// fx = fy / pixel_aspect.
+    float pixel_aspect = 1.0f;
     /// Perspective: radius of a thin lens [m], >= 0; 0 is a pinhole.
     float lens_radius = 0.0f;
     float focus_distance = 1.0f;  ///< distance of the plane in focus of a thin lens [m], > 0
@@ -163,6 +172,8 @@ inline constexpr auto fields<CameraDesc> = all_fields(
     Field{"projection", &CameraDesc::projection},
     Field{"vertical field of view", &CameraDesc::vertical_fov},
     Field{"vertical extent", &CameraDesc::vertical_extent},
+    Number{"shift", &CameraDesc::shift, {.low = -100.0f, .high = 100.0f}},
+    Number{"pixel aspect", &CameraDesc::pixel_aspect, {.low = 0.001f, .high = 1000.0f}},
     Field{"lens radius", &CameraDesc::lens_radius},
     Field{"focus distance", &CameraDesc::focus_distance},
     Field{"aspect ratio", &CameraDesc::aspect_ratio}, Field{"motion", &CameraDesc::motion});

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -30,12 +31,13 @@ Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds
     look_from(desc.world_from_camera);
     const SinCos half = sin_cos(0.5f * desc.vertical_fov);
     half_extent_.y = perspective_ ? half.sin / half.cos : 0.5f * desc.vertical_extent;
-    half_extent_.x = half_extent_.y * film_size_.x / film_size_.y;
+    half_extent_.x = half_extent_.y * film_size_.x / film_size_.y * desc.pixel_aspect;
+    axis_ = Vec2(1.0f - 2.0f * desc.shift.x, 1.0f + 2.0f * desc.shift.y);
     film_area_ = 4.0f * half_extent_.x * half_extent_.y;
     if (has_finite_lens()) {
         pdf_lens_ = {1.0f / (pi * lens_radius_ * lens_radius_)};
     }
-    const float pixel = 2.0f * half_extent_.y / film_size_.y;
+    const float pixel = 2.0f * half_extent_.y / film_size_.y * std::min(desc.pixel_aspect, 1.0f);
     pixel_cone_.width = perspective_ ? 0.0f : pixel;
     pixel_cone_.spread = perspective_ ? pixel : 0.0f;
 }
@@ -91,18 +93,18 @@ Vec2 Camera::compute_raster(Vec3 lens, Vec3 d) const
 {
     const Vec3 in_focus = lens + d * (focus_distance_ / -d.z);
     const Vec2 ndc = Vec2(in_focus.x, -in_focus.y) / (focus_distance_ * half_extent_);
-    return 0.5f * (ndc + 1.0f) * film_size_;
+    return 0.5f * (ndc + axis_) * film_size_;
 }
 
 Vec2 Camera::compute_parallel_raster(Vec3 local_point) const
 {
     const Vec2 ndc = Vec2(local_point.x, -local_point.y) / half_extent_;
-    return 0.5f * (ndc + 1.0f) * film_size_;
+    return 0.5f * (ndc + axis_) * film_size_;
 }
 
 CameraRay Camera::generate_ray(Vec2 raster, Vec2 u_lens) const
 {
-    const Vec2 ndc = 2.0f * raster / film_size_ - 1.0f;
+    const Vec2 ndc = 2.0f * raster / film_size_ - axis_;
     const Vec2 on_film(ndc.x * half_extent_.x, -ndc.y * half_extent_.y);
     if (!perspective_) {
         return {.lens = lens_end({on_film, 0.0f}),

@@ -73,7 +73,10 @@ public:
     /// Returns the ray through `raster` [pixels, origin at the top left], which may lie beside the
     /// film. `u_lens` selects the point on a finite lens.
     [[nodiscard]] CameraRay generate_ray(Vec2 raster, Vec2 u_lens) const;
-    /// Returns the width of a pixel of the film in the scene.
+    /// Returns a world vector in the axes of the camera, those of glTF.
+    [[nodiscard]] Vec3 to_local(Vec3 world_vector) const;
+    /// Returns the width of a pixel of the film in the scene; the narrower side of a pixel that is
+    /// not square.
     [[nodiscard]] const PixelCone& pixel_cone() const { return pixel_cone_; }
     /// Returns the distance of a point along the camera's axis [m]; positive in front.
     [[nodiscard]] float depth(Vec3 scene_point) const;
@@ -88,7 +91,6 @@ public:
 
 private:
     void look_from(const Mat4& world_from_camera);
-    [[nodiscard]] Vec3 to_local(Vec3 world_vector) const;
     [[nodiscard]] bool is_visible(Vec2 raster) const;
     [[nodiscard]] Vec3 lens_point(Vec2 u_lens) const;  // in local coordinates
     [[nodiscard]] SegmentEnd lens_end(Vec3 local_point) const;
@@ -109,6 +111,8 @@ private:
     bool perspective_;
     Vec2 half_extent_;  // half size of the film: one unit in front of the lens; orthographic: in
                         // the world [m]
+    Vec2 axis_;         // distance of the axis from the film's left and top edge, in half sizes of
+                        // the film; (1, 1): in the middle
     float film_area_;   // area of the whole film at that distance
     float lens_radius_;
     float focus_distance_;

@@ -3,6 +3,7 @@
 #include "geometry/coordinate_limit.h"
 #include "integrator/bidirectional/light_path_cache.h"
 #include "math/elementary.h"
+#include "scene/checks/value_checks.h"
 
 #include <bdpt/error.h>
 #include <bdpt/motion.h>
@@ -226,6 +227,7 @@ void check_camera(const CameraDesc& camera)
                                                   std::to_string(camera.vertical_fov) +
                                                   " rad, not in (0, pi)");
     }
+    check_own_limits(item, camera);
 }
 
 void check_camera_distance(const CameraDesc& camera, float farthest)

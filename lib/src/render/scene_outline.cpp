@@ -25,9 +25,12 @@ SceneOutline::SceneOutline(const MovingCamera& camera, const Bounds& bounds)
         if (!raster || !std::isfinite(raster->x + raster->y)) {
             return;
         }
-        // Rounding errors of rays and projections [pixels]: small but for telephoto lenses.
-        const float reach = glm::length(cone.eye) + glm::length(p - cone.eye);
-        const float rounding = 0.25f + 0x1p-20f * reach / cone.width_at(p);
+        // Rounding errors of rays and projections [pixels]: small but for telephoto lenses, and
+        // where the film is seen at a slant.
+        const float way = glm::length(p - cone.eye);
+        const float reach = glm::length(cone.eye) + way;
+        const float slant = camera.first().is_perspective() ? way / camera.first().depth(p) : 1.0f;
+        const float rounding = 0.25f + 0x1p-20f * slant * slant * reach / cone.width_at(p);
         outline.min = min(outline.min, *raster - rounding);
         outline.max = max(outline.max, *raster + rounding);
     }

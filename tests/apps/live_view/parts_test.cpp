@@ -247,6 +247,13 @@ TEST_CASE("vertices are drawn where the image shows them", "[live_view]")
     REQUIRE(corner);
     CHECK(corner->x == Approx(200.0f));
     CHECK(corner->y == Approx(0.0f).margin(1e-3));
+    CameraDesc shifted = camera;
+    shifted.shift = {0.25f, 0.5f};
+    shifted.pixel_aspect = 2.0f;
+    const auto moved_away = project_point(shifted, size, Vec3(5.0f, 2.5f, 0.0f));
+    REQUIRE(moved_away);
+    CHECK(moved_away->x == Approx(200.0f * (0.5f - 0.25f) + 50.0f));
+    CHECK(moved_away->y == Approx(50.0f));
     CHECK_FALSE(project_point(camera, size, Vec3(0.0f, 0.0f, 6.0f)));
     CHECK(project_direction(camera, size, Vec3(0.0f, 0.0f, -1.0f)));
     camera.projection = Projection::orthographic;

@@ -45,7 +45,12 @@ TEST_CASE("the density of primary directions is the density of uniform film posi
     // angle of a pixel is one over the number of pixels. The solid angle comes from the pixel's
     // corners [Van Oosterom and Strackee 1983].
     constexpr int size = 16;
-    const Camera camera(test::camera_at({0, 0, 0}, {0, 0, -1}, 1.2f), size, size);
+    CameraDesc desc = test::camera_at({0, 0, 0}, {0, 0, -1}, 1.2f);
+    if (GENERATE(false, true)) {
+        desc.shift = {0.7f, -0.4f};
+        desc.pixel_aspect = 1.5f;
+    }
+    const Camera camera(desc, size, size);
     const auto direction = [&](float x, float y) {
         return camera.generate_ray({x, y}, Vec2(0.5f)).direction;
     };
@@ -123,6 +128,100 @@ TEST_CASE("pixels are as wide as the rays through them are apart", "[camera]")
     const Camera orthographic(desc, 32, 18);
     CHECK(orthographic.pixel_cone().width_at({1, 2, -7}) == Approx(6.0 / 18.0));
     CHECK(orthographic.pixel_cone().width_at({50, 2, -700}) == Approx(apart(orthographic)));
+    // The narrower side of pixels that are not square.
+    desc.pixel_aspect = 0.5f;
+    CHECK(Camera(desc, 32, 18).pixel_cone().width_at({1, 2, -7}) == Approx(3.0 / 18.0));
+    desc.pixel_aspect = 2.0f;
+    CHECK(Camera(desc, 32, 18).pixel_cone().width_at({1, 2, -7}) == Approx(6.0 / 18.0));
+}
+
+namespace {
+
+constexpr int width = 64;
+constexpr int height = 36;
+
+/// A view that is shifted more than the film is wide, with pixels that are not square.
+CameraDesc shifted_view()
+{
+    CameraDesc desc = test::camera_at({1.0f, 2.0f, 3.0f}, {0.0f, 0.5f, -1.0f}, 0.8f);
+    desc.shift = {1.3f, -0.6f};
+    desc.pixel_aspect = 1.7f;
+    return desc;
+}
+
+}  // namespace
+
+TEST_CASE("a shifted film of oblong pixels shows points where their rays come from", "[camera]")
+{
+    const int kind = GENERATE(0, 1, 2);
+    CameraDesc desc = shifted_view();
+    if (kind > 0) {
+        desc = kind == 1 ? test::with_lens(desc, 0.3f, 2.0f) : test::in_parallel(desc, 3.0f);
+    }
+    const Camera camera(desc, width, height);
+    test::Random random(5);
+    for (int i = 0; i < 500; ++i) {
+        const Vec2 raster = random.next_2d() * Vec2(width, height);
+        const Vec2 u_lens = random.next_2d();
+        const CameraRay ray = camera.generate_ray(raster, u_lens);
+        const Vec3 seen = ray.lens.p + (0.1f + 20.0f * random.next()) * ray.direction;
+        const auto lens = camera.sample_lens(seen, u_lens);
+        REQUIRE(lens.has_value());
+        CHECK(glm::distance(lens->raster, raster) < 2e-3f);
+        CHECK(lens->pdf_direction.value == Approx(ray.pdf_direction.value).epsilon(1e-3));
+        if (camera.has_finite_lens()) {
+            const auto hit = camera.hit_lens(seen, -ray.direction);
+            REQUIRE(hit.has_value());
+            CHECK(glm::distance(hit->raster, raster) < 2e-3f);
+            CHECK(hit->pdf_direction.value == Approx(ray.pdf_direction.value).epsilon(1e-3));
+        } else {
+            const auto place = camera.project(seen);
+            REQUIRE(place.has_value());
+            CHECK(glm::distance(*place, raster) < 2e-3f);
+        }
+    }
+}
+
+TEST_CASE("shift and pixel aspect are the intrinsics of a camera", "[camera]")
+{
+    CameraDesc desc = shifted_view();
+    desc.world_from_camera = Mat4(1.0f);
+    const Vec2 axis(width * (0.5f - desc.shift.x), height * (0.5f + desc.shift.y));
+    const float fy = 0.5f * height / std::tan(0.5f * desc.vertical_fov);
+    const float fx = fy / desc.pixel_aspect;
+    const Vec3 point(3.0f, -0.7f, -2.0f);
+    const auto place = Camera(desc, width, height).project(point);
+    REQUIRE(place.has_value());
+    CHECK(place->x == Approx(axis.x + fx * point.x / -point.z));
+    CHECK(place->y == Approx(axis.y - fy * point.y / -point.z));
+    // Parallel rays: metres to pixels.
+    desc = test::in_parallel(desc, 3.0f);
+    const auto parallel = Camera(desc, width, height).project(point);
+    REQUIRE(parallel.has_value());
+    CHECK(parallel->x == Approx(axis.x + height / 3.0f / desc.pixel_aspect * point.x));
+    CHECK(parallel->y == Approx(axis.y - height / 3.0f * point.y));
+}
+
+TEST_CASE("a shifted film sees what a window of a larger film sees", "[camera]")
+{
+    // Twice as wide and high; its window begins at (40, 10).
+    CameraDesc large = test::camera_at({1.0f, 2.0f, 3.0f}, {0.0f, 0.5f, -1.0f}, 1.4f);
+    if (GENERATE(false, true)) {
+        large = test::with_lens(large, 0.2f, 2.5f);
+    }
+    CameraDesc shifted = large;
+    shifted.vertical_fov = 2.0f * std::atan(0.5f * std::tan(0.7f));
+    shifted.shift = {(40.0f + 32.0f - width) / width, (height - (10.0f + 18.0f)) / height};
+    const Camera of_large(large, 2 * width, 2 * height);
+    const Camera of_shifted(shifted, width, height);
+    for (const Vec2 raster : {Vec2(0.0f), Vec2(64.0f, 3.0f), Vec2(20.0f, 36.0f)}) {
+        const CameraRay a = of_large.generate_ray(raster + Vec2(40.0f, 10.0f), {0.3f, 0.9f});
+        const CameraRay b = of_shifted.generate_ray(raster, {0.3f, 0.9f});
+        CHECK(a.lens.p == b.lens.p);
+        CHECK(glm::distance(a.direction, b.direction) < 1e-6f);
+        // The same rays are spread over a quarter of the film.
+        CHECK(b.pdf_direction.value == Approx(4.0f * a.pdf_direction.value));
+    }
 }
 
 }  // namespace bdpt::camera_test

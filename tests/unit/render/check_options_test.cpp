@@ -212,6 +212,14 @@ TEST_CASE("cameras without a view are refused by name", "[render]")
     wide.vertical_fov = 3.2f;
     CHECK(message_of([&] { check_camera(wide); }, ErrorCode::invalid_input).find("3.2") !=
           std::string::npos);
+    CameraDesc shifted = camera;
+    shifted.shift.y = 101.0f;
+    CHECK(message_of([&] { check_camera(shifted); }, ErrorCode::invalid_input) ==
+          "camera \"eye\": shift is 101, not in [-100, 100]");
+    CameraDesc oblong = camera;
+    oblong.pixel_aspect = 0.0f;
+    CHECK(message_of([&] { check_camera(oblong); }, ErrorCode::invalid_input) ==
+          "camera \"eye\": pixel aspect is 0, not in [0.001, 1000]");
     CameraDesc far = camera;
     far.world_from_camera[3][1] = -2e15f;
     CHECK(message_of([&] { check_camera(far); }, ErrorCode::invalid_input)

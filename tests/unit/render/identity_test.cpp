@@ -71,6 +71,10 @@ void change(AovSet& value)
 {
     value.insert(Aov::albedo);
 }
+void change(Vec2& value)
+{
+    value.x += 1.0f;
+}
 void change(Mat4& value)
 {
     value[3].x += 1.0f;

@@ -91,6 +91,7 @@ void add_exr_metadata(Imf::Header& header, const ImageMetadata& metadata, float 
     const int samples = static_cast<int>(
         std::min<std::int64_t>(metadata.samples_per_pixel, std::numeric_limits<int>::max()));
 
+    header.pixelAspectRatio() = metadata.camera.pixel_aspect;
     Imf::addChromaticities(header, Imf::Chromaticities{});  // default is Rec. 709
     Imf::addWhiteLuminance(header, 1.0f);                   // pixels are in nit
     const std::time_t created = std::chrono::system_clock::to_time_t(metadata.created);

@@ -82,21 +82,24 @@ Mat4 camera_from_file(const CameraDesc& camera, const DVec3& origin)
 
 Mat4 ndc_from_file(const CameraDesc& camera, const DVec3& origin, float aspect)
 {
+    const Vec2 axis(0.5f - camera.shift.x, 0.5f + camera.shift.y);  // place in the image
+    const float shape = aspect * camera.pixel_aspect;               // width over height of the film
     if (camera.projection == Projection::orthographic) {
-        // x' = x / width + 0.5, y' = -y / height + 0.5; the depth [m] is unchanged.
+        // x' = x / width + axis.x, y' = -y / height + axis.y; the depth [m] is unchanged.
         const float height = camera.vertical_extent;
-        const Mat4 projection(Vec4(1.0f / (aspect * height), 0.0f, 0.0f, 0.0f),
+        const Mat4 projection(Vec4(1.0f / (shape * height), 0.0f, 0.0f, 0.0f),
                               Vec4(0.0f, -1.0f / height, 0.0f, 0.0f), Vec4(0.0f, 0.0f, 1.0f, 0.0f),
-                              Vec4(0.5f, 0.5f, 0.0f, 1.0f));
+                              Vec4(axis, 0.0f, 1.0f));
         return projection * camera_from_file(camera, origin);
     }
     // The remaining depth goes from 0 here to 1 at infinity.
     constexpr float near_plane = 0.01f;
     const float half_height = std::tan(0.5f * camera.vertical_fov);
-    const float half_width = aspect * half_height;
-    // Columns of x' = (0.5 x / half_width + 0.5 z) / z, y' = (-0.5 y / half_height + 0.5 z) / z.
+    const float half_width = shape * half_height;
+    // Columns of x' = (0.5 x / half_width + axis.x z) / z, y' = (-0.5 y / half_height + axis.y z) /
+    // z.
     const Mat4 projection(Vec4(0.5f / half_width, 0.0f, 0.0f, 0.0f),
-                          Vec4(0.0f, -0.5f / half_height, 0.0f, 0.0f), Vec4(0.5f, 0.5f, 1.0f, 1.0f),
+                          Vec4(0.0f, -0.5f / half_height, 0.0f, 0.0f), Vec4(axis, 1.0f, 1.0f),
                           Vec4(0.0f, 0.0f, -near_plane, 0.0f));
     return projection * camera_from_file(camera, origin);
 }

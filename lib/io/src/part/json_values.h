@@ -14,8 +14,8 @@
 
 namespace bdpt::io {
 
-// Conversion of the fields of a `CameraDesc` to JSON and back: numbers, enumerators, texts and
-// matrices.
+// Conversion of the fields of a `CameraDesc` to JSON and back: numbers, enumerators, texts,
+// vectors and matrices.
 
 template <typename T>
 concept JsonScalar = std::is_arithmetic_v<T> || std::is_same_v<T, std::string>;
@@ -30,6 +30,11 @@ template <typename T>
 requires std::is_enum_v<T> nlohmann::ordered_json value_to_json(T value)
 {
     return static_cast<int>(value);
+}
+
+inline nlohmann::ordered_json value_to_json(Vec2 value)
+{
+    return nlohmann::ordered_json::array({value.x, value.y});
 }
 
 inline nlohmann::ordered_json value_to_json(const Mat4& matrix)
@@ -72,6 +77,11 @@ void value_from_json(const JsonValue& json, T& value)
 inline void value_from_json(const JsonValue& json, Projection& value)
 {
     value = static_cast<Projection>(json.number(0, static_cast<int>(Projection::orthographic)));
+}
+
+inline void value_from_json(const JsonValue& json, Vec2& value)
+{
+    value = Vec2(json.at(std::size_t{0}).number<float>(), json.at(std::size_t{1}).number<float>());
 }
 
 inline void value_from_json(const JsonValue& json, Mat4& matrix)

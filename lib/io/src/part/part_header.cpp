@@ -246,7 +246,9 @@ ImageMetadata read_metadata(const JsonValue& json)
         }
     }
     for_each_field(metadata.camera, [&json](const auto& field, auto& value) {
-        value_from_json(json.at("camera").at(field.name), value);
+        if (json.at("camera").has(field.name)) {  // older files have fewer
+            value_from_json(json.at("camera").at(field.name), value);
+        }
     });
     return metadata;
 }

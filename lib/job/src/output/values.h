@@ -61,6 +61,12 @@ inline void add_projection(nlohmann::ordered_json& json, const CameraDesc& camer
         json["projection"] = "perspective";
         json["vertical_fov_degrees"] = degrees(camera.vertical_fov);
     }
+    if (camera.shift != Vec2(0.0f)) {
+        json["shift"] = {camera.shift.x, camera.shift.y};
+    }
+    if (camera.pixel_aspect != 1.0f) {
+        json["pixel_aspect"] = camera.pixel_aspect;
+    }
     if (camera.lens_radius > 0.0f) {
         json["lens_radius"] = camera.lens_radius;
         json["focus_distance"] = camera.focus_distance;

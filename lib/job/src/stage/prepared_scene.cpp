@@ -461,7 +461,8 @@ Viewpoint viewpoint(const PreparedScene& stage, std::size_t index, const RenderA
                               stage.scene.description().origin);
     camera.name = camera_names(stage).at(index);
     const Size size = arguments.size.value_or(default_size(camera.aspect_ratio));
-    return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene), .size = size};
+    return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene, size),
+            .size = size};
 }
 
 Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments)
@@ -475,7 +476,7 @@ Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments
     CameraDesc camera =
         apply(arguments.view, view.camera,
               from_file ? std::nullopt : std::optional(center(stage.scene.bounds())), origin);
-    return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene),
+    return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene, size),
             .size = size,
             .is_framed = !from_file.has_value(),
             .is_inside = view.inside};

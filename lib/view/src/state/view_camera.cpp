@@ -39,8 +39,11 @@ std::optional<Vec2> project_offset(const CameraDesc& camera, const Size& size, V
     }
     const float height = view_height(camera, depth) * depth;  // height of the image at that depth
     const auto pixels = static_cast<float>(size.height);
-    const Vec2 place = Vec2(glm::dot(offset, axes.right), -glm::dot(offset, axes.up)) / height;
-    const Vec2 raster = pixels * place + 0.5f * Vec2(static_cast<float>(size.width), pixels);
+    const Vec2 place =
+        Vec2(glm::dot(offset, axes.right) / camera.pixel_aspect, -glm::dot(offset, axes.up)) /
+        height;
+    const Vec2 axis(0.5f - camera.shift.x, 0.5f + camera.shift.y);
+    const Vec2 raster = pixels * place + axis * Vec2(static_cast<float>(size.width), pixels);
     return std::isfinite(raster.x) && std::isfinite(raster.y) ? std::optional(raster)
                                                               : std::nullopt;
 }

@@ -68,6 +68,7 @@ PartNotes notes()
     result.metadata.seed = 12345678901234567890U;
     result.metadata.camera = test::room_camera();
     result.metadata.camera.name = "front";
+    result.metadata.camera.shift = {0.5f, -0.25f};
     result.metadata.origin = {448000.0, 0.0, -512000.25};
     result.metadata.xmp = "{}";
     return result;
@@ -142,6 +143,7 @@ TEST_CASE("a part file holds all of a part", "[part]")
         CHECK(info.notes.metadata.scene == "a b.glb");
         CHECK(info.notes.metadata.seed == 12345678901234567890U);
         CHECK(info.notes.metadata.camera.name == "front");
+        CHECK(info.notes.metadata.camera.shift == Vec2(0.5f, -0.25f));
         CHECK(info.notes.metadata.origin == DVec3(448000.0, 0.0, -512000.25));
         CHECK(info.notes.metadata.camera.world_from_camera ==
               test::room_camera().world_from_camera);

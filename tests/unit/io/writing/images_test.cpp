@@ -157,6 +157,16 @@ TEST_CASE("the matrices in an EXR file put points where the camera sees them")
     Imf::worldToNDC(header).multVecMatrix(point, ndc);
     CHECK(ndc.x == Approx(0.5f + 4.0f / 20.0f));
     CHECK(ndc.y == Approx(0.5f - 2.0f / 10.0f));
+
+    // Of a film half as wide that is moved by half its width and a tenth of its height.
+    data.camera.pixel_aspect = 0.5f;
+    data.camera.shift = {0.5f, 0.1f};
+    write_exr(folder / "a.exr", ramp(40, 20), {ExrChannelType::single_float, data});
+    const Imf::Header shifted = test::read_exr(folder / "a.exr").header;
+    CHECK(shifted.pixelAspectRatio() == 0.5f);
+    Imf::worldToNDC(shifted).multVecMatrix(point, ndc);
+    CHECK(ndc.x == Approx(0.5f - 0.5f + 4.0f / 10.0f));
+    CHECK(ndc.y == Approx(0.5f + 0.1f - 2.0f / 10.0f));
 }
 
 TEST_CASE("the matrices of an orthographic camera do not make far things small")

@@ -281,15 +281,23 @@ bool is_finite(double value)
 }
 
 /// Returns the depth [m] of the surface in the middle of `camera`'s view, if any.
-std::optional<float> depth_in_the_middle(const Scene& scene, CameraDesc camera)
+std::optional<float> depth_in_the_middle(const Scene& scene, CameraDesc camera, const Size& size)
 {
     constexpr float narrow = 1e-4f;  // [rad]; a film of one pixel is then the middle of the view
     camera.lens_radius = 0.0f;
-    camera.vertical_fov = narrow;
     RenderOptions options;
     options.integrator = IntegratorKind::pt;
-    options.film.width = 1;
-    options.film.height = 1;
+    if (camera.shift == Vec2(0.0f)) {
+        camera.vertical_fov = narrow;
+        options.film.width = 1;
+        options.film.height = 1;
+    } else {
+        options.film.width = size.width;
+        options.film.height = size.height;
+        const int x = size.width / 2;
+        const int y = size.height / 2;
+        options.film.crop = PixelRect{.x0 = x, .y0 = y, .x1 = x + 1, .y1 = y + 1};
+    }
     options.film.aovs = AovSet{Aov::depth};
     options.sampling.samples = {0, 1};
     options.transport.max_depth = 1;
@@ -333,7 +341,8 @@ void add_lens_options(OptionList& options, LensChoice& lens)
                 lens.focus_distance, positive_number("metres, above 0"));
 }
 
-CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& scene)
+CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& scene,
+                     const Size& size)
 {
     if (!lens.radius && !lens.f_stop && !lens.focus_distance) {
         return camera;
@@ -353,7 +362,7 @@ CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& sce
         }
         camera.focus_distance = static_cast<float>(*lens.focus_distance);
     } else if (!had_lens && camera.lens_radius > 0.0f) {
-        const std::optional<float> depth = depth_in_the_middle(scene, camera);
+        const std::optional<float> depth = depth_in_the_middle(scene, camera, size);
         if (!depth) {
             throw Error(ErrorCode::usage,
                         "no surface is at the image centre to focus on; give --focus-distance");

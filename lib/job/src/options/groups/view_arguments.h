@@ -98,7 +98,8 @@ void add_lens_options(OptionList& options, LensChoice& lens);
 /// Returns `camera` with `lens`. If neither `lens` nor the camera's own lens has a focus distance,
 /// it focuses on the surface in the middle of the view of `scene`. Throws `Error` (usage) if there
 /// is none, or if the camera cannot have a lens.
-[[nodiscard]] CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& scene);
+[[nodiscard]] CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& scene,
+                                   const Size& size);
 
 /// Returns the point that a camera orbits: `look_at` or, without it, the point of its view axis
 /// nearest to the `middle` of the scene [m]. Throws `Error` (usage) if it is not in front of the

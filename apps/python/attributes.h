@@ -89,7 +89,8 @@ inline constexpr bool is_texture = std::is_same_v<Member, std::optional<TextureR
 template <typename Member>
 inline constexpr bool is_motion = std::is_same_v<Member, std::vector<Vec3>>;
 template <typename Member>
-inline constexpr bool is_vec = std::is_same_v<Member, Vec3> || std::is_same_v<Member, Vec4>;
+inline constexpr bool is_vec =
+    std::is_same_v<Member, Vec2> || std::is_same_v<Member, Vec3> || std::is_same_v<Member, Vec4>;
 
 /// Calls `visit(field, access)` for each attribute: the fields of `Desc` and of its layers;
 /// `access(desc)` is the field of a `Desc`.

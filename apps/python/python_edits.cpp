@@ -19,11 +19,9 @@
 #include "python_scene.h"
 
 namespace bdpt::python {
-namespace {
 
 namespace nb = nanobind;
 
-/// Returns `original` with another scene, but its camera, size and options.
 PythonScene with_scene(const PythonScene& original, Scene scene, std::string environment_name)
 {
     const job::PreparedScene& stage = original.stage;
@@ -43,6 +41,8 @@ PythonScene with_scene(const PythonScene& original, Scene scene, std::string env
             .file = original.file,
             .words = original.words};
 }
+
+namespace {
 
 std::vector<std::string> material_names(const PythonScene& scene)
 {

@@ -13,27 +13,19 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "arrays.h"
 #include "attributes.h"
 #include "machine/machine_limits.h"
-#include "options/groups/view_arguments.h"
+#include "python_parts.h"
 #include "python_scene.h"
 
 namespace bdpt::python {
 namespace {
 
 namespace nb = nanobind;
-
-/// A mesh with its material and placement.
-struct ArrayMesh {
-    MeshDesc desc;
-    std::shared_ptr<ArrayMaterial> material;
-    std::vector<Mat4> transforms;
-};
 
 /// Converts (n, 4, 4) matrices of NumPy, row-major.
 std::vector<Mat4> to_matrices(const std::optional<FloatsLike<nb::shape<-1, 4, 4>>>& matrix_rows)
@@ -91,25 +83,25 @@ ArrayMesh make_mesh(const FloatsLike<nb::shape<-1, 3>>& positions,
                     const std::optional<FloatsLike<nb::shape<-1, 2>>>& uvs,
                     const std::shared_ptr<ArrayMaterial>& material,
                     const std::optional<FloatsLike<nb::shape<-1, 4, 4>>>& transforms,
-                    const std::string& name)
+                    const std::string& name,
+                    const std::optional<FloatsLike<nb::shape<-1, 4>>>& colors)
 {
-    ArrayMesh mesh;
-    mesh.desc.name = name;
-    mesh.desc.positions = to_vectors<Vec3>(positions.array);
-    mesh.desc.triangles = to_triangles(triangles.array);
-    mesh.desc.normals = normals ? to_vectors<Vec3>(normals->array) : std::vector<Vec3>();
-    mesh.desc.uvs[0] = uvs ? to_vectors<Vec2>(uvs->array) : std::vector<Vec2>();
-    mesh.material = material ? material : std::make_shared<ArrayMaterial>();
-    mesh.transforms = to_matrices(transforms);
-    const std::size_t count = mesh.desc.positions.size();
-    for (const auto& [what, size] :
-         {std::pair("normals", mesh.desc.normals.size()), {"uvs", mesh.desc.uvs[0].size()}}) {
+    MeshDesc desc{.name = name};
+    desc.colors = colors ? to_vectors<Vec4>(colors->array) : std::vector<Vec4>();
+    desc.positions = to_vectors<Vec3>(positions.array);
+    desc.triangles = to_triangles(triangles.array);
+    desc.normals = normals ? to_vectors<Vec3>(normals->array) : std::vector<Vec3>();
+    desc.uvs[0] = uvs ? to_vectors<Vec2>(uvs->array) : std::vector<Vec2>();
+    const std::size_t count = desc.positions.size();
+    for (const auto& [what, size] : {std::pair("normals", desc.normals.size()),
+                                     {"uvs", desc.uvs[0].size()},
+                                     {"colors", desc.colors.size()}}) {
         if (size != 0 && size != count) {
             throw ValueError(fmt::format("{} for {} positions: {}", what, count, size));
         }
     }
-    for (std::size_t i = 0; i < mesh.desc.triangles.size(); ++i) {
-        const UVec3& triangle = mesh.desc.triangles[i];
+    for (std::size_t i = 0; i < desc.triangles.size(); ++i) {
+        const UVec3& triangle = desc.triangles[i];
         const std::uint32_t largest = std::max({triangle.x, triangle.y, triangle.z});
         if (largest >= count) {
             throw ValueError(
@@ -118,39 +110,31 @@ ArrayMesh make_mesh(const FloatsLike<nb::shape<-1, 3>>& positions,
                             i, largest, count));
         }
     }
-    return mesh;
+    return {.desc = std::make_shared<const MeshDesc>(std::move(desc)),
+            .material = material ? material : std::make_shared<ArrayMaterial>(),
+            .transforms = to_matrices(transforms)};
 }
 
 std::string to_text(const ArrayMesh& mesh)
 {
     std::string text = fmt::format("Mesh(positions={}, triangles={}",
-                                   array_text("float32", {mesh.desc.positions.size(), 3}),
-                                   array_text("uint32", {mesh.desc.triangles.size(), 3}));
-    if (!mesh.desc.normals.empty()) {
-        text += ", normals=" + array_text("float32", {mesh.desc.normals.size(), 3});
+                                   array_text("float32", {mesh.desc->positions.size(), 3}),
+                                   array_text("uint32", {mesh.desc->triangles.size(), 3}));
+    if (!mesh.desc->normals.empty()) {
+        text += ", normals=" + array_text("float32", {mesh.desc->normals.size(), 3});
     }
-    if (!mesh.desc.uvs[0].empty()) {
-        text += ", uvs=" + array_text("float32", {mesh.desc.uvs[0].size(), 2});
+    if (!mesh.desc->uvs[0].empty()) {
+        text += ", uvs=" + array_text("float32", {mesh.desc->uvs[0].size(), 2});
+    }
+    if (!mesh.desc->colors.empty()) {
+        text += ", colors=" + array_text("float32", {mesh.desc->colors.size(), 4});
     }
     const std::string material = to_text(*mesh.material, "Material");
     text += material == "Material()" ? "" : ", material=" + material;
     if (mesh.transforms != std::vector{Mat4(1.0f)}) {
         text += ", transforms=" + array_text("float32", {mesh.transforms.size(), 4, 4});
     }
-    return text + (mesh.desc.name.empty() ? "" : ", name=" + value_text(mesh.desc.name)) + ")";
-}
-
-CameraDesc make_camera(const Three& from, const Three& look_at, float fov, float lens_radius,
-                       const std::optional<float>& focus_distance)
-{
-    CameraDesc camera = job::apply(
-        {.from = to_vec(from),
-         .look_at = to_vec(look_at),
-         .vertical_fov = static_cast<float>(static_cast<double>(fov) * std::numbers::pi / 180.0)},
-        CameraDesc{}, std::nullopt);
-    camera.lens_radius = lens_radius;
-    camera.focus_distance = focus_distance.value_or(glm::length(to_vec(look_at) - to_vec(from)));
-    return camera;
+    return text + (mesh.desc->name.empty() ? "" : ", name=" + value_text(mesh.desc->name)) + ")";
 }
 
 SceneDesc describe(const std::vector<ArrayMesh>& meshes, const std::vector<ArrayLight>& lights)
@@ -164,9 +148,9 @@ SceneDesc describe(const std::vector<ArrayMesh>& meshes, const std::vector<Array
             scene.materials.push_back(with_textures(*mesh.material, scene));
         }
         const MeshId id{static_cast<std::uint32_t>(scene.meshes.size())};
-        scene.meshes.push_back(mesh.desc);
+        scene.meshes.push_back(*mesh.desc);
         for (const Mat4& transform : mesh.transforms) {
-            scene.instances.push_back({.name = mesh.desc.name,
+            scene.instances.push_back({.name = mesh.desc->name,
                                        .mesh = id,
                                        .material = known->second,
                                        .world_from_object = transform});
@@ -177,13 +161,10 @@ SceneDesc describe(const std::vector<ArrayMesh>& meshes, const std::vector<Array
 }
 
 void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
-                const std::vector<ArrayLight>& lights, const std::optional<CameraDesc>& camera,
+                const std::vector<ArrayLight>& lights, const std::optional<PythonCamera>& camera,
                 const std::pair<int, int>& size)
 {
-    if (size.first < 1 || size.second < 1) {
-        throw ValueError(fmt::format("size=({}, {}): expected one pixel a side or more", size.first,
-                                     size.second));
-    }
+    check_size(size);
     Scene scene(describe(meshes, lights));
     std::string environment = "scene";
     std::vector<job::Note> notes;
@@ -201,7 +182,7 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
         }
     }
     const float aspect = static_cast<float>(size.first) / static_cast<float>(size.second);
-    CameraDesc view = camera ? *camera : frame_scene(scene, aspect).camera;
+    CameraDesc view = camera ? camera->in_world(DVec3(0.0)) : frame_scene(scene, aspect).camera;
     std::vector<std::string> warnings = scene.warnings();
     const std::size_t count = scene.counts().lights;
     new (self) PythonScene{.stage = {.scene = std::move(scene),
@@ -223,23 +204,18 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
     }
 }
 
-void bind_mesh_and_camera(nb::module_& module)
+void bind_mesh(nb::module_& module)
 {
     nb::class_<ArrayMesh>(module, "Mesh", "Triangles with one material [m].")
         .def(nb::new_(&make_mesh), nb::arg("positions"), nb::arg("triangles"),
              nb::arg("normals") = nb::none(), nb::arg("uvs") = nb::none(),
              nb::arg("material").none() = nb::none(), nb::arg("transforms") = nb::none(),
-             nb::arg("name") = "",
+             nb::arg("name") = "", nb::arg("colors") = nb::none(),
              "positions, normals: float32 (n, 3); triangles: integers (m, 3), counter-clockwise "
              "from the front; uvs: float32 (n, 2), v points down; transforms: float32 (k, 4, 4), "
-             "one per instance.")
+             "one per instance; colors: float32 (n, 4), linear RGBA that multiplies the base "
+             "colour.")
         .def("__repr__", [](const ArrayMesh& mesh) { return to_text(mesh); });
-    nb::class_<CameraDesc>(module, "Camera", "A camera; +y is up.")
-        .def(
-            nb::new_(&make_camera), nb::arg("from_"), nb::arg("look_at"), nb::arg("fov") = 45.0f,
-            nb::arg("lens_radius") = 0.0f, nb::arg("focus_distance") = nb::none(),
-            "Position and target [m], vertical field of view [degrees], radius of a thin lens [m], "
-            "focus distance [m] (default: that of the target).");
 }
 
 }  // namespace
@@ -248,7 +224,8 @@ void bind_parts_of_scenes(nb::module_& module)
 {
     bind_material(module);
     bind_lights(module);
-    bind_mesh_and_camera(module);
+    bind_mesh(module);
+    bind_camera(module);
     nb::object scene = module.attr("Scene");
     nb::cast<nb::class_<PythonScene>>(scene).def(
         "__init__", &make_scene, nb::arg("meshes"), nb::arg("lights") = std::vector<ArrayLight>(),

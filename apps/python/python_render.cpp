@@ -27,6 +27,7 @@
 #include "output/parts.h"
 #include "output/render_report.h"
 #include "python_errors.h"
+#include "python_parts.h"
 #include "python_render.h"
 #include "stage/prepared_scene.h"
 
@@ -112,16 +113,64 @@ private:
     job::Size own_size_;
 };
 
+/// Splits the options of render() into a `Camera`, if one is given, and the rest.
+std::pair<std::optional<PythonCamera>, nb::kwargs> split_camera(const nb::kwargs& options)
+{
+    std::optional<PythonCamera> camera;
+    nb::dict others;
+    for (const auto& [key, value] : options) {
+        if (nb::cast<std::string>(key) == "camera" && nb::isinstance<PythonCamera>(value)) {
+            camera = nb::cast<PythonCamera>(value);
+        } else {
+            others[key] = value;
+        }
+    }
+    return {camera, nb::borrow<nb::kwargs>(others)};
+}
+
+/// Meters the light, also for a camera that the file does not have.
+std::optional<float> meter_light(job::PreparedScene& stage, job::RenderArguments arguments,
+                                 const std::optional<CameraDesc>& camera)
+{
+    if (!camera) {
+        return job::metered_exposure(stage, std::move(arguments));
+    }
+    const struct Added {
+        std::vector<CameraDesc>& cameras;
+        ~Added() { cameras.pop_back(); }
+    } added{stage.cameras};
+    arguments.camera = std::to_string(stage.cameras.size());
+    stage.cameras.push_back(*camera);
+    return job::metered_exposure(stage, std::move(arguments));
+}
+
 /// As `prepare`, but not yet with `MissingFile`.
 Task prepare_task(PythonScene& scene, const nb::kwargs& options)
 {
-    const Words own = to_words(options, Call::render);
-    Task task{.arguments = understand_render(combined(scene.words, own)),
+    const auto [given, others] = split_camera(options);
+    const Words own = to_words(others, Call::render);
+    if (given && change_view(own)) {
+        throw ValueError(
+            "camera: a Camera has its own view and lens: no other option can change "
+            "them");
+    }
+    Task task{.arguments =
+                  understand_render(combined(given ? without_view(scene.words) : scene.words, own)),
               .camera = scene.stage.camera,
               .metadata = {}};
     job::RenderArguments& arguments = task.arguments;
     arguments.file = scene.file;
-    const job::Viewpoint first = first_viewpoint(scene, arguments, change_view(own));
+    std::optional<CameraDesc> own_camera;
+    if (given) {
+        own_camera = given->in_world(scene.stage.scene.description().origin);
+        if (given->size && !options.contains("size")) {
+            arguments.size = given->size;
+        }
+    }
+    const job::Viewpoint first =
+        own_camera ? job::Viewpoint{.camera = *own_camera,
+                                    .size = arguments.size.value_or(scene.stage.size)}
+                   : first_viewpoint(scene, arguments, change_view(own));
     job::Viewpoint seen = first;
     if (arguments.sequence) {
         const job::SequenceView view = only_view(arguments);
@@ -141,7 +190,7 @@ Task prepare_task(PythonScene& scene, const nb::kwargs& options)
     arguments.options.sampling.samples = arguments.samples;
     if (job::meters_light(arguments, scene.stage)) {
         arguments.light_exposure =
-            job::metered_exposure(scene.stage, arguments);  // shared by all views of a turn
+            meter_light(scene.stage, arguments, own_camera);  // shared by all views of a turn
     }
     // Renders of a given time have no rates, as in the command.
     arguments.may_adapt = arguments.may_adapt && !std::isfinite(arguments.goal.seconds);

@@ -28,11 +28,21 @@ void bind_material(nanobind::module_& module);
 /// Binds lights made from arrays.
 void bind_lights(nanobind::module_& module);
 
-/// Binds these, meshes, cameras, and the `Scene` made from them.
+/// Binds cameras.
+void bind_camera(nanobind::module_& module);
+
+/// Binds these, meshes, and the `Scene` made from them.
 void bind_parts_of_scenes(nanobind::module_& module);
 
 /// Binds functions that derive other scenes from a `Scene`: by its materials and lights.
 void bind_edits(nanobind::module_& module);
+
+/// Binds what is in a `Scene`, as arrays: bounds, meshes, instances, rays.
+void bind_scene_data(nanobind::module_& module);
+
+/// Returns `original` with another scene, but its camera, size and options.
+[[nodiscard]] PythonScene with_scene(const PythonScene& original, Scene scene,
+                                     std::string environment_name);
 
 /// Binds render(), `Render` and related types.
 void bind_render(nanobind::module_& module);

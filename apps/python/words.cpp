@@ -332,15 +332,19 @@ bool exclude(std::string_view one, std::string_view other)
 
 bool change_view(const Words& words)
 {
-    bool changed = false;
-    visit_options(Call::load, [&](const job::Option& option) {
-        const bool is_of_view = option.uses.python_render && option.name() != "--size";
-        changed = changed ||
-                  (is_of_view && std::any_of(words.begin(), words.end(), [&](const auto& word) {
-                       return parse_name(word) == option.name();
-                   }));
+    return without_view(words).size() != words.size();
+}
+
+Words without_view(Words words)
+{
+    visit_options(Call::load, [&words](const job::Option& option) {
+        if (option.uses.python_render && option.name() != "--size") {
+            std::erase_if(words, [&option](const std::string& word) {
+                return parse_name(word) == option.name();
+            });
+        }
     });
-    return changed;
+    return words;
 }
 
 std::optional<std::string> find_unsafe(const Words& words)
@@ -475,8 +479,10 @@ SaveArguments understand_save(const Words& words)
 std::string declaration(std::string_view head, Call call, std::string_view result)
 {
     std::string text(head);
-    visit_options(call, [&text](const job::Option& option) {
-        text += fmt::format(", {}: {} | None = None", to_keyword(option), format_type(option));
+    visit_options(call, [&text, call](const job::Option& option) {
+        const bool may_be_camera = call == Call::render && option.name() == "--camera";
+        text += fmt::format(", {}: {}{} | None = None", to_keyword(option), format_type(option),
+                            may_be_camera ? " | Camera" : "");
     });
     return fmt::format("{}) -> {}", text, result);
 }

@@ -40,6 +40,9 @@ void set_options(RenderJob& job, const nanobind::kwargs& options);
 /// Tests whether one of `words` chooses a camera, or changes its position or its lens.
 [[nodiscard]] bool change_view(const Words& words);
 
+/// Returns `words` without those.
+[[nodiscard]] Words without_view(Words words);
+
 /// Returns the first of `words` that is no option of load() that a pickle, which may come from
 /// anybody, may state; none if all are.
 [[nodiscard]] std::optional<std::string> find_unsafe(const Words& words);

@@ -10,15 +10,15 @@
 import operator
 from typing import Any, Iterator
 
-from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, InvalidCallError, InvalidValueError, JobImage,
-                    JobProgress, Material, Mesh, MissingFileError, OutOfMemoryError, OutputError, PointLight, Render,
-                    Renderer, Scene, SpotLight, __version__, compare, load, read_part, render, run)
+from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, Instance, InvalidCallError, InvalidValueError,
+                    JobImage, JobProgress, Material, Mesh, MissingFileError, OutOfMemoryError, OutputError, PointLight,
+                    RayHits, Render, Renderer, Scene, SpotLight, __version__, compare, load, read_part, render, run)
 from ._signatures import with_signature
 
-__all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "InvalidCallError", "InvalidValueError",
-           "JobImage", "JobProgress", "Material", "Mesh", "MissingFileError", "OutOfMemoryError", "OutputError",
-           "PointLight", "Render", "Renderer", "Scene", "SpotLight", "compare", "load", "orbit", "read_part", "render",
-           "run"]
+__all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "Instance", "InvalidCallError",
+           "InvalidValueError", "JobImage", "JobProgress", "Material", "Mesh", "MissingFileError", "OutOfMemoryError",
+           "OutputError", "PointLight", "RayHits", "Render", "Renderer", "Scene", "SpotLight", "compare", "load",
+           "orbit", "read_part", "render", "run"]
 
 load = with_signature(load)
 render = with_signature(render)

@@ -359,6 +359,24 @@ void bind_scene_data(nb::module_& module)
                                     .size = self.stage.size};
             },
             "Its camera.")
+        .def_static(
+            "from_trimesh",
+            [](const nb::object& source, bool smooth, const nb::object& lights,
+               const nb::object& camera, const nb::object& size) {
+                return nb::module_::import_("bdpt._trimesh")
+                    .attr("to_scene")(source, smooth, lights, camera, size);
+            },
+            nb::arg("source"), nb::kw_only(), nb::arg("smooth") = false,
+            nb::arg("lights") = nb::make_tuple(), nb::arg("camera") = nb::none(),
+            nb::arg("size") = nb::none(),
+            nb::sig("def from_trimesh(source: typing.Any, *, smooth: bool = False, lights: "
+                    "collections.abc.Sequence[PointLight | SpotLight | DirectionalLight | "
+                    "EnvironmentLight] = (), camera: Camera | None = None, size: tuple[int, int] | "
+                    "None = None) -> Scene"),
+            "A scene of a mesh or a scene of trimesh, or of a scene of pyrender: triangles with "
+            "their names, places, colours, materials of glTF and textures; its camera, and the "
+            "lights of pyrender, unless others are given. Colours are taken for linear, as in "
+            "glTF. smooth: normals also where the mesh of trimesh has none of its own.")
         .def_prop_ro("bounds", &bounds,
                      nb::sig("def bounds(self) -> numpy.typing.NDArray[numpy.float64]"),
                      "The box around all instances [m]: [[x, y, z] of its lowest corner, those of "

@@ -71,6 +71,7 @@ render = bdpt.render(scene, camera=object())  # refused: camera
 scene = scene.moved({scene.instances[0].name: np.eye(4)}).moved({0: np.eye(4).tolist()})
 distance: np.float32 = scene.raycast([[0, 0, 0]], [[0, 0, 1]]).distance[0]
 corners = scene.meshes[0].positions[scene.meshes[0].triangles].mean(axis=1) + scene.bounds[0]
+scene = bdpt.Scene.from_trimesh("anything", smooth=True, camera=camera)
 try:
     bdpt.load("absent.glb")
 except bdpt.MissingFileError as error:

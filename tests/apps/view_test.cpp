@@ -1,6 +1,7 @@
 #include "options/groups/view_arguments.h"
 
 #include <bdpt/error.h>
+#include <bdpt/scene.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "stage/prepared_scene.h"
 
 namespace bdpt::job::view_test {
 namespace {
@@ -137,6 +139,33 @@ TEST_CASE("the default size is the largest in 1280 x 720 with the camera's aspec
     check(1e-30f, 1, 720);
     check(0.0f, 1280, 720);
     check(-1.0f, 1280, 720);
+}
+
+TEST_CASE("the middle of a shifted film is in focus, and what the film shows fills it")
+{
+    // A wall 3 m away, from 1 m to 9 m to the right of the axis.
+    MeshDesc wall;
+    wall.positions = {{1, -1, -3}, {9, -1, -3}, {9, 1, -3}, {1, 1, -3}};
+    wall.triangles = {{0, 1, 2}, {0, 2, 3}};
+    SceneDesc desc;
+    desc.meshes = {wall};
+    desc.materials.resize(1);
+    desc.instances.push_back({.mesh = MeshId{0}, .material = MaterialId{0}});
+    const Scene scene(std::move(desc));
+    const Size size{.width = 40, .height = 20};
+    CameraDesc camera;
+    camera.vertical_fov = 2.0f * std::atan(0.25f);  // the film is 3 m x 1.5 m there
+    CHECK_THROWS_AS(with_lens({.radius = 0.1}, camera, scene, size), Error);
+    CHECK(filled_share(scene, camera, 2.0f) == Approx(0.5 / 3.0).margin(0.02));
+    camera.shift.x = 1.5f;
+    CHECK(with_lens({.radius = 0.1}, camera, scene, size).focus_distance == Approx(3.0f));
+    CHECK(filled_share(scene, camera, 2.0f) == 1.0);
+    camera.shift.y = 1.0f;  // from 0.75 m upwards
+    CHECK_THROWS_AS(with_lens({.radius = 0.1}, camera, scene, size), Error);
+    CHECK(filled_share(scene, camera, 2.0f) == Approx(0.25 / 1.5).margin(0.02));
+    camera.shift = Vec2(0.0f);
+    camera.pixel_aspect = 2.0f;  // 6 m wide
+    CHECK(filled_share(scene, camera, 2.0f) == Approx(2.0 / 6.0).margin(0.02));
 }
 
 }  // namespace

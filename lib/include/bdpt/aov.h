@@ -54,6 +54,17 @@ enum class Aov : std::uint8_t {
     /// `alpha` without the shadow and without the noise of partially transparent surfaces: the
     /// total opacity along each ray, not that of one hit chosen at random.
     opacity,
+    /// Texture coordinates of set 0 (TEXCOORD_0; v grows downwards), averaged over rays that hit a
+    /// surface; 0 where the mesh has none.
+    uv,
+    /// Distance from the lens along the ray [m], averaged over rays that hit a surface; infinite if
+    /// none does.
+    distance,
+    /// `normal` in the space of the camera: x to the right, y upwards, z towards the viewer.
+    camera_normal,
+    /// Fractions of rays that hit each instance, also those of the same name: Cryptomatte
+    /// (`IdFilm`).
+    instance,
 };
 
 /// How a layer of the first surface combines the rays of a pixel.
@@ -78,14 +89,19 @@ struct AovLayer {
 inline constexpr std::array aov_layers{
     AovLayer{Aov::albedo, "albedo", "albedo", "RGB", AovMean::of_rays},
     AovLayer{Aov::normal, "normal", "normal", "XYZ", AovMean::of_rays},
+    AovLayer{Aov::camera_normal, "camera-normal", "cameraNormal", "XYZ", AovMean::of_rays},
     AovLayer{Aov::depth, "depth", "depth", "Z", AovMean::of_hits,
              std::numeric_limits<float>::infinity()},
+    AovLayer{Aov::distance, "distance", "distance", "Z", AovMean::of_hits,
+             std::numeric_limits<float>::infinity()},
     AovLayer{Aov::position, "position", "position", "XYZ", AovMean::of_hits},
+    AovLayer{Aov::uv, "uv", "uv", "UV", AovMean::of_hits},
     AovLayer{Aov::sample_count, "samples", "sampleCount", "Y"},
     AovLayer{Aov::variance, "variance", "variance", "RGB"},
     AovLayer{Aov::alpha, "alpha", "", "A"},
     AovLayer{Aov::opacity, "opacity", "opacity", "A"},
     AovLayer{Aov::object, "object", "", ""},
+    AovLayer{Aov::instance, "instance", "", ""},
     AovLayer{Aov::material, "material", "", ""},
     AovLayer{Aov::shadow, "shadow", "shadow", "A"},
 };
@@ -116,7 +132,8 @@ private:
 /// Tests whether `aovs` includes AOVs that are id images.
 [[nodiscard]] constexpr bool asks_for_ids(AovSet aovs)
 {
-    return aovs.contains(Aov::object) || aovs.contains(Aov::material);
+    return aovs.contains(Aov::object) || aovs.contains(Aov::material) ||
+           aovs.contains(Aov::instance);
 }
 
 /// Tests whether a set has AOVs of the first surface beside whether there is one.

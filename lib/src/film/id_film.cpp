@@ -175,7 +175,8 @@ namespace {
 constexpr std::size_t channels = 4;  // channels of a layer: two levels
 constexpr std::size_t layers_of_kind = IdFilm::levels / 2;
 
-constexpr std::array<const char*, id_kinds.size()> layer_names{"CryptoObject", "CryptoMaterial"};
+constexpr std::array<const char*, id_kinds.size()> layer_names{"CryptoObject", "CryptoMaterial",
+                                                               "CryptoInstance"};
 
 /// Alternating ids and fractions.
 using Levels = std::array<float, 2 * IdFilm::levels>;
@@ -248,8 +249,8 @@ std::vector<IdManifest> IdFilm::manifests() const
 
 namespace {
 
-constexpr std::array<NameId SurfaceIds::*, id_kinds.size()> members{&SurfaceIds::object,
-                                                                    &SurfaceIds::material};
+constexpr std::array<NameId SurfaceIds::*, id_kinds.size()> members{
+    &SurfaceIds::object, &SurfaceIds::material, &SurfaceIds::instance};
 
 /// Adds runs of equal ids.
 void add_sorted(IdCounts& counts, std::span<const SurfaceIds> met, NameId SurfaceIds::*id)

@@ -118,8 +118,13 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
             PrimaryHit first;
             first[Aov::albedo] = point.bsdf.base_color();
             first[Aov::normal] = dot(normal, ray.direction) > 0.0f ? -normal : normal;
+            first[Aov::camera_normal] = camera.to_local(first[Aov::normal]);
             first[Aov::position] = Vec3(DVec3(point.end.p) + world_.description().origin);
             first[Aov::depth].x = camera.depth(point.end.p);
+            first[Aov::distance].x = glm::distance(ray.lens.p, point.end.p);
+            if (options_.film.aovs.contains(Aov::uv)) {
+                first[Aov::uv] = Vec3(world_.uv_at(*hit), 0.0f);
+            }
             film.add(x, y, first);
         } else {
             film.add(x, y, {});

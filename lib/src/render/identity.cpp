@@ -40,6 +40,10 @@ void add_names(std::vector<IdentityComponent>& result, const SharedSceneDesc& sc
         result.push_back(
             {.name = "scene: names of materials", .value = hash_text(names.ids(IdKind::material))});
     }
+    if (aovs.contains(Aov::instance)) {
+        result.push_back(
+            {.name = "scene: names of instances", .value = hash_text(names.ids(IdKind::instance))});
+    }
 }
 
 /// Returns the values by component name; for duplicate names the first.

@@ -5,9 +5,12 @@
 #include <bdpt/error.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <variant>
 
@@ -49,6 +52,34 @@ std::vector<NamedId> named_ids(std::vector<std::string> names)
     return result;
 }
 
+/// Returns the names, each of them once and with an id of its own.
+std::vector<std::string> unique_names(const std::vector<std::string>& names)
+{
+    std::unordered_map<std::string_view, int> uses;
+    for (const std::string& name : names) {
+        ++uses[name];
+    }
+    std::unordered_set<NameId> taken;
+    std::vector<std::string> result;
+    for (const std::string& name : names) {  // those that keep their name
+        const bool is_free = uses[name] == 1 && taken.insert(name_id(name)).second;
+        result.push_back(is_free ? name : std::string());
+    }
+    std::unordered_map<std::string_view, int> numbers;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        while (result[i].empty()) {
+            const std::string numbered = names[i] + "." + std::to_string(++numbers[names[i]]);
+            if (!uses.contains(numbered) && taken.insert(name_id(numbered)).second) {
+                result[i] = numbered;
+            }
+        }
+    }
+    return result;
+}
+
+constexpr std::array<NameId SurfaceIds::*, id_kinds.size()> ids_of_kinds{
+    &SurfaceIds::object, &SurfaceIds::material, &SurfaceIds::instance};
+
 }  // namespace
 
 SceneNames::SceneNames(const SharedSceneDesc& desc)
@@ -72,6 +103,12 @@ SceneNames::SceneNames(const SharedSceneDesc& desc)
             spheres_.push_back({.object = name_id(name), .material = name_id(name)});
         }
     }
+    own_names_ = unique_names(objects_);
+    for (std::size_t i = 0; i < own_names_.size(); ++i) {
+        SurfaceIds& surface =
+            i < instances_.size() ? instances_[i] : spheres_[i - instances_.size()];
+        surface.instance = name_id(own_names_[i]);
+    }
 }
 
 IdNames SceneNames::names(AovSet aovs) const
@@ -82,6 +119,9 @@ IdNames SceneNames::names(AovSet aovs) const
     }
     if (aovs.contains(Aov::material)) {
         result[static_cast<std::size_t>(IdKind::material)] = named_ids(materials_);
+    }
+    if (aovs.contains(Aov::instance)) {
+        result[static_cast<std::size_t>(IdKind::instance)] = named_ids(own_names_);
     }
     std::size_t text = 0;
     for (const std::vector<NamedId>& names : result) {
@@ -100,7 +140,7 @@ IdNames SceneNames::names(AovSet aovs) const
 
 std::vector<NameId> SceneNames::ids(IdKind kind) const
 {
-    const auto member = kind == IdKind::object ? &SurfaceIds::object : &SurfaceIds::material;
+    const auto member = ids_of_kinds[static_cast<std::size_t>(kind)];
     std::vector<NameId> result;
     result.reserve(instances_.size() + spheres_.size());
     for (const auto* surfaces : {&instances_, &spheres_}) {

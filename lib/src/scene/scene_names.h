@@ -14,7 +14,8 @@ namespace bdpt {
 /// Names of a scene's surfaces, for id images. Objects are instances, and the spheres of lights;
 /// those with the same name are one object. Unnamed ones are called "instance_3", "material_3" or
 /// "light_3" by their index in the description. The sphere of a light has no material: the light's
-/// name also names its material.
+/// name also names its material. Instances and spheres whose name others have, too, are numbered in
+/// their order: "leaf.1", "leaf.2"; a number that makes the name of another one is left out.
 class SceneNames {
 public:
     explicit SceneNames(const SharedSceneDesc& desc);
@@ -33,6 +34,7 @@ public:
 private:
     std::vector<std::string> objects_;    // names of instances, then of spheres
     std::vector<std::string> materials_;  // names of materials, then of spheres
+    std::vector<std::string> own_names_;  // unique names of instances, then of spheres
     std::vector<SurfaceIds> instances_;
     std::vector<SurfaceIds> spheres_;
 };

@@ -203,6 +203,12 @@ SurfacePoint World::surface_at(const RayHit& hit, Vec3 direction, SegmentKey seg
     return mesh_point(hit, direction, segment, pixel);
 }
 
+Vec2 World::uv_at(const RayHit& hit) const noexcept
+{
+    return hit.sphere != no_sphere ? Vec2(0.0f)
+                                   : placed_[hit.instance].uv(hit.triangle, hit.at.barycentrics)[0];
+}
+
 /// Constructs a point on a sphere, which is a light: it emits on its outside and reflects nothing.
 SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) const noexcept
 {

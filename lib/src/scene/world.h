@@ -89,6 +89,8 @@ public:
     /// the detail that pixels show.
     [[nodiscard]] SurfacePoint surface_at(const RayHit& hit, Vec3 direction, SegmentKey segment,
                                           const PixelCone& pixel) const noexcept;
+    /// Returns the texture coordinates of set 0 at a hit; 0 if the surface has none.
+    [[nodiscard]] Vec2 uv_at(const RayHit& hit) const noexcept;
     /// Combines `first_hit` and `surface_at`, for rays that belong to no pixel.
     [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from, Vec3 direction,
                                                         SegmentKey segment) const noexcept

@@ -33,7 +33,9 @@ TEST_CASE("AOVs are names with commas between")
     CHECK(parse_aovs("normal,position,variance") ==
           AovSet{Aov::normal, Aov::position, Aov::variance});
     CHECK(parse_aovs("object,material") == AovSet{Aov::object, Aov::material});
-    for (const char* wrong : {"", ",", "depth,", ",depth", "depth, alpha", "uv"}) {
+    CHECK(parse_aovs("uv,distance,camera-normal,instance") ==
+          AovSet{Aov::uv, Aov::distance, Aov::camera_normal, Aov::instance});
+    for (const char* wrong : {"", ",", "depth,", ",depth", "depth, alpha", "mask"}) {
         CAPTURE(wrong);
         CHECK_FALSE(parse_aovs(wrong));
     }

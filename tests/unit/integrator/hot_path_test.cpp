@@ -259,8 +259,9 @@ TEST_CASE("hot path: nor do AOVs", "[hot_path]")
 {
     const World world(everything());
     RenderOptions options = options_of(IntegratorKind::bdpt);
-    options.film.aovs = {Aov::albedo, Aov::normal, Aov::depth,   Aov::position,
-                         Aov::shadow, Aov::object, Aov::material};
+    options.film.aovs = {Aov::albedo,   Aov::normal,        Aov::depth,    Aov::position,
+                         Aov::shadow,   Aov::object,        Aov::material, Aov::uv,
+                         Aov::distance, Aov::camera_normal, Aov::instance};
     for (const CameraDesc& desc : cameras()) {
         const MovingCamera camera(desc, Camera(desc, size, size));
         const AovPass pass(world, camera, options);

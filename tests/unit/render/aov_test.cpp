@@ -5,6 +5,7 @@
 #include "moving_scenes.h"
 #include "scene_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -250,6 +251,100 @@ TEST_CASE("the normal AOV is the shading normal, the albedo AOV the textured col
         CHECK(value(layer(layers, "albedo"), x, y, 1) == 0.0f);
         CHECK(value(layer(layers, "albedo"), x, y, 2) == 1.0f);
     }
+}
+
+TEST_CASE("distance is along the rays, from the lens", "[aov]")
+{
+    CameraDesc view = camera;
+    view.shift = {-0.8f, 0.3f};  // to the wall, far from the axis
+    RenderOptions o = options({Aov::distance, Aov::depth, Aov::position});
+    o.sampling.samples = {.begin = 0, .end = 1};  // no means
+    const int kind = GENERATE(0, 1, 2);           // pinhole, parallel rays, lens
+    if (kind == 1) {
+        view = test::in_parallel(view, 3.0f);
+    } else if (kind == 2) {
+        view = test::with_lens(view, 0.5f, 2.0f);
+    }
+    const Scene scene(half_wall(test::lambertian(Rgb(0.5f))));
+    const RenderResult result = render(scene, view, o);
+    const std::vector<Layer> layers = result.aovs.develop(result.film);
+    CHECK(layer(layers, "distance").channels == "Z");
+    float longest = 0.0f;
+    for (const auto& [x, y] : {std::pair{0, 0}, {5, 23}, {20, 11}}) {
+        CAPTURE(kind, x, y);
+        Vec3 position;
+        for (int c = 0; c < 3; ++c) {
+            position[c] = value(layer(layers, "position"), x, y, static_cast<std::size_t>(c));
+        }
+        const float found = value(layer(layers, "distance"), x, y, 0);
+        const float to_eye = glm::distance(position, Vec3(1.0f, 2.0f, 3.0f));
+        longest = std::max(longest, found);
+        if (kind == 0) {
+            CHECK(found == Approx(to_eye));
+        } else if (kind == 1) {
+            CHECK(found == Approx(value(layer(layers, "depth"), x, y, 0)));
+        } else {
+            CHECK(found == Approx(to_eye).margin(0.5));
+            CHECK(found != Approx(to_eye));
+        }
+    }
+    CHECK((longest > 5.0f) == (kind != 1));  // the wall is 4 m away
+    const RenderResult beside = render(scene, camera, o);
+    CHECK(value(beside.aovs.develop(beside.film).at(1), 23, 0, 0) ==
+          std::numeric_limits<float>::infinity());
+}
+
+TEST_CASE("uv are the texture coordinates of set 0, and 0 without any", "[aov]")
+{
+    SceneDesc desc = half_wall(test::lambertian(Rgb(0.5f)));
+    desc.meshes[0].uvs[0] = {{0, 0}, {43, 0}, {43, 40}, {0, 40}};  // a unit each metre
+    desc.meshes[0].uvs[1] = {{9, 9}, {9, 9}, {9, 9}, {9, 9}};
+    const auto layers_of = [](const SceneDesc& scene) {
+        const RenderResult result =
+            render(Scene(scene), camera, options({Aov::uv, Aov::position, Aov::alpha}));
+        return result.aovs.develop(result.film);
+    };
+    const std::vector<Layer> layers = layers_of(desc);
+    const Layer& uv = layer(layers, "uv");
+    CHECK(uv.channels == "UV");
+    for (const auto& [x, y] : {std::pair{0, 0}, {5, 23}, {11, 11}}) {
+        CHECK(value(uv, x, y, 0) ==
+              Approx(3.0f - value(layer(layers, "position"), x, y, 2)).margin(1e-4));
+        CHECK(value(uv, x, y, 1) == Approx(20.0f + value(layer(layers, "position"), x, y, 1)));
+        CHECK(value(uv, 23 - x, y, 1) == 0.0f);  // beside the wall
+    }
+    desc.meshes[0].uvs = {};
+    CHECK(value(layer(layers_of(desc), "uv"), 5, 5, 1) == 0.0f);
+}
+
+TEST_CASE("normals of the camera are those of the world in its axes", "[aov]")
+{
+    test::SceneBuilder builder;
+    builder.sphere({5.0f, 2.0f, 3.0f}, 1.0f, test::lambertian(Rgb(0.5f)), 16);
+    const CameraDesc view = test::camera_at({3.0f, 4.0f, 1.0f}, {5.1f, 2.0f, 3.2f}, 0.6f);
+    const RenderResult result =
+        render(Scene(builder.desc), view, options({Aov::normal, Aov::camera_normal}));
+    const std::vector<Layer> layers = result.aovs.develop(result.film);
+    CHECK(layer(layers, "cameraNormal").channels == "XYZ");
+    float right = 0.0f;
+    float up = 0.0f;
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            Vec3 normal;
+            Vec3 seen;
+            for (int c = 0; c < 3; ++c) {
+                const auto channel = static_cast<std::size_t>(c);
+                normal[c] = value(layer(layers, "normal"), x, y, channel);
+                seen[c] = value(layer(layers, "cameraNormal"), x, y, channel);
+            }
+            REQUIRE(glm::distance(Mat3(view.world_from_camera) * seen, normal) < 1e-5f);
+            CHECK(seen.z > -0.1f);  // towards the viewer, almost at the silhouette
+            right = x == 18 && y == 12 ? seen.x : right;
+            up = x == 12 && y == 5 ? seen.y : up;
+        }
+    }
+    CHECK(right > 0.4f);
+    CHECK(up > 0.4f);
 }
 
 TEST_CASE("AOVs of different regions or kinds are not merged", "[aov]")

@@ -227,6 +227,39 @@ TEST_CASE("objects of one name are one object", "[ids]")
     CHECK(result.ids.manifests().at(0).names.size() == 2);
 }
 
+TEST_CASE("instances of one name are numbered, whatever other names there are", "[ids]")
+{
+    test::SceneBuilder builder = wall_and_balls();
+    const MeshId ball = builder.desc.instances[1].mesh;
+    builder.desc.instances[2].name = "left";
+    for (const char* name : {"left.1", "left.1", "left.2", "left", ""}) {  // out of sight
+        builder.place(ball, test::lambertian(Rgb(0.5f)), ball_at({0, 0, 100}, 0.8f));
+        builder.desc.instances.back().name = name;
+    }
+    builder.light(PointLightDesc{.name = "left", .position = {0, -1.2f, 0.5f}, .radius = 0.3f});
+    const RenderResult result =
+        render(Scene(builder.desc), camera, options({Aov::alpha, Aov::object, Aov::instance}));
+    const std::vector<IdManifest> manifests = result.ids.manifests();
+    std::vector<std::string> names;
+    for (const NamedId& name : manifests.at(1).names) {
+        names.push_back(name.name);
+    }
+    CHECK(manifests.at(1).layer == "CryptoInstance");
+    CHECK(names == std::vector<std::string>{"instance_7", "left.1.1", "left.1.2", "left.2",
+                                            "left.3", "left.4", "left.5", "left.6", "wall"});
+    // Together they are the object.
+    const std::vector<float> object = matte(result, "CryptoObject", "left");
+    const std::vector<float> first = matte(result, "CryptoInstance", "left.3");
+    const std::vector<float> second = matte(result, "CryptoInstance", "left.4");
+    const std::vector<float> lamp = matte(result, "CryptoInstance", "left.6");
+    for (std::size_t i = 0; i < object.size(); ++i) {
+        CHECK(object[i] == first[i] + second[i] + lamp[i]);
+    }
+    CHECK(first[size / 2 * size + 6] == 1.0f);
+    CHECK(second[size / 2 * size + 13] > 0.3f);
+    CHECK(*std::max_element(lamp.begin(), lamp.end()) == 1.0f);
+}
+
 TEST_CASE("counts of ids are the same for any threads, tiles, parts, crops and integrators",
           "[ids]")
 {
@@ -307,6 +340,8 @@ TEST_CASE("names are in the identity of a render whose images show them", "[ids]
     CHECK(differs(repainted, {Aov::material}) == "scene: names of materials");
     CHECK(differs(repainted, {Aov::object}).empty());
     CHECK(differs(repainted, {Aov::alpha}).empty());
+    CHECK(differs(swapped, {Aov::instance}) == "scene: names of instances");
+    CHECK(differs(repainted, {Aov::instance}).empty());
     // Parts whose names differ do not merge, whatever their pixels have.
     RenderResult part = render(Scene(builder.desc), camera, options());
     RenderOptions later = options();

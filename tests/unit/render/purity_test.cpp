@@ -37,8 +37,9 @@ Film film_of(const Scene& scene, const RenderOptions& options)
     return render(scene, test::room_camera(), options).film;
 }
 
-const AovSet all_aovs{Aov::albedo,   Aov::normal, Aov::depth,  Aov::position, Aov::sample_count,
-                      Aov::variance, Aov::alpha,  Aov::shadow, Aov::opacity};
+const AovSet all_aovs{Aov::albedo,       Aov::normal,   Aov::depth,    Aov::position,
+                      Aov::sample_count, Aov::variance, Aov::alpha,    Aov::shadow,
+                      Aov::opacity,      Aov::uv,       Aov::distance, Aov::camera_normal};
 
 std::vector<float> crop_of(const Layer& layer, const PixelRect& crop)
 {

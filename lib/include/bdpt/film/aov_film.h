@@ -93,9 +93,9 @@ public:
     /// Adds the rays of other samples. Throws `Error` (usage) if regions or AOVs differ.
     void merge(const AovFilm& other);
     /// Returns the requested layers, with the names that denoisers and compositors expect: albedo
-    /// (RGB), normal (XYZ), depth (Z), position (XYZ), sampleCount (Y), variance (RGB), shadow (A),
-    /// opacity (A), and A in the main layer. `film` must hold the same samples; throws `Error`
-    /// (usage) if its region differs.
+    /// (RGB), normal and cameraNormal (XYZ), depth and distance (Z), position (XYZ), uv (UV),
+    /// sampleCount (Y), variance (RGB), shadow (A), opacity (A), and A in the main layer. `film`
+    /// must hold the same samples; throws `Error` (usage) if its region differs.
     [[nodiscard]] std::vector<Layer> develop(const Film& film) const;
 
     // Access for files, as in `Film`: "albedo.R", ..., "hits" and "counts" of every pixel.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Counts the objects and materials that camera rays meet, for Cryptomatte.
+/// Counts the objects, materials and instances that camera rays meet, for Cryptomatte.
 ///
 /// @code{.cpp}
 /// void write_cryptomatte(const bdpt::RenderResult& result)  // rendered with Aov::object
@@ -32,13 +32,13 @@
 namespace bdpt {
 
 /// The kinds of things that have ids.
-enum class IdKind : std::uint8_t { object, material };
+enum class IdKind : std::uint8_t { object, material, instance };
 
 /// All kinds; arrays with one element per kind use this order.
-inline constexpr std::array id_kinds{IdKind::object, IdKind::material};
+inline constexpr std::array id_kinds{IdKind::object, IdKind::material, IdKind::instance};
 
 /// The AOV of each kind.
-inline constexpr std::array id_aovs{Aov::object, Aov::material};
+inline constexpr std::array id_aovs{Aov::object, Aov::material, Aov::instance};
 
 /// For each kind, the names that rays may hit, sorted by their bytes, without duplicates.
 using IdNames = std::array<std::vector<NamedId>, id_kinds.size()>;
@@ -52,7 +52,7 @@ struct IdManifest {
     std::vector<NamedId> names;
 };
 
-/// Counts of the objects and materials that camera rays hit first. The counts are exact,
+/// Counts of the objects, materials and instances that camera rays hit first. The counts are exact,
 /// independent of order, and unlimited in the number of ids per pixel.
 class BDPT_EXPORT IdFilm {
 public:
@@ -76,9 +76,10 @@ public:
     void merge(const IdFilm& other);
 
     /// Returns the Cryptomatte layers of the requested kinds [Cryptomatte specification 1.2.0]:
-    /// CryptoObject00 to 02, CryptoMaterial00 to 02, each with two ids (r, b) and the fractions of
-    /// all samples that hit them (g, a). Ids are sorted by descending fraction, ties by ascending
-    /// id. `film` must hold the same samples; throws `Error` (usage) if its region differs.
+    /// CryptoObject00 to 02, CryptoMaterial00 to 02, CryptoInstance00 to 02, each with two ids
+    /// (r, b) and the fractions of all samples that hit them (g, a). Ids are sorted by descending
+    /// fraction, ties by ascending id. `film` must hold the same samples; throws `Error` (usage) if
+    /// its region differs.
     [[nodiscard]] std::vector<Layer> develop(const Film& film) const;
     /// Returns the manifests of these layers. They include names that no ray has hit.
     [[nodiscard]] std::vector<IdManifest> manifests() const;

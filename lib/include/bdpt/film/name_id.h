@@ -44,10 +44,11 @@ struct NamedId {
     [[nodiscard]] bool operator==(const NamedId&) const = default;
 };
 
-/// The ids of a surface's object and material.
+/// The ids of a surface's object, material and instance.
 struct SurfaceIds {
     NameId object = NameId::none;
     NameId material = NameId::none;
+    NameId instance = NameId::none;
 };
 
 }  // namespace bdpt

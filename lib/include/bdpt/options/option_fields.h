@@ -124,13 +124,14 @@ inline constexpr auto fields<FilmOptions> = all_fields(
                  .help = "Pixel filter: box (radius 0.5), tent (1), gaussian (1.5, sigma is a "
                          "third of it) or blackman-harris (1.5)",
                  .otherwise = "box"}},
-    OptionField{"aov",
-                &FilmOptions::aovs,
-                {.value = "LIST",
-                 .help = "Extra .exr layers (AOVs), comma-separated: albedo, normal, depth, "
-                         "position, samples, variance, alpha, opacity; object, material: "
-                         "Cryptomatte",
-                 .otherwise = "none"}},
+    OptionField{
+        "aov",
+        &FilmOptions::aovs,
+        {.value = "LIST",
+         .help = "Extra .exr layers (AOVs), comma-separated: albedo, normal, camera-normal, "
+                 "depth, distance, position, uv, samples, variance, alpha, opacity; "
+                 "object, instance, material: Cryptomatte",
+         .otherwise = "none"}},
     OptionField{"ground_height",
                 &FilmOptions::ground_height,
                 {.range = {-1e15, 1e15},  // as far as rays reach

@@ -31,10 +31,20 @@ ordered_json ids_to_json(const IdNames& names, const IdRanks& ranks)
     return json;
 }
 
+namespace {
+
+/// Returns the number of kinds of ids in a file: older ones lack the last.
+std::size_t count_kinds(const JsonValue& json)
+{
+    return std::min(json.elements().size(), id_kinds.size());
+}
+
+}  // namespace
+
 IdNames names_from_json(const JsonValue& json)
 {
     IdNames names;
-    for (std::size_t kind = 0; kind < id_kinds.size(); ++kind) {
+    for (std::size_t kind = 0; kind < count_kinds(json); ++kind) {
         for (const JsonValue& pair : json.at(kind).at("names").elements()) {
             const NameId id{pair.at(1).number<std::uint32_t>()};
             if (!is_name_id(id)) {
@@ -49,7 +59,7 @@ IdNames names_from_json(const JsonValue& json)
 IdRanks ranks_from_json(const JsonValue& json)
 {
     IdRanks ranks{};
-    for (std::size_t kind = 0; kind < id_kinds.size(); ++kind) {
+    for (std::size_t kind = 0; kind < count_kinds(json); ++kind) {
         ranks[kind] = static_cast<std::size_t>(json.at(kind).at("ranks").number<std::uint32_t>());
     }
     return ranks;

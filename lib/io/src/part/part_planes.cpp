@@ -1,5 +1,6 @@
 #include "part/part_contents.h"
 
+#include <array>
 #include <bit>
 #include <cstdint>
 
@@ -9,13 +10,15 @@ namespace {
 constexpr int words_of_sum = 4;  // 32-bit words
 static_assert(sizeof(ExactSum::Words) == words_of_sum * sizeof(std::uint32_t));
 
+constexpr std::array<const char*, id_kinds.size()> prefixes{"object.", "material.", "instance."};
+
 /// Returns "object.0", ..., a plane for each rank of each kind.
 std::vector<std::string> id_planes(const IdRanks& ranks)
 {
     std::vector<std::string> names;
     for (const IdKind kind : id_kinds) {
         for (std::size_t rank = 0; rank < ranks[static_cast<std::size_t>(kind)]; ++rank) {
-            names.push_back((kind == IdKind::object ? "object." : "material.") +
+            names.push_back(std::string(prefixes[static_cast<std::size_t>(kind)]) +
                             std::to_string(rank));
         }
     }

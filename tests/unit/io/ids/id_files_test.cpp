@@ -44,7 +44,7 @@ RenderResult part_of(SampleRange samples)
     o.film.width = 17;
     o.film.height = 11;
     o.film.crop = PixelRect{.x0 = 3, .y0 = 2, .x1 = 15, .y1 = 10};
-    o.film.aovs = {Aov::alpha, Aov::object, Aov::material};
+    o.film.aovs = {Aov::alpha, Aov::object, Aov::material, Aov::instance};
     o.transport.max_depth = 1;
     o.sampling.samples = samples;
     return render(named_box(), test::room_camera(), o);

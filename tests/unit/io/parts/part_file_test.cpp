@@ -42,8 +42,8 @@ RenderOptions options()
     result.film.height = 11;
     result.film.crop = PixelRect{.x0 = 3, .y0 = 2, .x1 = 15, .y1 = 10};
     result.film.clamp = 8.0f;
-    result.film.aovs = {Aov::albedo, Aov::normal, Aov::depth,  Aov::position,
-                        Aov::alpha,  Aov::shadow, Aov::opacity};
+    result.film.aovs = {Aov::albedo, Aov::normal,  Aov::depth, Aov::position, Aov::alpha,
+                        Aov::shadow, Aov::opacity, Aov::uv,    Aov::distance, Aov::camera_normal};
     result.transport.max_depth = 4;
     result.bidirectional.strategy_depth = 3;
     return result;
@@ -268,7 +268,7 @@ TEST_CASE("a part file that lies about itself is refused before it costs memory"
         {R"("size":[17,11])", R"("size":[9e9,1])"},
         {R"("region":[3,2,15,10])", R"("region":[3,2,16,10])"},
         {R"("region":[3,2,15,10])", R"("region":[3,2,15,2 ])"},
-        {R"("layers":[0,1,2,3,6,10,7])", R"("layers":[0,1,2,6,10,7  ])"},
+        {R"("layers":[0,1,13,2,12,3,11,6,10,7])", R"("layers":[0,1,13,2,12,11,6,10,7  ])"},
         {R"("strategies":[[0,2])", R"("strategies":[[0,9])"},
         {R"("format":1)", R"("format":2)"},
         {R"("clamped":)", R"("clamPed":)"},

@@ -120,6 +120,7 @@ std::uint64_t count_sum_bytes(const AovLayer& layer)
     switch (layer.aov) {
         case Aov::object:
         case Aov::material:
+        case Aov::instance:
             return two_ids;
         case Aov::alpha:
             return sizeof(std::uint64_t);
@@ -148,7 +149,7 @@ std::uint64_t film_bytes(const RenderOptions& options, const Size& size)
     std::uint64_t pixel = halves * (splats ? 2 : 1) * color_sum + sizeof(Rgb);
     for (const AovLayer& layer : aov_layers) {
         if (options.film.aovs.contains(layer.aov)) {
-            const bool is_id = layer.aov == Aov::object || layer.aov == Aov::material;
+            const bool is_id = asks_for_ids({layer.aov});
             const std::uint64_t channels = is_id ? id_channels : layer.channels.size();
             // Developed, and once more in the channel order of a file.
             pixel += count_sum_bytes(layer) + 2 * channels * sizeof(float);

@@ -1,9 +1,11 @@
 #include <bdpt/error.h>
 #include <bdpt/noise.h>
-#include <fmt/core.h>
+#include <bdpt/options/option_text.h>
+#include <fmt/format.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +17,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "arrays.h"
 #include "interpreter_lock.h"
@@ -279,6 +282,59 @@ std::map<std::string, std::map<std::string, std::uint32_t>> collect_ids(const Re
     return result;
 }
 
+/// Integers of the things that pixels show, and their names, by the kinds that aov=... names.
+struct Masks {
+    using Array = nb::ndarray<nb::numpy, std::uint32_t>;
+    std::map<std::string, Array> arrays;
+    std::map<std::string, std::vector<std::string>> names;  // 0: nothing
+};
+
+Masks collect_masks(const Render& render)
+{
+    Masks result;
+    for (const IdKind kind : id_kinds) {
+        const auto which = static_cast<std::size_t>(kind);
+        if (!render.part.aovs.aovs().contains(id_aovs[which])) {
+            continue;
+        }
+        auto* integers =
+            new std::vector<std::uint32_t>(render.part.ids.mask(kind, render.part.film));
+        const nb::capsule owner(integers, [](void* pointer) noexcept {
+            delete static_cast<std::vector<std::uint32_t>*>(pointer);
+        });
+        const std::string name = option_text(id_aovs[which]);
+        const PixelRect& region = render.part.film.region();
+        result.arrays.emplace(name, Masks::Array(integers->data(),
+                                                 {static_cast<std::size_t>(region.height()),
+                                                  static_cast<std::size_t>(region.width())},
+                                                 owner));
+        std::vector<std::string>& names = result.names[name];
+        names.emplace_back();
+        for (const NamedId& named : render.part.ids.names()[which]) {
+            names.push_back(named.name);
+        }
+    }
+    return result;
+}
+
+Masks::Array find_mask(const Masks& masks, const std::string& kind)
+{
+    const auto found = masks.arrays.find(kind);
+    if (found == masks.arrays.end()) {
+        throw nb::key_error(fmt::format("{}: the render has no aov=\"{}\"", kind, kind).c_str());
+    }
+    return found->second;
+}
+
+std::vector<std::string> mask_kinds(const Masks& masks)
+{
+    std::vector<std::string> kinds;
+    for (const auto& [kind, array] : masks.arrays) {
+        kinds.push_back(kind);
+    }
+    return kinds;
+}
+
 std::map<std::string, FloatArray> collect_layers(const Render& render)
 {
     std::map<std::string, FloatArray> arrays;
@@ -422,6 +478,23 @@ void bind_render(nb::module_& module)
         "What save() writes to a PNG file, as an array of uint8, or uint16 with png_bits=16, "
         "(height, width, 3), or 4 with a transparent background.",
         Call::save);
+    nb::class_<Masks>(module, "Masks",
+                      "Masks of a render, by kind: 'object', 'instance' or 'material', as aov=... "
+                      "names them.")
+        .def("__getitem__", &find_mask, nb::arg("kind"), nb::rv_policy::reference,
+             "An array of uint32 (height, width): the integer of what most rays of the pixel hit, "
+             "or 0 for nothing; ties go to the smaller integer.")
+        .def("__len__", [](const Masks& masks) { return masks.arrays.size(); })
+        .def(
+            "__iter__", [](const Masks& masks) { return nb::iter(nb::cast(mask_kinds(masks))); },
+            nb::sig("def __iter__(self) -> collections.abc.Iterator[str]"))
+        .def("keys", &mask_kinds, "The kinds.")
+        .def("__repr__",
+             [](const Masks& masks) {
+                 return fmt::format("<bdpt.Masks {}>", fmt::join(mask_kinds(masks), ", "));
+             })
+        .def_ro("names", &Masks::names,
+                "The names, by kind: element i is the name of integer i, and element 0 is ''.");
     nb::class_<Render>(module, "Render",
                        "Result of a render: sums of samples, which add up exactly.")
         .def_prop_ro(
@@ -431,10 +504,15 @@ void bind_render(nb::module_& module)
             "top.")
         .def_prop_ro("layers", &collect_layers, nb::rv_policy::reference,
                      "Layers of aov=..., by name: arrays of float32 (height, width, channels).")
-        .def_prop_ro("ids", &collect_ids,
-                     "Ids by name in the layers of aov='object' and aov='material', such as "
-                     "ids['CryptoObject']['lamp']: integers with the bits of the floats in "
-                     "layers['CryptoObject00'].")
+        .def_prop_ro(
+            "ids", &collect_ids,
+            "Ids by name in the layers of aov='object', 'instance' and 'material', such as "
+            "ids['CryptoObject']['lamp']: integers with the bits of the floats in "
+            "layers['CryptoObject00'].")
+        .def_prop_ro("masks", &collect_masks,
+                     "Masks of integers with aov='object', 'instance' or 'material': "
+                     "masks['instance'] is an array (height, width), and masks.names['instance'] "
+                     "the list of their names.")
         .def_prop_ro(
             "samples", [](const Render& render) { return render.part.samples.text(); },
             "Indices of its samples of each pixel, like '0:64'.")

@@ -340,6 +340,27 @@ def test_layers_of_ids_have_names(tmp_path):
     assert part.ids == render.ids and np.array_equal(part.layers["CryptoObject00"], render.layers["CryptoObject00"])
 
 
+def test_masks_are_integers_with_names(tmp_path):
+    cards = [bdpt.Mesh(np.array([[x - 1, -1, 0], [x + 1, -1, 0], [x + 1, 1, 0], [x - 1, 1, 0]], np.float32),
+                       np.array([[0, 1, 2], [0, 2, 3]], np.uint32), material=bdpt.Material(name="paper"), name="card")
+             for x in (-1, 1)]
+    scene = bdpt.Scene(cards, [bdpt.EnvironmentLight(np.ones((1, 1, 3), np.float32))],
+                       bdpt.Camera(from_=(0, 0, 5), look_at=(0, 0, 0)), size=(9, 6))
+    render = bdpt.render(scene, spp=4, aov=["object", "instance"])
+    masks = render.masks
+    assert set(masks) == set(masks.keys()) == {"object", "instance"} and len(masks) == 2
+    assert repr(masks) == "<bdpt.Masks instance, object>"
+    assert masks.names == {"object": ["", "card"], "instance": ["", "card.1", "card.2"]}
+    for kind, right in (("object", 1), ("instance", 2)):
+        assert masks[kind].shape == (6, 9) and masks[kind].dtype == np.uint32
+        assert masks[kind][3, 3] == 1 and masks[kind][3, 5] == right and masks[kind][0, 0] == 0
+    with pytest.raises(KeyError, match='material: the render has no aov="material"'):
+        masks["material"]
+    render.save(tmp_path / "a.part.exr")
+    part = bdpt.read_part(tmp_path / "a.part.exr")
+    assert np.array_equal(part.masks["instance"], masks["instance"]) and part.masks.names == masks.names
+
+
 def test_a_renderer_grows_to_the_bits_of_one_render(cornell_box, tmp_path):
     options = {"size": (24, 18), "integrator": "bdpt", "spp": 12}
     renderer = bdpt.Renderer(cornell_box, **options)

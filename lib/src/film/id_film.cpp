@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 
 namespace bdpt {
@@ -234,6 +235,34 @@ std::vector<Layer> IdFilm::develop(const Film& film) const
         }
     }
     return layers;
+}
+
+std::vector<std::uint32_t> IdFilm::mask(IdKind kind, const Film& film) const
+{
+    if (needs_hits() && film.region() != region_) {
+        throw Error(ErrorCode::usage, "the ids and the film are not of the same region");
+    }
+    const auto which = static_cast<std::size_t>(kind);
+    std::unordered_map<NameId, std::uint32_t> integers;  // the first of names with the same id
+    for (std::size_t i = 0; i < names_[which].size(); ++i) {
+        integers.emplace(names_[which][i].id, static_cast<std::uint32_t>(i + 1));
+    }
+    std::vector<std::uint32_t> result;
+    result.reserve(pixels_[which].size());
+    for (const IdCounts& counts : pixels_[which]) {
+        std::int64_t missed = film.sample_count();
+        std::pair<std::int64_t, std::uint32_t> most{0, 0};  // rays, integer
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            const std::int64_t count = counts[i].count;
+            const std::uint32_t integer = integers.at(counts[i].id);
+            missed -= count;
+            if (count > most.first || (count == most.first && integer < most.second)) {
+                most = {count, integer};
+            }
+        }
+        result.push_back(most.first > missed ? most.second : 0);
+    }
+    return result;
 }
 
 std::vector<IdManifest> IdFilm::manifests() const

@@ -133,6 +133,22 @@ TEST_CASE("counts depend neither on the order of rays nor on how films are split
     CHECK(forth.ranks() == IdRanks{5, 1});
 }
 
+TEST_CASE("masks have the name that most rays of a pixel hit, or nothing", "[ids]")
+{
+    IdFilm ids = film();
+    meet(ids, 2, 1, {0, 0, 3, 0, 4, 1}, 1);  // 8 of 8 hit something
+    meet(ids, 3, 1, {0, 0, 3, 0, 1}, 2);     // 4 missed
+    meet(ids, 4, 1, {0, 0, 0, 5}, 3);        // 3 missed
+    meet(ids, 2, 2, {0, 0, 0, 4}, 4);        // 4 missed, 4 hit
+    meet(ids, 3, 2, {0, 3, 2, 0, 0, 3}, 5);  // two names with the same number
+    CHECK(ids.mask(IdKind::object, samples(8)) == std::vector<std::uint32_t>{5, 0, 4, 0, 2, 0});
+    CHECK(ids.mask(IdKind::material, samples(8)) ==
+          std::vector<std::uint32_t>{10, 0, 10, 0, 10, 0});
+    CHECK(ids.mask(IdKind::instance, samples(8)).empty());  // not asked for
+    CHECK_THROWS_AS(
+        ids.mask(IdKind::object, Film({.width = 8, .height = 8, .region = {0, 0, 2, 2}})), Error);
+}
+
 TEST_CASE("ids of other regions, kinds or names are not merged", "[ids]")
 {
     IdFilm ids = film();

@@ -260,6 +260,24 @@ TEST_CASE("instances of one name are numbered, whatever other names there are", 
     CHECK(*std::max_element(lamp.begin(), lamp.end()) == 1.0f);
 }
 
+TEST_CASE("masks have the integers of the names that are seen", "[ids]")
+{
+    const RenderResult result = render(Scene(wall_and_balls().desc), camera,
+                                       options({Aov::object, Aov::instance, Aov::material}));
+    const auto at = [&](IdKind kind, int x, int y) {
+        const std::uint32_t integer =
+            result.ids.mask(kind, result.film)[static_cast<std::size_t>(y * size + x)];
+        const std::vector<NamedId>& names = result.ids.names()[static_cast<std::size_t>(kind)];
+        return integer == 0 ? std::string() : names.at(integer - 1).name;
+    };
+    for (const IdKind kind : {IdKind::object, IdKind::instance}) {
+        CHECK(at(kind, 6, size / 2) == "left");
+        CHECK(at(kind, size / 2, size / 2) == "wall");
+        CHECK(at(kind, size / 2, size - 1).empty());
+    }
+    CHECK(at(IdKind::material, 6, size / 2) == "paint");
+}
+
 TEST_CASE("counts of ids are the same for any threads, tiles, parts, crops and integrators",
           "[ids]")
 {

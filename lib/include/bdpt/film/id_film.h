@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Counts the objects, materials and instances that camera rays meet, for Cryptomatte.
+/// Counts the objects, materials and instances that camera rays meet, for Cryptomatte and masks.
 ///
 /// @code{.cpp}
 /// void write_cryptomatte(const bdpt::RenderResult& result)  // rendered with Aov::object
@@ -83,6 +83,12 @@ public:
     [[nodiscard]] std::vector<Layer> develop(const Film& film) const;
     /// Returns the manifests of these layers. They include names that no ray has hit.
     [[nodiscard]] std::vector<IdManifest> manifests() const;
+
+    /// Returns an integer for each pixel of the region, row by row: n if most of its rays hit the
+    /// n-th name of that kind in `names()`, counted from 1, and 0 if most hit nothing; ties go to
+    /// the smaller integer. Empty if the kind was not requested. `film` must hold the same samples;
+    /// throws `Error` (usage) if its region differs.
+    [[nodiscard]] std::vector<std::uint32_t> mask(IdKind kind, const Film& film) const;
 
     // Access for files: each rank of a kind is a plane that holds the rank-th id (high) of every
     // pixel, in the order of ids, and its count (low); zeros where the pixel has fewer ids.

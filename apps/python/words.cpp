@@ -225,10 +225,14 @@ const char* format_call(Call call)
                             format_call(call), keyword, format_call(other)));
         }
     }
-    const bool is_size = (keyword == "width" || keyword == "height" || keyword == "resolution") &&
-                         collect_options(call).contains("size");
+    std::string name = "--" + keyword;
+    std::replace(name.begin(), name.end(), '_', '-');
+    const auto foreign = job::find_foreign(name, render_options());
+    const job::Option* const ours = foreign ? render_options().find(foreign->option) : nullptr;
     fail_keyword(format_call(call), keyword,
-                 is_size ? "size" : job::closest(keyword, collect_keywords(call)));
+                 ours != nullptr && belongs(*ours, call)
+                     ? to_keyword(*ours)
+                     : job::closest(keyword, collect_keywords(call)));
 }
 
 /// Tests whether a value can be an option: a text, a path, a number, or several of them.

@@ -31,6 +31,8 @@ TINY = {"spp": 1, "size": (2, 2)}
     (lambda box: bdpt.render(box, camera=object()), TypeError, "^camera=<object"),
     (lambda box: bdpt.render(box, integrator="path"), ValueError, r"^integrator='path': expected .*\(did you mean 'mis'\?\)"),
     (lambda box: bdpt.render(box, sppp=3), TypeError, r"^render\(\) got an unexpected keyword argument 'sppp'; did you mean 'spp'\?$"),
+    (lambda box: bdpt.render(box, samples_per_pixel=3), TypeError, "'samples_per_pixel'; did you mean 'spp'"),
+    (lambda box: bdpt.load(BOX, envmap="a.exr"), TypeError, "'envmap'; did you mean 'env'"),
     (lambda box: bdpt.render(box, env="none"), TypeError, r"'env': it is an option of load\(\)$"),
     (lambda box: bdpt.load(BOX, zzz=1), TypeError, r"^load\(\) got an unexpected keyword argument 'zzz'$"),
     (lambda box: bdpt.render(box, view="front", from_=(1, 2, 3)), ValueError, "^view cannot be combined with from_$"),

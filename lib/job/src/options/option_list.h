@@ -223,6 +223,17 @@ void check(std::span<const Need> needs, const OptionList& options);
 /// Throws `OptionError` if both are given: "--samples cannot be combined with --spp".
 void check(std::span<const Conflict> conflicts, const OptionList& options);
 
+/// What somebody meant who typed an option of another program.
+struct ForeignOption {
+    std::string_view option;  ///< of ours, "--size"; empty: any command
+    std::string_view advice;  ///< what to type
+};
+
+/// Returns what `name`, "--width" or "-s", means if another program has it, and the option is one
+/// of `options`.
+[[nodiscard]] std::optional<ForeignOption> find_foreign(std::string_view name,
+                                                        const OptionList& options);
+
 /// Returns the word that `text` was probably meant to be; none if all are far from it.
 [[nodiscard]] std::optional<std::string> closest(std::string_view text,
                                                  std::span<const std::string> words);

@@ -162,8 +162,10 @@ SceneDesc describe(const std::vector<ArrayMesh>& meshes, const std::vector<Array
 
 void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
                 const std::vector<ArrayLight>& lights, const std::optional<PythonCamera>& camera,
-                const std::pair<int, int>& size)
+                const std::optional<std::pair<int, int>>& asked)
 {
+    const job::Size own = camera && camera->size ? *camera->size : job::Size{1280, 720};
+    const std::pair<int, int> size = asked.value_or(std::pair(own.width, own.height));
     check_size(size);
     Scene scene(describe(meshes, lights));
     std::string environment = "scene";
@@ -229,8 +231,9 @@ void bind_parts_of_scenes(nb::module_& module)
     nb::object scene = module.attr("Scene");
     nb::cast<nb::class_<PythonScene>>(scene).def(
         "__init__", &make_scene, nb::arg("meshes"), nb::arg("lights") = std::vector<ArrayLight>(),
-        nb::arg("camera") = nb::none(), nb::arg("size") = std::pair(1280, 720),
-        "Scene of meshes, lights and a camera; without a camera, the whole scene is framed, and "
+        nb::arg("camera") = nb::none(), nb::arg("size") = nb::none(),
+        "Scene of meshes, lights and a camera, whose image has this size [pixels] (default: that "
+        "of the camera, or 1280 x 720); without a camera, the whole scene is framed, and "
         "without light it gets a key and a rim light (a room a soft sky, a closed one a lamp). "
         "Everything is copied; afterwards its materials and lights refuse changes.");
 }

@@ -248,7 +248,7 @@ void warn_if_black(const Render& render, const PythonScene& scene)
         return;
     }
     const std::string text =
-        job::black_image_text(scene.file.empty() ? "scene of arrays" : scene.file);
+        in_keywords(job::black_image_text(scene.file.empty() ? "scene of arrays" : scene.file));
     if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) {
         throw nb::python_error();
     }

@@ -67,6 +67,8 @@ def test_a_camera_states_the_size_of_its_image():
     assert bdpt.render(scene, **quick).image.shape == (32, 48, 3)
     assert bdpt.render(scene, size=(24, 16), **quick).image.shape == (16, 24, 3)
     assert bdpt.render(scene, spp=1, camera=bdpt.Camera.from_matrix(pose, fov=40)).image.shape == (10, 10, 3)
+    assert bdpt.Scene([make_wall(pose)], camera=camera).size == SIZE
+    assert bdpt.Scene([make_wall(pose)], camera=camera, size=(8, 8)).size == (8, 8)
     assert np.allclose(camera.intrinsics(), [[60, 0, 24], [0, 60, 16], [0, 0, 1]], rtol=1e-6)
     assert np.allclose(camera.intrinsics((24, 16)), [[30, 0, 12], [0, 30, 8], [0, 0, 1]], rtol=1e-6)
 

@@ -24,7 +24,7 @@ def to_scene(source: Any, smooth: bool, lights: Sequence[Any], camera: Camera | 
             width, height = map(int, lens.resolution)
             camera = Camera.from_matrix(source.camera_transform, fx=lens.K[0, 0], fy=lens.K[1, 1], cx=lens.K[0, 2],
                                         cy=lens.K[1, 2], size=(width, height))
-    return Scene(meshes, lights, camera, size or (camera and camera.size) or (1280, 720))
+    return Scene(meshes, lights, camera, size)
 
 
 # trimesh
@@ -119,11 +119,11 @@ def convert_nodes(source: Any) -> Iterator[Mesh]:
             if primitive.mode != triangles_mode:
                 continue
             count = len(primitive.positions)
-            triangles = np.arange(count).reshape(-1, 3) if primitive.indices is None else primitive.indices
+            indices = np.arange(count) if primitive.indices is None else np.asarray(primitive.indices, np.int64)  # floats there
             poses = [np.eye(4)] if primitive.poses is None else primitive.poses
             uvs = None if primitive.texcoord_0 is None else np.asarray(primitive.texcoord_0)[:, :2] * (1, -1) + (0, 1)
             material = convert_material(primitive.material) if primitive.material is not None else {"metallic": 0.0}
-            yield Mesh(primitive.positions, triangles, primitive.normals, uvs, Material(**material),
+            yield Mesh(primitive.positions, indices.reshape(-1, 3), primitive.normals, uvs, Material(**material),
                        np.array([place @ pose for pose in poses]), node.mesh.name or node.name or "", primitive.color_0)
 
 

@@ -27,6 +27,9 @@ struct ViewDirection {
     float elevation = 0.0f;  ///< in [-pi/2, pi/2]; positive above the horizon
 };
 
+/// Returns the unit vector in that direction. Bit-identical on all machines.
+[[nodiscard]] BDPT_EXPORT Vec3 unit_vector(const ViewDirection& direction);
+
 /// The usual view of objects: from 35 degrees to the right, and 20 above.
 inline constexpr ViewDirection three_quarter_view{.azimuth = 0.6108652f, .elevation = 0.3490659f};
 

@@ -122,10 +122,9 @@ namespace {
 constexpr float max_half = 65504.0f;
 
 /// Returns the crop in the whole image; Imath's boxes include their upper corner.
-Imath::Box2i data_window(const Image& image, const ExrPlacement& placement)
+Imath::Box2i data_window(int width, int height, const ExrPlacement& placement)
 {
-    return {{placement.x, placement.y},
-            {placement.x + image.width - 1, placement.y + image.height - 1}};
+    return {{placement.x, placement.y}, {placement.x + width - 1, placement.y + height - 1}};
 }
 
 /// One channel of a file: the layout of its values in memory.
@@ -244,6 +243,21 @@ Content make_content(const Image& image, std::span<const Layer> layers, const Ex
     return content;
 }
 
+void write(const std::filesystem::path& file, int width, int height, const Content& content,
+           const ExrOptions& options)
+{
+    const ExrPlacement placement = options.placement.value_or(
+        ExrPlacement{.x = 0, .y = 0, .full_width = width, .full_height = height});
+    const Imath::Box2i window = data_window(width, height, placement);
+    OutputFile output(file);
+    ExrStream stream(output, file.string());
+    with_write_errors(file, [&] {
+        write_to(stream, make_header(window, placement, content, options),
+                 make_frame_buffer(window, content));
+    });
+    output.commit();
+}
+
 ExrReport make_report(const Image& image, const ExrOptions& options)
 {
     ExrReport report;
@@ -268,18 +282,18 @@ ExrReport write_exr(const std::filesystem::path& file, const Image& image,
                     std::span<const Layer> layers, const ExrOptions& options)
 {
     check_pixels(file, image.width, image.height, image.pixels.size());
-    const Content content = make_content(image, layers, options);
-    const ExrPlacement placement = options.placement.value_or(
-        ExrPlacement{.x = 0, .y = 0, .full_width = image.width, .full_height = image.height});
-    const Imath::Box2i window = data_window(image, placement);
-    OutputFile output(file);
-    ExrStream stream(output, file.string());
-    with_write_errors(file, [&] {
-        write_to(stream, make_header(window, placement, content, options),
-                 make_frame_buffer(window, content));
-    });
-    output.commit();
+    write(file, image.width, image.height, make_content(image, layers, options), options);
     return make_report(image, options);
+}
+
+void write_exr(const std::filesystem::path& file, const Layer& layer, const ExrOptions& options)
+{
+    const std::size_t channels = std::max<std::size_t>(layer.channels.size(), 1);
+    const bool is_whole = layer.values.size() % channels == 0;
+    check_pixels(file, layer.width, layer.height, is_whole ? layer.values.size() / channels : 0);
+    Content content(options.type == ExrChannelType::half_float ? Imf::HALF : Imf::FLOAT);
+    content.add(layer.name, layer.channels, layer.values.data(), layer.values.size() / channels);
+    write(file, layer.width, layer.height, content, options);
 }
 
 }  // namespace bdpt::io

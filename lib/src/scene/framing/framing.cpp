@@ -101,9 +101,8 @@ CameraDesc look_at(Vec3 from, Vec3 to, float vertical_fov)
 Mat3 axes_towards(const ViewDirection& direction)
 {
     const SinCos azimuth = sin_cos(direction.azimuth);
-    const SinCos elevation = sin_cos(direction.elevation);
     const Vec3 right(azimuth.cos, 0.0f, -azimuth.sin);
-    const Vec3 back(elevation.cos * azimuth.sin, elevation.sin, elevation.cos * azimuth.cos);
+    const Vec3 back = unit_vector(direction);
     return Mat3(right, cross(back, right), back);
 }
 
@@ -294,6 +293,13 @@ glm::dmat3 turn_about_y(float angle)
 }
 
 }  // namespace
+
+Vec3 unit_vector(const ViewDirection& direction)
+{
+    const SinCos azimuth = sin_cos(direction.azimuth);
+    const SinCos elevation = sin_cos(direction.elevation);
+    return {elevation.cos * azimuth.sin, elevation.sin, elevation.cos * azimuth.cos};
+}
 
 FramedView frame_scene(const Scene& scene, float aspect, const FrameOptions& options)
 {

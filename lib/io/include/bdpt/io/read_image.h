@@ -60,6 +60,11 @@ struct LoadedImage {
 [[nodiscard]] BDPT_EXPORT LoadedImage read_image(const std::filesystem::path& file,
                                                  const ImageOptions& options = {});
 
+/// Reads a PNG, JPEG or WebP file as stored: integers of 8 or 16 bits, as of masks. Throws `Error`
+/// as `read_image`.
+[[nodiscard]] BDPT_EXPORT TexelImage read_texels(const std::filesystem::path& file,
+                                                 const ReadLimits& limits = {});
+
 /// Limits on an environment, and what is refused.
 struct EnvironmentOptions {
     ReadLimits limits{};

@@ -134,6 +134,11 @@ BDPT_EXPORT ExrReport write_exr(const std::filesystem::path& file, const Image& 
 BDPT_EXPORT ExrReport write_exr(const std::filesystem::path& file, const Image& image,
                                 std::span<const Layer> layers, const ExrOptions& options);
 
+/// Writes a file that has the channels of `layer` alone. Throws `Error`: output, and usage for a
+/// layer without pixels, or with too few or too many.
+BDPT_EXPORT void write_exr(const std::filesystem::path& file, const Layer& layer,
+                           const ExrOptions& options);
+
 /// Data of the file beside the image.
 struct PngOptions {
     float exposure = 0.0f;  ///< exposure of the image [EV]; for the record

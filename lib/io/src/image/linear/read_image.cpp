@@ -54,6 +54,15 @@ LoadedImage read_image(const std::filesystem::path& file, const ImageOptions& op
     return with_named_errors(file, [&] { return load(file, options); });
 }
 
+TexelImage read_texels(const std::filesystem::path& file, const ReadLimits& limits)
+{
+    return with_named_errors(file, [&] {
+        const Bytes bytes = read_named(file, limits.file_bytes);
+        return with_library_errors(ErrorCode::invalid_input, "",
+                                   [&] { return decode_texels(bytes, limits).image; });
+    });
+}
+
 namespace {
 
 std::uint64_t count_pixels(int width, int height)

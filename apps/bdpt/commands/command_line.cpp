@@ -28,6 +28,7 @@ constexpr const char* program_footer = R"(Examples:
   bdpt render model.glb                                        (writes model.png)
   bdpt render scene.glb -o out.exr -o preview.png --spp 256
   bdpt develop out.exr -o bright.png --exposure 2
+  bdpt dataset models/*.glb -o views
   bdpt view scene.glb
   bdpt info scene.glb
   bdpt plan scene.glb -o out.exr --spp 4096 --parts 64 --for slurm -d job
@@ -58,6 +59,7 @@ CommandLine::CommandLine()
     program.footer = program_footer;
     program.version = version_text;  // a callback, as it asks Embree, which starts threads
     add_render_command(program);
+    add_dataset_command(program);
     add_view_command(program);
     add_plan_command(program);
     add_merge_command(program);

@@ -13,6 +13,7 @@ namespace bdpt::app {
 // Each function adds a command: its options, and what it does with them.
 
 void add_render_command(Program& program);
+void add_dataset_command(Program& program);
 void add_view_command(Program& program);
 void add_plan_command(Program& program);
 void add_merge_command(Program& program);

@@ -45,15 +45,6 @@ JobImage complete_image(const RenderArguments& arguments)
             .samples_per_pixel = arguments.samples.end - arguments.samples.begin};
 }
 
-/// Adds a cache of images, if the file is loaded for several frames.
-RenderArguments with_cache(RenderArguments arguments)
-{
-    if (arguments.sequence && arguments.sequence->frames && arguments.sequence->orbit == 0) {
-        arguments.scene.images = std::make_shared<io::ImageCache>(image_cache_bytes(arguments));
-    }
-    return arguments;
-}
-
 PreparedScene load(const RenderArguments& arguments, Console& console)
 {
     PreparedScene stage = prepare_within_memory(arguments, console);
@@ -106,10 +97,53 @@ void check_files_of_plan(const RenderArguments& asked, const Plan& plan)
 
 }  // namespace
 
+RenderArguments with_image_cache(RenderArguments arguments)
+{
+    if (arguments.sequence && arguments.sequence->frames && arguments.sequence->orbit == 0) {
+        arguments.scene.images = std::make_shared<io::ImageCache>(image_cache_bytes(arguments));
+    }
+    return arguments;
+}
+
+RenderArguments completed_for_screens(RenderArguments image, const RenderArguments& asked,
+                                      PreparedScene& stage, std::optional<io::Denoiser>& denoiser,
+                                      SharedByViews& shared, Console& console)
+{
+    if (!shared.exposure && meters_light(asked, stage)) {
+        shared.exposure = metered_exposure(stage, image);
+    }
+    image.light_exposure = shared.exposure;
+    if (denoiser && asked.denoise.kind == Denoising::automatic && !shared.guides) {
+        shared.guides = spend_guides(stage.memory, asked);
+        if (!shared.guides) {
+            console.note(
+                Note{"not_denoised",
+                     "not denoised: too little memory is left (--denoise denoises anyway)"},
+                Repeat::never);
+            denoiser.reset();
+            image.denoise.kind = Denoising::none;
+        }
+    }
+    if (!shared.has_ground) {
+        shared.has_ground = adds_ground(image, stage) &&
+                            std::any_of(image.outputs.begin(), image.outputs.end(), is_for_screens);
+        if (*shared.has_ground) {
+            spend_ground(stage.memory, asked);
+        }
+    }
+    for (const Aov guide : shared.guides.value_or(std::vector<Aov>())) {
+        image = with_screen_aov(std::move(image), guide);
+    }
+    if (*shared.has_ground) {
+        image = with_screen_aov(std::move(image), Aov::shadow);
+    }
+    return image;
+}
+
 JobResult run_render(const RenderArguments& typed, const std::vector<std::string>& words,
                      Console& console, Interrupt& interrupt)
 {
-    const RenderArguments asked = with_cache(typed);
+    const RenderArguments asked = with_image_cache(typed);
     check_patterns(asked);
     if (const std::optional<std::string> warning =
             warning_of_flicker(asked, FramesBy::one_process)) {
@@ -147,10 +181,8 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
         open_denoiser(asked.denoise, asked.outputs, asked.options.system.threads);
     std::optional<double> time = asked.scene.time;
     std::optional<Viewpoint> first;
-    std::optional<Scene> still;              // before its environment was turned
-    std::optional<float> exposure;           // by the light of the first frame, for all frames
-    std::optional<std::vector<Aov>> guides;  // of automatic denoising
-    std::optional<bool> has_ground;          // though it was not requested
+    std::optional<Scene> still;  // before its environment was turned
+    SharedByViews shared;
     JobResult result;
     for (const SequenceView& view : views) {
         if (interrupt.stopped_by()) {
@@ -183,8 +215,8 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
             stage.reset();  // first, to avoid two scenes in memory
             first.reset();
             still.reset();
-            guides.reset();
-            has_ground.reset();
+            shared.guides.reset();
+            shared.has_ground.reset();
             stage = load(image, console);
             time = image.scene.time;
         }
@@ -195,34 +227,7 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
             first = Viewpoint{
                 .camera = stage->camera, .size = stage->size, .is_framed = stage->is_framed};
         }
-        if (!exposure && meters_light(asked, *stage)) {
-            exposure = metered_exposure(*stage, image);
-        }
-        image.light_exposure = exposure;
-        if (denoiser && asked.denoise.kind == Denoising::automatic && !guides) {
-            guides = spend_guides(stage->memory, asked);
-            if (!guides) {
-                console.note(
-                    Note{"not_denoised",
-                         "not denoised: too little memory is left (--denoise denoises anyway)"},
-                    Repeat::never);
-                denoiser.reset();
-                image.denoise.kind = Denoising::none;
-            }
-        }
-        if (!has_ground) {
-            has_ground = adds_ground(image, *stage) &&
-                         std::any_of(image.outputs.begin(), image.outputs.end(), is_for_screens);
-            if (*has_ground) {
-                spend_ground(stage->memory, asked);
-            }
-        }
-        for (const Aov guide : guides.value_or(std::vector<Aov>())) {
-            image = with_screen_aov(std::move(image), guide);
-        }
-        if (*has_ground) {
-            image = with_screen_aov(std::move(image), Aov::shadow);
-        }
+        image = completed_for_screens(std::move(image), asked, *stage, denoiser, shared, console);
         Viewpoint seen = sequence_viewpoint(*stage, *first, image);
         if (view.turn && image.sequence->motion == TurntableMotion::object) {
             if (!still) {

@@ -28,6 +28,25 @@ namespace bdpt::job {
                                    const std::vector<std::string>& words, Console& console,
                                    Interrupt& interrupt);
 
+/// Adds a cache of images, if the file is loaded for several frames.
+[[nodiscard]] RenderArguments with_image_cache(RenderArguments arguments);
+
+/// What files for screens of all views of a scene share.
+struct SharedByViews {
+    std::optional<float> exposure{};           ///< by the light of the first one [EV]
+    std::optional<std::vector<Aov>> guides{};  ///< layers for automatic denoising
+    std::optional<bool> has_ground{};          ///< though it was not requested
+};
+
+/// Returns `image`, a view of `asked`, with the exposure and the layers that its files for screens
+/// need, and charges their memory. Without memory for automatic denoising `denoiser` is closed.
+/// Throws `Error`.
+[[nodiscard]] RenderArguments completed_for_screens(RenderArguments image,
+                                                    const RenderArguments& asked,
+                                                    PreparedScene& stage,
+                                                    std::optional<io::Denoiser>& denoiser,
+                                                    SharedByViews& shared, Console& console);
+
 /// State shared by the views of a job.
 struct RenderSession {
     Console& console;

@@ -28,7 +28,7 @@ set(BDPT_PYTHON_INSTALL_DIR "${default_folder}" CACHE STRING "Where the Python p
 
 set(package "${BDPT_PYTHON_PATH}/bdpt")
 install(TARGETS bdpt_python LIBRARY DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
-install(FILES "${package}/__init__.py" "${package}/_signatures.py" "${package}/_trimesh.py" "${package}/py.typed" "${package}/_bdpt.pyi"
+install(FILES "${package}/__init__.py" "${package}/_dataset.py" "${package}/_signatures.py" "${package}/_trimesh.py" "${package}/py.typed" "${package}/_bdpt.pyi"
         DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
 if(DEFINED SKBUILD)
   # A wheel contains bdpt_io twice, in its module and in its program; both find companions beside themselves.

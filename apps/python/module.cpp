@@ -59,6 +59,7 @@ NB_MODULE(_bdpt, module)
     bdpt::python::bind_parts_of_scenes(module);
     bdpt::python::bind_edits(module);
     bdpt::python::bind_scene_data(module);
+    bdpt::python::bind_dataset(module);
     bdpt::python::bind_render(module);
     bdpt::python::bind_job(module);
     module.def("compare", &compare, nb::arg("image"), nb::arg("reference"),

@@ -1,3 +1,4 @@
+#include <bdpt/tools/intrinsics.h>
 #include <bdpt/tools/scene_builder.h>
 #include <fmt/core.h>
 #include <nanobind/stl/array.h>
@@ -156,7 +157,7 @@ PythonCamera from_matrix(const nb::object& pose, const std::optional<double>& fo
         const double y = fy.value_or(x);
         check("fx", x, x > 0.0, "a number above 0");
         check("fy", y, y > 0.0, "a number above 0");
-        desc.vertical_fov = static_cast<float>(2.0 * std::atan(0.5 * size->second / y));
+        desc.vertical_fov = static_cast<float>(angle_of_view(y, size->second));
         desc.pixel_aspect = static_cast<float>(y / x);
     }
     for_each_field(desc, [](const auto& field, const auto& value) {
@@ -175,14 +176,12 @@ nb::object intrinsics(const PythonCamera& camera, const std::optional<IntPair>& 
     const job::Size size = asked ? job::Size{asked->first, asked->second} : *camera.size;
     check_size({size.width, size.height});
     const CameraDesc& desc = camera.desc;
-    const double width = size.width;
-    const double height = size.height;
-    const double fy = desc.projection == Projection::perspective
-                          ? 0.5 * height / std::tan(0.5 * static_cast<double>(desc.vertical_fov))
-                          : height / static_cast<double>(desc.vertical_extent);
-    return to_numpy<double>({fy / static_cast<double>(desc.pixel_aspect), 0.0,
-                             width * (0.5 - static_cast<double>(desc.shift.x)), 0.0, fy,
-                             height * (0.5 + static_cast<double>(desc.shift.y)), 0.0, 0.0, 1.0},
+    Intrinsics values = bdpt::intrinsics(desc, size.width, size.height);
+    if (desc.projection == Projection::orthographic) {
+        values.fy = size.height / static_cast<double>(desc.vertical_extent);
+        values.fx = values.fy / static_cast<double>(desc.pixel_aspect);
+    }
+    return to_numpy<double>({values.fx, 0.0, values.cx, 0.0, values.fy, values.cy, 0.0, 0.0, 1.0},
                             {3, 3});
 }
 

@@ -40,6 +40,9 @@ void bind_edits(nanobind::module_& module);
 /// Binds what is in a `Scene`, as arrays: bounds, meshes, instances, rays.
 void bind_scene_data(nanobind::module_& module);
 
+/// Binds the views of a model in a data set.
+void bind_dataset(nanobind::module_& module);
+
 /// Returns `original` with another scene, but its camera, size and options.
 [[nodiscard]] PythonScene with_scene(const PythonScene& original, Scene scene,
                                      std::string environment_name);

@@ -64,6 +64,9 @@ camera = bdpt.Camera(from_=(0, 0, 0))  # refused: Camera
 camera = bdpt.Camera.from_matrix(np.eye(4), fx=500, cx=320.5, size=(640, 480), convention="opencv")
 camera = bdpt.Camera.from_matrix(np.eye(4), fov=40, convention="blender")  # refused: convention
 camera.fov = 3  # refused: fov
+for view in bdpt.dataset("models/*.glb", views=3, aov=["depth"], view_range=((-60, 60), (0, 45)), spp=4):
+    print(view.layers["depth"].max(), view.camera.matrix, view.names["object"][1])
+bdpt.dataset("chair.glb", views="many")  # refused: views
 focal_length: np.float64 = camera.intrinsics()[0, 0]
 render = bdpt.render(scene, camera=camera, spp=1)
 render = bdpt.render(scene, camera=scene.camera, spp=1)

@@ -13,11 +13,12 @@ from typing import Any, Iterator
 from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, Instance, InvalidCallError, InvalidValueError,
                     JobImage, JobProgress, Material, Mesh, MissingFileError, OutOfMemoryError, OutputError, PointLight,
                     RayHits, Render, Renderer, Scene, SpotLight, __version__, compare, load, read_part, render, run)
+from ._dataset import View, dataset
 from ._signatures import with_signature
 
 __all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "Instance", "InvalidCallError",
            "InvalidValueError", "JobImage", "JobProgress", "Material", "Mesh", "MissingFileError", "OutOfMemoryError",
-           "OutputError", "PointLight", "RayHits", "Render", "Renderer", "Scene", "SpotLight", "compare", "load",
+           "OutputError", "PointLight", "RayHits", "Render", "Renderer", "Scene", "SpotLight", "View", "compare", "dataset", "load",
            "orbit", "read_part", "render", "run"]
 
 load = with_signature(load)

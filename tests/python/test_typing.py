@@ -158,6 +158,11 @@ def test_a_type_checker_accepts_what_is_right_and_refuses_what_is_wrong(tmp_path
     assert all(re.search(word, found[number]) for number, word in expected.items()), done.stdout
 
 
+def test_the_example_of_learning_has_types(tmp_path):
+    done = mypy("mypy", "--strict", str(ROOT / "apps" / "python" / "learn_example.py"), cwd=tmp_path)
+    assert "no issues found" in done.stdout, done.stdout + done.stderr
+
+
 def test_stubs_are_those_of_the_module(tmp_path):
     done = mypy("mypy.stubtest", "bdpt", cwd=tmp_path)
     # nanobind adds these to all classes and functions; the tests above check their arguments.

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <list>
 #include <map>
@@ -85,11 +86,14 @@ public:
     }
     void show(const DatasetModel& model, double share)
     {
-        console_.task(
-            {.fraction = (static_cast<double>(ended_) + share) / static_cast<double>(all_),
-             .seconds = 0.0,
-             .seconds_left = {},
-             .activity = fmt::format("{}, model {} of {}", model.name, ended_ + 1, all_)});
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+        const double fraction = (static_cast<double>(ended_) + share) / static_cast<double>(all_);
+        TaskProgress progress{.fraction = fraction, .seconds = passed.count(), .activity = {}};
+        if (fraction > 0.0) {
+            progress.seconds_left = passed.count() * (1.0 - fraction) / fraction;
+        }
+        progress.activity = fmt::format("{}, model {} of {}", model.name, ended_ + 1, all_);
+        console_.task(progress);
     }
     void tell_all()
     {
@@ -113,6 +117,7 @@ private:
     std::size_t failures_ = 0;
     std::size_t views_ = 0;
     int first_failure_ = 0;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 /// Tells the process that started this one, by lines on the standard output.
@@ -338,8 +343,9 @@ void write_summary(const DatasetArguments& arguments, const std::vector<DatasetM
         const fs::path folder = arguments.folder / model.name;
         for (const ordered_json& line : final_lines(folder)) {
             text += line.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-            if (arguments.coco && line.contains("view")) {
-                const std::string image = line.at("files").at(0).get<std::string>();
+            const std::vector<std::string> files = files_of(line);
+            if (arguments.coco && line.contains("view") && !files.empty()) {
+                const std::string& image = files.front();
                 const fs::path stem = folder / fs::path(image).stem();
                 annotated.push_back({.image = (fs::path(model.name) / image).generic_string(),
                                      .instances = stem.string() + ".instance.png",

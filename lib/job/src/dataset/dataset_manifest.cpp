@@ -34,6 +34,16 @@ std::vector<ordered_json> read_lines(const fs::path& file)
     return lines;
 }
 
+std::optional<std::size_t> number_of(const ordered_json& line, const char* key)
+{
+    const auto found = line.find(key);
+    return found != line.end() && found->is_number_unsigned()
+               ? std::optional(found->get<std::size_t>())
+               : std::nullopt;
+}
+
+}  // namespace
+
 std::vector<std::string> files_of(const ordered_json& line)
 {
     std::vector<std::string> files;
@@ -47,16 +57,6 @@ std::vector<std::string> files_of(const ordered_json& line)
     }
     return files;
 }
-
-std::optional<std::size_t> number_of(const ordered_json& line, const char* key)
-{
-    const auto found = line.find(key);
-    return found != line.end() && found->is_number_unsigned()
-               ? std::optional(found->get<std::size_t>())
-               : std::nullopt;
-}
-
-}  // namespace
 
 ModelManifest::ModelManifest(fs::path folder, const ContentHash& key)
     : folder_(std::move(folder)), key_(to_string(key))

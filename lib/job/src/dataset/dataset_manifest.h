@@ -53,4 +53,7 @@ void append_line(const std::filesystem::path& folder, const nlohmann::ordered_js
 /// of the others, in the order of views. Empty if there is none.
 [[nodiscard]] std::vector<nlohmann::ordered_json> final_lines(const std::filesystem::path& folder);
 
+/// Returns the names of the files of a line, the image first; empty if it has none.
+[[nodiscard]] std::vector<std::string> files_of(const nlohmann::ordered_json& line);
+
 }  // namespace bdpt::job

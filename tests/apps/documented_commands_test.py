@@ -65,6 +65,9 @@ def write_files(folder, root, bdpt):
     for name in ("sky.hdr", "vestibule.hdr"):
         (folder / name).write_bytes(SKY)
     shutil.copy(root / "scenes/smoke.vdb", folder / "fire.vdb")
+    (folder / "models").mkdir()
+    for name in ("chair", "table"):
+        write_glb(folder / "models" / f"{name}.glb", box)
     (folder / "seeds").mkdir()
     (folder / "out").mkdir()  # ./bootstrap demo makes it
     for words in (["scene.gltf", "-o", "reference.exr", "-o", "vestibule.jpg", "-o", "out.exr"],
@@ -96,6 +99,8 @@ def shorten_command(words, denoiser):
         words += [] if "--size" in words else SMALL_IMAGE
     if command == "render" and not {"--spp", "--samples", "--plan"} & set(words) and "room.json" not in words:
         words += ["--spp", "2"]
+    if command == "dataset":
+        words = replace_option(words, "--views", "2") + [*SMALL_IMAGE, "--spp", "2"]
     if command == "bench":
         words += ["--time", "0.05s", "--seeds", "2", *SMALL_IMAGE]
     if command == "verify":

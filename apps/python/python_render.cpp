@@ -83,39 +83,6 @@ job::SequenceView only_view(const job::RenderArguments& arguments)
     return views.front();
 }
 
-/// Shows the view of a task in a scene, while this lives.
-class Shown {
-public:
-    Shown(PythonScene& scene, Task& task, job::Size size)
-        : scene_(scene), task_(task), own_camera_(scene.stage.camera), own_size_(scene.stage.size)
-    {
-        scene.stage.camera = task.camera;
-        scene.stage.size = size;
-        swap_scenes();
-    }
-    Shown(const Shown&) = delete;
-    Shown& operator=(const Shown&) = delete;
-    ~Shown()
-    {
-        swap_scenes();
-        scene_.stage.camera = own_camera_;
-        scene_.stage.size = own_size_;
-    }
-
-private:
-    void swap_scenes()
-    {
-        if (task_.turned) {
-            std::swap(scene_.stage.scene, *task_.turned);
-        }
-    }
-
-    PythonScene& scene_;
-    Task& task_;
-    CameraDesc own_camera_;
-    job::Size own_size_;
-};
-
 /// Splits the options of render() into a `Camera`, if one is given, and the rest.
 std::pair<std::optional<PythonCamera>, nb::kwargs> split_camera(const nb::kwargs& options)
 {
@@ -131,24 +98,8 @@ std::pair<std::optional<PythonCamera>, nb::kwargs> split_camera(const nb::kwargs
     return {camera, nb::borrow<nb::kwargs>(others)};
 }
 
-/// Meters the light, also for a camera that the file does not have.
-std::optional<float> meter_light(job::PreparedScene& stage, job::RenderArguments arguments,
-                                 const std::optional<CameraDesc>& camera)
-{
-    if (!camera) {
-        return job::metered_exposure(stage, std::move(arguments));
-    }
-    const struct Added {
-        std::vector<CameraDesc>& cameras;
-        ~Added() { cameras.pop_back(); }
-    } added{stage.cameras};
-    arguments.camera = std::to_string(stage.cameras.size());
-    stage.cameras.push_back(*camera);
-    return job::metered_exposure(stage, std::move(arguments));
-}
-
 /// As `prepare`, but not yet with `MissingFile`.
-Task prepare_task(PythonScene& scene, const nb::kwargs& options)
+Task prepare_task(const PythonScene& scene, const nb::kwargs& options)
 {
     const auto [given, others] = split_camera(options);
     const Words own = to_words(others, Call::render);
@@ -159,76 +110,78 @@ Task prepare_task(PythonScene& scene, const nb::kwargs& options)
     }
     Task task{.arguments =
                   understand_render(combined(given ? without_view(scene.words) : scene.words, own)),
-              .camera = scene.stage.camera,
-              .metadata = {}};
+              .stage = scene.stage};
     job::RenderArguments& arguments = task.arguments;
+    job::PreparedScene& stage = task.stage;
     arguments.file = scene.file;
-    std::optional<CameraDesc> own_camera;
+    job::Viewpoint first;
     if (given) {
-        own_camera = given->in_world(scene.stage.scene.description().origin);
         if (given->size && !options.contains("size")) {
             arguments.size = given->size;
         }
+        first = {.camera = given->in_world(stage.scene.description().origin),
+                 .size = arguments.size.value_or(stage.size)};
+    } else {
+        first = first_viewpoint(scene, arguments, change_view(own));
     }
-    const job::Viewpoint first =
-        own_camera ? job::Viewpoint{.camera = *own_camera,
-                                    .size = arguments.size.value_or(scene.stage.size)}
-                   : first_viewpoint(scene, arguments, change_view(own));
+    const Unlocked unlocked;
+    std::optional<double> turn;  // of the environment, too
     job::Viewpoint seen = first;
     if (arguments.sequence) {
         const job::SequenceView view = only_view(arguments);
         arguments = make_view_arguments(arguments, view);
-        seen = sequence_viewpoint(scene.stage, first, arguments);
+        seen = sequence_viewpoint(stage, first, arguments);
         if (arguments.sequence->motion == job::TurntableMotion::object) {
-            const Unlocked unlocked;
-            task.turned = job::with_turned_environment(scene.stage.scene, *view.turn);
+            turn = view.turn;
         }
     }
-    const job::Size size = seen.size;
-    task.camera = std::move(seen.camera);
-    arguments.options.film.width = size.width;
-    arguments.options.film.height = size.height;
-    io::MemoryBudget memory = scene.stage.memory;
-    spend_film(memory, arguments.options, size);
+    arguments.options.film.width = seen.size.width;
+    arguments.options.film.height = seen.size.height;
+    io::MemoryBudget memory = stage.memory;
+    spend_film(memory, arguments.options, seen.size);
     arguments.options.sampling.samples = arguments.samples;
-    if (job::meters_light(arguments, scene.stage)) {
+    if (job::meters_light(arguments, stage)) {
+        job::RenderArguments metered = arguments;
+        if (given) {
+            metered.camera = std::to_string(stage.cameras.size());
+            stage.cameras.push_back(first.camera);
+        }
         arguments.light_exposure =
-            meter_light(scene.stage, arguments, own_camera);  // shared by all views of a turn
+            job::metered_exposure(stage, std::move(metered));  // shared by all views of a turn
+    }
+    stage.camera = std::move(seen.camera);
+    stage.size = seen.size;
+    if (turn) {
+        stage.scene = job::with_turned_environment(stage.scene, *turn);
     }
     // Renders of a given time have no rates, as in the command.
     arguments.may_adapt = arguments.may_adapt && !std::isfinite(arguments.goal.seconds);
     const bool chooses = arguments.options.integrator == IntegratorKind::automatic;
-    {
-        const Shown shown(scene, task, size);
-        {
-            const Unlocked unlocked;
-            job::Console silent;
-            arguments = with_choice(std::move(arguments), scene.stage, silent);
-        }
-        nlohmann::ordered_json settings = make_settings(arguments, scene.stage);
-        if (chooses) {
-            settings["chosen_by"] = "auto";
-        }
-        task.metadata = make_metadata(arguments, scene.stage, settings);
+    job::Console silent;
+    arguments = with_choice(std::move(arguments), stage, silent);
+    nlohmann::ordered_json settings = make_settings(arguments, stage);
+    if (chooses) {
+        settings["chosen_by"] = "auto";
     }
+    task.metadata = make_metadata(arguments, stage, settings);
     job::check_backplate(arguments.display);
     return task;
 }
 
 }  // namespace
 
-Task prepare(PythonScene& scene, const nb::kwargs& options)
+Task prepare(const PythonScene& scene, const nb::kwargs& options)
 {
     return with_missing_file(given_paths(options, Call::render),
                              [&] { return prepare_task(scene, options); });
 }
 
-Render empty_render(const PythonScene& scene, const Task& task)
+Render empty_render(const Task& task)
 {
     return {.part = {},
             .notes = {.goal = SampleSet(task.arguments.samples), .metadata = task.metadata},
             .backdrop = task.arguments.display.backdrop,
-            .inputs = job::input_files(task.arguments, scene.stage)};
+            .inputs = job::input_files(task.arguments, task.stage)};
 }
 
 RenderControl make_control(const nb::object& progress)
@@ -254,17 +207,17 @@ void warn_if_black(const Render& render, const PythonScene& scene)
     }
 }
 
-Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kwargs& options)
+Render render_scene(const PythonScene& scene, const nb::object& progress, const nb::kwargs& options)
 {
     const Task task = prepare(scene, options);
     const job::RenderArguments& arguments = task.arguments;
-    Render result = empty_render(scene, task);
+    Render result = empty_render(task);
     RenderControl control = make_control(progress);
     control.time_limit = arguments.goal.seconds;
     control.noise_goal = arguments.goal.noise.value_or(0.0);
     {
         const Unlocked unlocked;
-        result.part = bdpt::render(task.scene(scene), task.camera, arguments.options, control);
+        result.part = bdpt::render(task.stage.scene, task.stage.camera, arguments.options, control);
     }
     warn_if_black(result, scene);
     return result;

@@ -26,22 +26,16 @@ struct Render {
 /// Input of one call of render().
 struct Task {
     job::RenderArguments arguments;
-    CameraDesc camera;
-    io::ImageMetadata metadata;
-    std::optional<Scene> turned{};  ///< replaces the scene: a turntable whose light stands still
-
-    [[nodiscard]] const Scene& scene(const PythonScene& given) const
-    {
-        return turned ? *turned : given.stage.scene;
-    }
+    job::PreparedScene stage;  ///< shows the view of this call; shares the geometry of the `Scene`
+    io::ImageMetadata metadata{};
 };
 
-/// Prepares the task of render() with these options. The scene is unchanged: another size applies
-/// to this call only. Throws `Error`.
-[[nodiscard]] Task prepare(PythonScene& scene, const nanobind::kwargs& options);
+/// Prepares the task of render() with these options. The scene is unchanged: other threads may
+/// render other views of it. Throws `Error`.
+[[nodiscard]] Task prepare(const PythonScene& scene, const nanobind::kwargs& options);
 
 /// Returns a render of `task` without samples.
-[[nodiscard]] Render empty_render(const PythonScene& scene, const Task& task);
+[[nodiscard]] Render empty_render(const Task& task);
 
 /// Returns a control that checks for Ctrl-C between passes and calls `progress`, unless that is
 /// None.

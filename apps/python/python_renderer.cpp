@@ -16,14 +16,14 @@ namespace {
 /// A `bdpt::Renderer`, and the data that a `Render` of its samples needs.
 class PythonRenderer {
 public:
-    PythonRenderer(PythonScene& scene, Task asked)
+    explicit PythonRenderer(Task asked)
         : task_(std::move(asked)),
-          result_(empty_render(scene, task_)),
+          result_(empty_render(task_)),
           seconds_(task_.arguments.goal.seconds),
           noise_(task_.arguments.goal.noise.value_or(0.0))
     {
         const Unlocked unlocked;
-        renderer_.emplace(task_.scene(scene), task_.camera, task_.arguments.options);
+        renderer_.emplace(task_.stage.scene, task_.stage.camera, task_.arguments.options);
     }
 
     void render(std::int64_t samples, const nb::object& progress)
@@ -97,11 +97,10 @@ void bind_renderer(nb::module_& module)
         "image in between. With `spp` samples the image is bit-identical to one render().")
         .def(
             "__init__",
-            [](PythonRenderer* self, PythonScene& scene, const nb::kwargs& options) {
-                new (self) PythonRenderer(scene, prepare(scene, options));
+            [](PythonRenderer* self, const PythonScene& scene, const nb::kwargs& options) {
+                new (self) PythonRenderer(prepare(scene, options));
             },
-            nb::arg("scene"), nb::arg("options"), nb::keep_alive<1, 2>(), nb::sig(making.c_str()),
-            text_of_making.c_str())
+            nb::arg("scene"), nb::arg("options"), nb::sig(making.c_str()), text_of_making.c_str())
         .def("render", &PythonRenderer::render, nb::arg("samples"),
              nb::arg("progress").none() = nb::none(),
              "Adds that many samples to each pixel. progress is as in render(); samples rendered "

@@ -1,6 +1,7 @@
 """Tests renders from Python: equal bits with the command, adding parts, progress and interrupts."""
 
 import base64
+import concurrent.futures
 import json
 import pathlib
 import subprocess
@@ -197,6 +198,19 @@ def test_other_threads_run_while_it_renders(cornell_box):
     done.set()
     counter.join()
     assert after - before > 1000
+
+
+def test_threads_render_views_of_one_scene():
+    """Each call sees its own camera, size and turn alone, in its pilot too."""
+    scene = bdpt.load(SCENES / "instances.gltf", env="studio")
+    views = [{"orbit": 4, "turn": turn, "frames": view, "size": (160 + 16 * view, 128)}
+             for turn in ("object", "camera") for view in (2, 3, 4)]
+    render = lambda view: bdpt.render(scene, spp=4, **view).image.copy()
+    alone = [render(view) for view in views]
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        images = list(pool.map(render, views))
+    assert [np.array_equal(image, expected) for image, expected in zip(images, alone)] == 6 * [True]
+    assert len({image.tobytes() for image in alone}) == 6
 
 
 def test_control_c_ends_a_render():

@@ -47,16 +47,13 @@ struct SceneCounts {
 };
 
 /// A scene that is ready to trace: validated, with its Embree BVH built, immutable and safe to
-/// share between threads.
+/// share between threads. Copies share everything: a copy takes no time.
 class BDPT_EXPORT Scene {
 public:
     /// Throws `Error`: invalid_input if an index, a transform or a value in `desc` is invalid, and
     /// the message names the item and the value; usage if this CPU lacks `isa`; out_of_memory or
     /// internal if Embree fails.
     explicit Scene(SharedSceneDesc desc, Isa isa = Isa::native);
-    Scene(Scene&&) noexcept;
-    Scene& operator=(Scene&&) noexcept;
-    ~Scene();
 
     /// Returns the description of the scene. Its lists are shared: a copy takes no time.
     [[nodiscard]] const SharedSceneDesc& description() const;
@@ -92,9 +89,9 @@ public:
 
 private:
     struct State;
-    explicit Scene(std::unique_ptr<const State> state);
+    explicit Scene(std::shared_ptr<const State> state);
 
-    std::unique_ptr<const State> state_;
+    std::shared_ptr<const State> state_;
 };
 
 }  // namespace bdpt

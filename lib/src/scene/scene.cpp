@@ -59,12 +59,9 @@ struct Scene::State {
 };
 
 Scene::Scene(SharedSceneDesc desc, Isa isa)
-    : state_(std::make_unique<const State>(std::move(desc), isa))
+    : state_(std::make_shared<const State>(std::move(desc), isa))
 {}
-Scene::Scene(std::unique_ptr<const State> state) : state_(std::move(state)) {}
-Scene::Scene(Scene&&) noexcept = default;
-Scene& Scene::operator=(Scene&&) noexcept = default;
-Scene::~Scene() = default;
+Scene::Scene(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
 const SharedSceneDesc& Scene::description() const
 {
@@ -73,7 +70,7 @@ const SharedSceneDesc& Scene::description() const
 
 Scene Scene::edited(SharedSceneDesc desc) const
 {
-    return Scene(std::make_unique<const State>(std::move(desc), *state_));
+    return Scene(std::make_shared<const State>(std::move(desc), *state_));
 }
 
 Scene Scene::with(MaterialId id, MaterialDesc material) const

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -356,6 +357,15 @@ TEST_CASE("an edited scene has the bits of one that is built from its descriptio
     const RenderResult after = rendered(scene, IntegratorKind::bdpt);
     CHECK(before.film.develop().pixels == after.film.develop().pixels);
     CHECK(before.identity == after.identity);
+}
+
+TEST_CASE("a copy of a scene shares all of it", "[edit]")
+{
+    std::optional<Scene> scene(all_kinds());
+    const Scene copy = *scene;
+    CHECK(&copy.world() == &scene->world());
+    scene.reset();
+    CHECK(copy.counts().triangles > 0);
 }
 
 TEST_CASE("edits of edited scenes have their bits, too, when the scenes before are gone",

@@ -150,7 +150,7 @@ void LiveScene::change_environment(const EnvironmentChange& change)
             Scene edited = base.with_environment(changed(*environment, change));
             let_go_();
             if (!still_) {
-                still_.emplace(std::move(stage_->scene));
+                still_ = stage_->scene;
             }
             stage_->scene = std::move(edited);
             break;

@@ -3,6 +3,7 @@
 import json
 import pathlib
 import resource
+import struct
 import subprocess
 import sys
 
@@ -18,6 +19,16 @@ from exr_file import ExrFile
 SMALL = {"views": 2, "size": (32, 24), "spp": 2, "integrator": "pt", "seed": 5}
 MODELS = [SCENES / "cornell-box.gltf", SCENES / "room-spot.gltf"]
 LAYERS = ["depth", "distance", "normal", "camera-normal", "uv", "position", "mask", "flow"]
+
+
+def read_png(file):
+    """Returns the compressed pixels of a PNG file, without its metadata, which have times."""
+    data, at, pixels = file.read_bytes(), 8, b""
+    while at < len(data):
+        size, kind = struct.unpack_from(">I4s", data, at)
+        pixels += data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
+        at += 12 + size
+    return pixels
 
 
 def read_exr(file, channels):
@@ -43,6 +54,33 @@ def test_views_are_those_of_the_command(command, tmp_path):
         names = json.loads((folder / "masks.json").read_text())
         assert view.names == names
     assert seen == [("cornell-box", 0), ("cornell-box", 1), ("room-spot", 0), ("room-spot", 1)]
+
+
+def test_pictures_are_those_of_the_command(command, tmp_path):
+    """The views of a model have one exposure, that of the first one."""
+    command("dataset", MODELS[0], "-o", tmp_path, "--views", 3, "--size", "32x24", "--spp", 2, "--integrator", "pt", "--seed", 5,
+            "--image", "png", "--env", "studio", "--denoise=false", "--quiet")
+    exposures = set()
+    for view in bdpt.dataset(MODELS[0], env="studio", **{**SMALL, "views": 3}):
+        view.render.save(tmp_path / "ours.png", exposure=view.exposure, denoise=False)
+        assert read_png(tmp_path / "ours.png") == read_png(tmp_path / "cornell-box" / f"{view.index:04}.png")
+        exposures.add(view.exposure)
+    assert len(exposures) == 1 and exposures.pop() is not None
+
+
+def test_sizes_are_those_of_poses(command, tmp_path):
+    command("dataset", MODELS[0], "-o", tmp_path, "--views", 1, "--size", "20x30", "--spp", 1, "--integrator", "pt", "--quiet")
+    (view,) = bdpt.dataset(MODELS[0], poses=tmp_path / "cornell-box" / "transforms.json", spp=1, integrator="pt")
+    assert view.image.shape == (30, 20, 3)
+    (view,) = bdpt.dataset(MODELS[0], 1, spp=1, integrator="pt")
+    assert view.image.shape == (512, 512, 3)
+
+
+def test_lenses_blur():
+    model, lenses = SCENES / "cornell-spheres.gltf", ({}, {"lens_radius": 1, "focus_distance": 2})
+    sharp, blurred = (next(bdpt.dataset(model, env="studio", **lens, **{**SMALL, "integrator": "mis", "spp": 64})) for lens in lenses)
+    contrast = [np.abs(np.diff(view.image, axis=0)).mean() for view in (sharp, blurred)]
+    assert contrast[1] < 0.8 * contrast[0]
 
 
 def test_layers_agree_with_each_other():
@@ -82,6 +120,15 @@ def test_broken_models_are_warned_of(tmp_path):
         assert len(list(bdpt.dataset(files, **SMALL))) == 2
     with pytest.raises(bdpt.Error):
         list(bdpt.dataset(files, on_error="raise", **SMALL))
+
+
+def test_wrong_calls_raise_at_once(tmp_path):
+    with pytest.raises(TypeError, match="sppp"):
+        bdpt.dataset(MODELS[0], sppp=3)
+    with pytest.raises(ValueError, match="views"):
+        bdpt.dataset(MODELS[0], views=0)
+    with pytest.raises(FileNotFoundError):
+        bdpt.dataset(tmp_path / "*.glb")
 
 
 @pytest.mark.parametrize("wrong, error", [({"views": 0}, "views"), ({"aov": "color"}, "aov"), ({"sppp": 3}, "sppp"),

@@ -3,7 +3,6 @@
 import dataclasses
 import glob
 import inspect
-import json
 import os
 import pathlib
 import warnings
@@ -12,12 +11,13 @@ from typing import Any, Iterator, Optional, Sequence, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._bdpt import Camera, Error, Render, Scene, ModelViews, load, render
+from ._bdpt import Camera, Error, Render, Scene, ModelViews, check_dataset_words, load, render
 from ._signatures import with_signature
 
 Range = Union[float, tuple[float, float]]
 Path = Union[str, "os.PathLike[str]"]
 
+_VIEW = ("fov", "f_stop", "lens_radius", "focus_distance")  # options of cameras that are drawn here
 _USAGE = 2  # code of errors in calls, which the next model has, too
 _LOAD = frozenset(inspect.signature(with_signature(load)).parameters) - {"file"}
 _RENDER = frozenset(inspect.signature(with_signature(render)).parameters)
@@ -35,7 +35,7 @@ class View:
         "object", "instance", "material" (height, width), 0 where nothing is hit; "flow" (height, width, 2) [pixels] to
         the next view, and "flow_visible", True where the point is visible there. The last view has no flow.
     names: for masks, by kind: names["object"][i] is the name of integer i
-    exposure: of rgb [EV], by the light of the model's first view; None: each view has its own (closed rooms)
+    exposure: of rgb [EV], by the light of the model's first view; None: no light falls on it, each view has its own
     """
 
     model: str
@@ -83,7 +83,7 @@ def _files(models: Union[Path, Sequence[Path]]) -> list[str]:
 def dataset(models: Union[Path, Sequence[Path]], views: Optional[int] = None, *,
             view_range: Union[str, tuple[tuple[float, float], tuple[float, float]], None] = None,
             distance: Optional[Range] = None, fov_range: Optional[tuple[float, float]] = None,
-            poses: Optional[Path] = None, seed: int = 0, size: tuple[int, int] = (512, 512),
+            poses: Optional[Path] = None, seed: int = 0, size: Optional[tuple[int, int]] = None,
             aov: Union[str, Sequence[str]] = (), root: Optional[Path] = None, on_error: str = "warn",
             **options: Any) -> Iterator[View]:
     """Yields views of models, one model after the other: those of the command bdpt dataset, to the bit.
@@ -94,37 +94,51 @@ def dataset(models: Union[Path, Sequence[Path]], views: Optional[int] = None, *,
     distance: a number or a range; at 1 the bounding sphere just fits
     fov_range: range of vertical fields of view [degrees]; fov=... for a single one
     poses: a transforms.json with cameras, in place of drawn ones
+    size: width and height [pixels]; default: that of poses, else (512, 512)
     aov: of depth, distance, normal, camera-normal, uv, position, mask, flow: see View.layers
     root: names models by their paths from this folder; else by the names of their files
     on_error: "warn" goes on with the next model if one cannot be loaded or rendered, "raise" raises
-    options: those of load() and render(), such as env="studio", spp=32
+    options: those of load() and render(), such as env="studio", spp=32, f_stop=2.8
 
-    Raises ValueError and TypeError for wrong values, FileNotFoundError for a pattern without files.
+    Raises ValueError and TypeError for wrong values, FileNotFoundError for a pattern without files, when it is called.
     """
     if on_error not in ("warn", "raise"):
         raise ValueError(f"on_error={on_error!r}: expected 'warn' or 'raise'")
     given = {"views": views, "distance": distance, "fov-range": fov_range, "poses": poses, "seed": seed,
-             "fov": options.pop("fov", None), "size": f"{size[0]}x{size[1]}",
+             "size": size and "x".join(map(str, size)), **{name.replace("_", "-"): options.pop(name, None) for name in _VIEW},
              "aov": aov if isinstance(aov, str) else ",".join(aov),
              "view-range": view_range if view_range is None or isinstance(view_range, str)
              else ",".join(map(_text, view_range))}
     words = [f"--{name}={_text(value)}" for name, value in given.items() if value not in (None, "")]
+    check_dataset_words(words)
     of_load = {name: value for name, value in options.items() if name in _LOAD and name not in _RENDER}
     of_render = {name: value for name, value in options.items() if name not in of_load}
-    for file in _files(models):
-        path = pathlib.Path(file)
-        name = path.stem if root is None else path.resolve().relative_to(pathlib.Path(root).resolve()).with_suffix("").as_posix()
+    for name in of_render:
+        if name not in _RENDER:
+            raise TypeError(f"dataset() has no option {name}")
+    return _views(_named(models, root), words, of_load, of_render, on_error == "raise")
+
+
+def _named(models: Union[Path, Sequence[Path]], root: Optional[Path]) -> list[tuple[str, str]]:
+    """Returns the names of models and their files."""
+    paths = [pathlib.Path(file) for file in _files(models)]
+    if root is None:
+        return [(path.stem, str(path)) for path in paths]
+    base = pathlib.Path(root).resolve()
+    return [(path.resolve().relative_to(base).with_suffix("").as_posix(), str(path)) for path in paths]
+
+
+def _views(models: Sequence[tuple[str, str]], words: list[str], of_load: dict[str, Any], of_render: dict[str, Any],
+           raises: bool) -> Iterator[View]:
+    for name, file in models:
         try:
             scene = load(file, **of_load)
             model = ModelViews(scene, name, words)
-            exposure = None
-            for index, (camera, number) in enumerate(zip(model.cameras, model.seeds)):
-                picture = render(scene, camera=camera, seed=number, **of_render)
-                if index == 0:
-                    exposure = json.loads(picture.settings).get("light_exposure")
+            for index, (camera, seed) in enumerate(zip(model.cameras, model.seeds)):
+                picture = render(scene, camera=camera, seed=seed, **of_render)
                 layers, names = model.layers(scene, index)
-                yield View(name, file, index, scene, camera, picture, layers, names, exposure)
+                yield View(name, file, index, scene, camera, picture, layers, names, model.exposure)
         except Error as error:
-            if on_error == "raise" or error.code == _USAGE:
+            if raises or error.code == _USAGE:
                 raise
-            warnings.warn(str(error), stacklevel=2)
+            warnings.warn(str(error), stacklevel=3)

@@ -11,7 +11,7 @@
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
+#include <map>
 #include <string>
 
 namespace bdpt {
@@ -90,25 +90,29 @@ PixelHits pixel_hits(const Scene& scene, const CameraDesc& camera, int width, in
     return seen;
 }
 
-IdMask id_mask(const Scene& scene, const PixelHits& seen, IdKind kind)
+IdNumbers id_numbers(const Scene& scene, IdKind kind)
 {
     const auto index = static_cast<std::size_t>(kind);
     const SceneNames scene_names(scene.description());
-    const std::vector<NamedId> named = scene_names.names({id_aovs[index]})[index];
-    const std::vector<NameId> of_instances = scene_names.ids(kind);
-    std::vector<std::uint32_t> numbers;  // of instances
-    for (const NameId id : of_instances) {
-        const auto found = std::find_if(named.begin(), named.end(),
-                                        [id](const NamedId& name) { return name.id == id; });
-        numbers.push_back(static_cast<std::uint32_t>(found - named.begin()) + 1);
+    IdNumbers numbers{.of_instances = {}, .names = {""}};
+    std::map<NameId, std::uint32_t> by_id;
+    const IdNames names = scene_names.names({id_aovs[index]});
+    for (const NamedId& named : names[index]) {
+        by_id.emplace(named.id, static_cast<std::uint32_t>(numbers.names.size()));
+        numbers.names.push_back(named.name);
     }
-    IdMask mask;
-    mask.values.reserve(seen.hits.size());
+    for (const NameId id : scene_names.ids(kind)) {
+        numbers.of_instances.push_back(by_id.at(id));
+    }
+    return numbers;
+}
+
+std::vector<std::uint32_t> id_mask(const PixelHits& seen, const IdNumbers& numbers)
+{
+    std::vector<std::uint32_t> mask;
+    mask.reserve(seen.hits.size());
     for (const std::optional<SurfaceHit>& hit : seen.hits) {
-        mask.values.push_back(hit && hit->instance ? numbers[*hit->instance] : 0);
-    }
-    for (const NamedId& name : named) {
-        mask.names.push_back(name.name);
+        mask.push_back(hit && hit->instance ? numbers.of_instances.at(*hit->instance) : 0);
     }
     return mask;
 }

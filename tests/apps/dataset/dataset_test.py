@@ -4,6 +4,7 @@
 import json
 import math
 import pathlib
+import shutil
 import signal
 import struct
 import subprocess
@@ -240,6 +241,36 @@ def test_kills(folder, whole):
     expect(kills >= 3 and found == expected, f"killed {kills} times, it has the bits of one run")
 
 
+def test_exposure(folder):
+    """Makes the other views when the first one is there: they keep its exposure."""
+    cases = {"orbit": (BOX, "--orbit", "4"), "cameras": (SCENES / "motion.gltf", "--cameras", "all"), "drawn": (BOX, "--views", "3")}
+    for name, words in cases.items():
+        words = [*words, "--env", "studio", "--size", "32x24", "--spp", "2", "--integrator", "pt", "--denoise=false"]
+        whole, again = folder / f"{name}-whole", folder / f"{name}-again"
+        run(*words, "-o", whole)
+        shutil.copytree(whole, again)
+        for file in sorted(again.rglob("*.png"))[1:]:
+            file.unlink()
+        run(*words, "-o", again)
+        expect(contents(again) == contents(whole), f"{name}: views keep the exposure of the first one, also when it is there")
+
+
+def test_environments(folder):
+    """Lets models draw one of several environments."""
+    for index in range(3):
+        write_hdr(folder / f"sky{index}.hdr", index)
+    out = folder / "skies"
+    run(BOX, SPOT, "-o", out, *SMALL, "--env", folder / "sky*.hdr")
+    lines = [line for line in read_lines(out / "manifest.jsonl") if "view" in line]
+    drawn = {model: {line["env"] for line in lines if line["model"] == model} for model in ("cornell-box", "room-spot")}
+    expect(all(len(names) == 1 for names in drawn.values()), "all views of a model have the environment that it draws")
+
+
+def write_hdr(file, index):
+    """Writes a grey Radiance image of 8 x 4 pixels, without run lengths."""
+    file.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n" + bytes([128, 128, 128, 128 + index]) * 32)
+
+
 def test_stop(folder):
     out = folder / "stopped"
     words = [BDPT, "dataset", str(BOX), str(SPOT), "-o", str(out), *SMALL, "--spp", "2000"]
@@ -336,6 +367,8 @@ def main():
         test_other_options(folder)
         test_shares(folder, out)
         test_kills(folder, out)
+        test_exposure(folder)
+        test_environments(folder)
         test_stop(folder)
         test_limits(folder)
         test_poses(folder, out)

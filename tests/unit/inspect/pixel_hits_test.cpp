@@ -100,19 +100,23 @@ TEST_CASE("masks number the things that pixels show", "[pixel_hits]")
 {
     const Scene scene(stage(-1.0f));
     const PixelHits seen = pixel_hits(scene, camera_at(0.0f), width, height);
-    const IdMask objects = id_mask(scene, seen, IdKind::object);
-    REQUIRE(objects.names == std::vector<std::string>{"box", "wall"});
-    const IdMask materials = id_mask(scene, seen, IdKind::material);
-    REQUIRE(materials.names == std::vector<std::string>{"grey"});
-    const IdMask instances = id_mask(scene, seen, IdKind::instance);
-    REQUIRE(instances.names.size() == 3);
+    const IdNumbers of_objects = id_numbers(scene, IdKind::object);
+    REQUIRE(of_objects.names == std::vector<std::string>{"", "box", "wall"});
+    CHECK(of_objects.of_instances == std::vector<std::uint32_t>{2, 1, 1});
+    const IdNumbers of_materials = id_numbers(scene, IdKind::material);
+    REQUIRE(of_materials.names == std::vector<std::string>{"", "grey"});
+    const IdNumbers of_instances = id_numbers(scene, IdKind::instance);
+    REQUIRE(of_instances.names.size() == 4);
+    const std::vector<std::uint32_t> objects = id_mask(seen, of_objects);
+    const std::vector<std::uint32_t> materials = id_mask(seen, of_materials);
+    const std::vector<std::uint32_t> instances = id_mask(seen, of_instances);
     for (std::size_t i = 0; i < seen.hits.size(); ++i) {
         const std::uint32_t instance = seen.hits[i]->instance.value();
-        CHECK(objects.values[i] == (instance == 0 ? 2u : 1u));
-        CHECK(materials.values[i] == 1u);
+        CHECK(objects[i] == (instance == 0 ? 2u : 1u));
+        CHECK(materials[i] == 1u);
     }
     const auto number_at = [&](int x) {
-        return instances.values[static_cast<std::size_t>(height / 2 * width + x)];
+        return instances[static_cast<std::size_t>(height / 2 * width + x)];
     };
     CHECK(number_at(8) != number_at(24));  // two boxes
     CHECK(number_at(8) != number_at(0));
@@ -125,7 +129,7 @@ TEST_CASE("nothing is numbered 0", "[pixel_hits]")
     const Scene scene(desc);
     const PixelHits seen = pixel_hits(scene, camera_at(0.0f), width, height);
     CHECK_FALSE(seen.at(0, 0));
-    CHECK(id_mask(scene, seen, IdKind::object).values.front() == 0);
+    CHECK(id_mask(seen, id_numbers(scene, IdKind::object)).front() == 0);
 }
 
 TEST_CASE("optical flow is where a point goes, as camera and things move", "[pixel_hits]")

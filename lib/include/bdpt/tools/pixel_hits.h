@@ -49,14 +49,20 @@ struct PixelHits {
 [[nodiscard]] BDPT_EXPORT PixelHits pixel_hits(const Scene& scene, const CameraDesc& camera,
                                                int width, int height);
 
-/// An integer for each pixel, and the names that the integers stand for.
-struct IdMask {
-    std::vector<std::uint32_t> values;  ///< row by row: 1 + index of the name; 0: nothing
-    std::vector<std::string> names;     ///< those of `IdFilm::names`, whether visible or not
+/// The integers that stand for the things of a kind in masks, and their names.
+struct IdNumbers {
+    std::vector<std::uint32_t> of_instances;  ///< by index of the instance, from 1 on
+    /// Name `i` is that of integer `i`: "" of 0, which is nothing, then those of `IdFilm::names`.
+    std::vector<std::string> names;
 };
 
-/// Returns the things of a kind that pixels show. The spheres of lights count as nothing.
-[[nodiscard]] BDPT_EXPORT IdMask id_mask(const Scene& scene, const PixelHits& seen, IdKind kind);
+/// Returns the integers of all things of a kind in the scene, whether visible or not.
+[[nodiscard]] BDPT_EXPORT IdNumbers id_numbers(const Scene& scene, IdKind kind);
+
+/// Returns the integers of what pixels show, row by row. The spheres of lights count as nothing.
+/// `numbers` are those of the scene in which the pixels were seen.
+[[nodiscard]] BDPT_EXPORT std::vector<std::uint32_t> id_mask(const PixelHits& seen,
+                                                             const IdNumbers& numbers);
 
 /// The motion of what a pixel shows.
 struct PixelFlow {

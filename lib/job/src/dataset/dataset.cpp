@@ -277,9 +277,7 @@ private:
             message = fmt::format("its process ended by signal {}{}", code - of_signals,
                                   message.empty() ? "" : ": " + message);
         }
-        if (end.timed_out || code > of_signals) {
-            record_failure(arguments_, model, code, message);  // others are recorded by the process
-        }
+        record_failure(arguments_, model, code, message);
         tally_.failed(model, code, message);
     }
 
@@ -296,18 +294,9 @@ int run_for_parent(const DatasetArguments& arguments, Interrupt& interrupt)
     const DatasetModel model{.file = arguments.models.front(),
                              .name = name_of(arguments.models.front(), arguments.root)};
     LineProgress progress;
-    try {
-        const ModelResult result = render_model(arguments, model, progress, interrupt);
-        std::fputs(fmt::format("done {} {}\n", result.views, result.rendered).c_str(), stdout);
-        return 0;
-    } catch (const Error& error) {
-        record_failure(arguments, model, static_cast<int>(error.code()), error.what());
-        throw;
-    } catch (const std::bad_alloc&) {
-        record_failure(arguments, model, static_cast<int>(ErrorCode::out_of_memory),
-                       "out of memory");
-        throw;
-    }
+    const ModelResult result = render_model(arguments, model, progress, interrupt);
+    std::fputs(fmt::format("done {} {}\n", result.views, result.rendered).c_str(), stdout);
+    return 0;
 }
 
 }  // namespace

@@ -271,7 +271,7 @@ std::vector<LayerValues> float_layers(const DatasetArguments& arguments, const S
 
 void write_layers(const DatasetArguments& arguments, const fs::path& folder,
                   std::string_view number, const Scene& scene, const CameraDesc& camera,
-                  const PixelHits& seen)
+                  const PixelHits& seen, std::span<const IdNumbers> masks)
 {
     for (LayerValues& layer : float_layers(arguments, scene, camera, seen)) {
         if (layer.name == "depth") {
@@ -280,11 +280,9 @@ void write_layers(const DatasetArguments& arguments, const fs::path& folder,
         write_exr_layer(folder / file_name(number, layer.name, "exr"), seen, layer.channels,
                         std::move(layer.values));
     }
-    if (arguments.has(DatasetLayer::mask)) {
-        for (const IdKind kind : id_kinds) {
-            write_integers(folder / file_name(number, mask_name(kind), "png"), seen,
-                           id_mask(scene, seen, kind).values);
-        }
+    for (std::size_t kind = 0; kind < masks.size(); ++kind) {
+        write_integers(folder / file_name(number, mask_name(id_kinds.at(kind)), "png"), seen,
+                       id_mask(seen, masks[kind]));
     }
 }
 
@@ -300,18 +298,29 @@ void write_flow(const fs::path& folder, std::string_view number, const PixelHits
     write_exr_layer(folder / file_name(number, "flow", "exr"), seen, "RGB", std::move(values));
 }
 
-void write_mask_names(const fs::path& folder, const Scene& scene)
+std::vector<IdNumbers> mask_numbers(const DatasetArguments& arguments, const Scene& scene)
+{
+    std::vector<IdNumbers> masks;
+    if (!arguments.has(DatasetLayer::mask)) {
+        return masks;
+    }
+    for (const IdKind kind : id_kinds) {
+        masks.push_back(id_numbers(scene, kind));
+        const std::size_t count = masks.back().names.size() - 1;  // without that of 0
+        if (count > UINT16_MAX) {
+            throw Error(ErrorCode::unsupported,
+                        fmt::format("{} names of {}s do not fit the 16 bits of a mask", count,
+                                    mask_name(kind)));
+        }
+    }
+    return masks;
+}
+
+void write_mask_names(const fs::path& folder, std::span<const IdNumbers> masks)
 {
     ordered_json json = ordered_json::object();
-    for (const IdKind kind : id_kinds) {
-        std::vector<std::string> names = id_mask(scene, {}, kind).names;
-        if (names.size() > UINT16_MAX) {
-            throw Error(ErrorCode::unsupported,
-                        fmt::format("{} names of {}s do not fit the 16 bits of a mask",
-                                    names.size(), mask_name(kind)));
-        }
-        names.insert(names.begin(), "");
-        json[std::string(mask_name(kind))] = std::move(names);
+    for (std::size_t kind = 0; kind < masks.size(); ++kind) {
+        json[std::string(mask_name(id_kinds.at(kind)))] = masks[kind].names;
     }
     write_text(folder / "masks.json",
                json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");

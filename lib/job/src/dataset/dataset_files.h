@@ -36,17 +36,23 @@ struct LayerValues {
                                                     const Scene& scene, const CameraDesc& camera,
                                                     const PixelHits& seen);
 
-/// Writes the layers of a view that need no other view into `folder`. Throws `Error` (output).
+/// Writes the layers of a view that need no other view into `folder`. `masks` are the integers of
+/// the scene's things, in the order of `id_kinds`; empty without masks. Throws `Error` (output).
 void write_layers(const DatasetArguments& arguments, const std::filesystem::path& folder,
                   std::string_view number, const Scene& scene, const CameraDesc& camera,
-                  const PixelHits& seen);
+                  const PixelHits& seen, std::span<const IdNumbers> masks);
 
 /// Writes the flow from a view to the next one. Throws `Error` (output).
 void write_flow(const std::filesystem::path& folder, std::string_view number, const PixelHits& seen,
                 std::span<const PixelFlow> flow);
 
-/// Writes masks.json: the names of the integers in masks; the first is that of 0, "".
-void write_mask_names(const std::filesystem::path& folder, const Scene& scene);
+/// Returns the integers of masks, in the order of `id_kinds`; empty if none were asked for. Throws
+/// `Error` (unsupported) if the names of a kind do not fit 16 bits.
+[[nodiscard]] std::vector<IdNumbers> mask_numbers(const DatasetArguments& arguments,
+                                                  const Scene& scene);
+
+/// Writes masks.json: the names of the integers. Throws `Error` (output).
+void write_mask_names(const std::filesystem::path& folder, std::span<const IdNumbers> masks);
 
 /// A view whose instances are annotated.
 struct AnnotatedView {

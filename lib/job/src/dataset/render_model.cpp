@@ -165,8 +165,9 @@ private:
         }
         denoiser_ = open_denoiser(asked_.denoise, std::vector{image_file(0)},
                                   asked_.options.system.threads);
-        if (arguments_.has(DatasetLayer::mask)) {
-            write_mask_names(folder_, stage_->scene);
+        masks_ = mask_numbers(arguments_, stage_->scene);
+        if (!masks_.empty()) {
+            write_mask_names(folder_, masks_);
         }
     }
 
@@ -201,7 +202,7 @@ private:
             stage_->size = seen.size;
             if (view.sequence->turn && asked_.sequence->motion == TurntableMotion::object) {
                 if (!still_) {
-                    still_.emplace(std::move(stage_->scene));
+                    still_ = stage_->scene;
                 }
                 stage_->scene = with_turned_environment(*still_, *view.sequence->turn);
             }
@@ -219,6 +220,16 @@ private:
         image.size = stage_->size;
         image.outputs = {image_file(index)};
         return image;
+    }
+
+    /// Meters the light of the first view, for the exposure of all, also if it was rendered before.
+    void meter()
+    {
+        const RenderArguments image = pose(0);
+        shared_.is_metered = true;
+        if (meters_light(image, *stage_)) {
+            shared_.exposure = metered_exposure(stage_->scene, stage_->camera, stage_->size);
+        }
     }
 
     /// Renders a view unless it is there, and finishes the one before. Returns false if it was
@@ -242,7 +253,12 @@ private:
         if (!arguments_.layers.empty()) {
             seen =
                 pixel_hits(stage_->scene, stage_->camera, stage_->size.width, stage_->size.height);
-            write_layers(arguments_, folder_, number(index), stage_->scene, stage_->camera, seen);
+            write_layers(arguments_, folder_, number(index), stage_->scene, stage_->camera, seen,
+                         masks_);
+        }
+        if (!shared_.is_metered) {
+            meter();
+            image = pose(index);
         }
         image =
             completed_for_screens(std::move(image), asked_, *stage_, denoiser_, shared_, console_);
@@ -316,6 +332,7 @@ private:
     std::optional<io::Denoiser> denoiser_;
     SharedByViews shared_;
     std::vector<View> views_;
+    std::vector<IdNumbers> masks_;
     std::vector<PoseRecord> records_;
     std::optional<Pending> pending_;
     std::vector<std::string> warnings_;

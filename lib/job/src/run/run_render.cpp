@@ -109,7 +109,7 @@ RenderArguments completed_for_screens(RenderArguments image, const RenderArgumen
                                       PreparedScene& stage, std::optional<io::Denoiser>& denoiser,
                                       SharedByViews& shared, Console& console)
 {
-    if (!shared.exposure && meters_light(asked, stage)) {
+    if (!std::exchange(shared.is_metered, true) && meters_light(asked, stage)) {
         shared.exposure = metered_exposure(stage, image);
     }
     image.light_exposure = shared.exposure;
@@ -231,7 +231,7 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
         Viewpoint seen = sequence_viewpoint(*stage, *first, image);
         if (view.turn && image.sequence->motion == TurntableMotion::object) {
             if (!still) {
-                still.emplace(std::move(stage->scene));
+                still = stage->scene;
             }
             stage->scene = with_turned_environment(*still, *view.turn);
         }

@@ -33,7 +33,8 @@ namespace bdpt::job {
 
 /// What files for screens of all views of a scene share.
 struct SharedByViews {
-    std::optional<float> exposure{};           ///< by the light of the first one [EV]
+    bool is_metered = false;                   ///< `exposure` is known
+    std::optional<float> exposure{};           ///< by the light of the first one, if any [EV]
     std::optional<std::vector<Aov>> guides{};  ///< layers for automatic denoising
     std::optional<bool> has_ground{};          ///< though it was not requested
 };

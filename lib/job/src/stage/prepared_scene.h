@@ -166,6 +166,9 @@ void spend_ground(io::MemoryBudget& memory, const RenderArguments& arguments);
 /// it.
 [[nodiscard]] std::optional<float> metered_exposure(const PreparedScene& stage,
                                                     RenderArguments arguments);
+/// The same for a view of the scene, with an image of `size`.
+[[nodiscard]] std::optional<float> metered_exposure(const Scene& scene, const CameraDesc& camera,
+                                                    const Size& size);
 
 /// Completes the options of `arguments`: fills in size, samples and limits of memory, chooses open
 /// options by a pilot, and adds sample rates from a file or another pilot, unless they have them

@@ -368,8 +368,14 @@ std::optional<float> metered_exposure(const PreparedScene& stage, RenderArgument
 {
     arguments.size.reset();
     const Viewpoint seen = viewpoint(stage, arguments);
-    const float aspect = static_cast<float>(seen.size.width) / static_cast<float>(seen.size.height);
-    return light_exposure(light_level(white_cards(stage.scene, seen.camera, {.aspect = aspect})));
+    return metered_exposure(stage.scene, seen.camera, seen.size);
+}
+
+std::optional<float> metered_exposure(const Scene& scene, const CameraDesc& camera,
+                                      const Size& size)
+{
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    return light_exposure(light_level(white_cards(scene, camera, {.aspect = aspect})));
 }
 
 double light_beyond_max_depth(const RenderArguments& arguments, const PreparedScene& stage)

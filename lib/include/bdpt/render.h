@@ -80,10 +80,11 @@ struct IntegratorChoice {
 
 /// Returns `options` with IntegratorKind::automatic replaced: by mis, or by bdpt with `light_paths`
 /// and `connections`. A pilot, a short render of its own, makes the choice; it depends on the
-/// scene, the camera and the options, but not on seed, samples, crop or threads. The choice is bdpt
-/// with one light path if the options limit or show strategies, or request another heuristic than
-/// balance and power. Other integrators are kept. A request of `abandon` ends the pilot within the
-/// time of a few rows of its pixels; the choice is then meaningless. Throws `Error` like render().
+/// scene, the camera and the options, but not on seed, samples or threads. A crop is measured as an
+/// image of its own, and gets as many light paths as that would. The choice is bdpt with one light
+/// path if the options limit or show strategies, or request another heuristic than balance and
+/// power. Other integrators are kept. A request of `abandon` ends the pilot within the time of a
+/// few rows of its pixels; the choice is then meaningless. Throws `Error` like render().
 [[nodiscard]] BDPT_EXPORT IntegratorChoice choose_integrator(const Scene& scene,
                                                              const CameraDesc& camera,
                                                              const RenderOptions& options,

@@ -44,14 +44,14 @@ RenderOptions inspected_options(const Scene& scene, const CameraDesc& camera, Re
                         " is outside of the image of " + std::to_string(options.film.width) + "x" +
                         std::to_string(options.film.height) + " pixels");
     }
+    options.bidirectional.strategy_depth = 0;
+    options = chosen_options(scene, camera, options);  // before the crop, which has its own choice
     options.film.crop =
         PixelRect{.x0 = sample.x, .y0 = sample.y, .x1 = sample.x + 1, .y1 = sample.y + 1};
     options.film.aovs = {};
     options.sampling.samples = {.begin = sample.index, .end = sample.index + 1};
     options.sampling.rates = nullptr;
-    options.bidirectional.strategy_depth = 0;
     options.system.threads = 1;
-    options = chosen_options(scene, camera, options);
     if (options.integrator == IntegratorKind::vcm) {
         throw Error(ErrorCode::usage,
                     "vcm cannot be inspected: its merged paths belong to no strategy (s, t)");

@@ -6,10 +6,16 @@
 #include "render/open_camera.h"
 #include "threads/threads.h"
 
+#include <bdpt/tools/intrinsics.h>
+
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace bdpt {
 namespace {
@@ -45,6 +51,52 @@ Candidate unmeasured(const Scene& scene)
     return may_miss_light ? few_splats : candidates.front();
 }
 
+/// The image that a render shows: the crop, if there is one, as an image of its own.
+struct ShownImage {
+    CameraDesc camera;
+    RenderOptions options;  ///< without crop and rates
+    double share = 1.0;     ///< of the pixels of the whole image
+
+    ShownImage(const CameraDesc& whole, const RenderOptions& asked) : camera(whole), options(asked)
+    {
+        options.film.crop.reset();
+        options.sampling.rates.reset();
+        if (!asked.film.crop) {
+            return;
+        }
+        const PixelRect& crop = *asked.film.crop;
+        FilmOptions& film = options.film;
+        Intrinsics values = intrinsics(camera, film.width, film.height);
+        values.cx -= crop.x0;
+        values.cy -= crop.y0;
+        camera.vertical_extent *=
+            static_cast<float>(crop.height()) / static_cast<float>(film.height);
+        share = static_cast<double>(crop.width()) / film.width * crop.height() / film.height;
+        film.width = crop.width();
+        film.height = crop.height();
+        set_intrinsics(camera, values, film.width, film.height);
+    }
+};
+
+/// Returns rates of the whole image that has these in its crop.
+std::shared_ptr<const SampleRates> rates_of_whole(std::shared_ptr<const SampleRates> rates,
+                                                  const FilmOptions& film)
+{
+    if (!rates || !film.crop) {
+        return rates;
+    }
+    std::vector<std::int8_t> exponents(static_cast<std::size_t>(film.width) *
+                                       static_cast<std::size_t>(film.height));
+    for (int y = film.crop->y0; y < film.crop->y1; ++y) {
+        for (int x = film.crop->x0; x < film.crop->x1; ++x) {
+            exponents[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
+                      static_cast<std::size_t>(x)] =
+                static_cast<std::int8_t>(rates->exponent(x - film.crop->x0, y - film.crop->y0));
+        }
+    }
+    return std::make_shared<const SampleRates>(film.width, film.height, std::move(exponents));
+}
+
 /// Tests for options that only bdpt supports, disabled strategies and strategy images, and for
 /// heuristics that pilots do not predict: they predict balance and power alone.
 bool asks_for_bdpt(const RenderOptions& options)
@@ -76,24 +128,27 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     if (asks_for_bdpt(options)) {
         return {.options = options};
     }
-    RenderOptions whole = options;
-    whole.film.crop.reset();
-    whole.sampling.rates.reset();
-    if (!is_worth_measuring(whole)) {
-        return {.options = with_candidate(options, unmeasured(scene))};
+    const ShownImage shown(camera, options);
+    const auto taking = [&](const Candidate& candidate) {
+        RenderOptions taken = with_candidate(options, candidate);
+        // As many light paths as an image of the crop alone has.
+        taken.bidirectional.light_paths *= shown.share;
+        return taken;
+    };
+    if (!is_worth_measuring(shown.options)) {
+        return {.options = taking(unmeasured(scene))};
     }
-    const MovingCamera opened = open_camera(scene.world(), camera, whole);
-    const auto learned = learned_light(scene.world(), camera, whole, abandon);
+    const MovingCamera opened = open_camera(scene.world(), shown.camera, shown.options);
+    const auto learned = learned_light(scene.world(), camera, options, abandon);
     Threads threads(options.system.threads);
     IntegratorChoice choice;
     threads.execute([&] {
         const PilotMeasurements pilot =
-            measure(scene.world(), opened, whole, learned.get(), abandon);
+            measure(scene.world(), opened, shown.options, learned.get(), abandon);
         const std::size_t best = choose(pilot);
-        choice = {.options = with_candidate(options, candidates[best]),
-                  .unseen_light = pilot.merging_alone};
+        choice = {.options = taking(candidates[best]), .unseen_light = pilot.merging_alone};
         if (!abandon.stop_requested() && !options.sampling.rates) {
-            choice.rates = choose_rates(pilot, best);
+            choice.rates = rates_of_whole(choose_rates(pilot, best), options.film);
         }
     });
     return choice;

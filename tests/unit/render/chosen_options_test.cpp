@@ -7,6 +7,7 @@
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -77,7 +78,6 @@ TEST_CASE("auto chooses the same for every part of an image", "[auto]")
     const Scene scene = hidden_lamp();
     const RenderOptions whole = choice(scene, small());
     RenderOptions part = small();
-    part.film.crop = PixelRect{.x0 = 3, .y0 = 4, .x1 = 9, .y1 = 8};
     part.sampling.samples = {.begin = 100, .end = 164};
     part.sampling.seed = 9;
     part.system.threads = 3;
@@ -85,8 +85,44 @@ TEST_CASE("auto chooses the same for every part of an image", "[auto]")
     part.bidirectional.light_paths = 3.0;
     part.film.aovs = AovSet{Aov::depth};
     CHECK(same_choice(choice(scene, part), whole));
-    CHECK(choice(scene, part).film.crop == part.film.crop);
     CHECK(choice(scene, part).sampling.seed == 9);
+}
+
+TEST_CASE("auto chooses for a crop as for an image of its own", "[auto]")
+{
+    const Scene scene = hidden_lamp();
+    CameraDesc camera = room_camera();
+    RenderOptions options = small();
+    options.film.width = 96;
+    options.film.height = 64;
+    RenderOptions part = options;
+    part.film.crop = PixelRect{.x0 = 48, .y0 = 0, .x1 = 96, .y1 = 16};
+    const RenderOptions chosen = chosen_options(scene, camera, part);
+    CHECK(chosen.film.crop == part.film.crop);
+
+    // The same view on a film of its own: a quarter as high, to the right, and upwards.
+    RenderOptions own = options;
+    own.film.width = 48;
+    own.film.height = 16;
+    const float half_height = std::tan(0.5f * camera.vertical_fov) / 4.0f;
+    camera.vertical_fov = 2.0f * std::atan(half_height);
+    camera.shift = Vec2(0.5f, 1.5f);
+    const RenderOptions expected = chosen_options(scene, camera, own);
+    REQUIRE(expected.integrator == IntegratorKind::bdpt);
+    CHECK(chosen.integrator == IntegratorKind::bdpt);
+    CHECK(chosen.bidirectional.connections == expected.bidirectional.connections);
+    CHECK_THAT(chosen.bidirectional.light_paths,
+               Catch::Matchers::WithinRel(expected.bidirectional.light_paths / 8.0, 1e-9));
+    REQUIRE(static_cast<bool>(chosen.sampling.rates) == static_cast<bool>(expected.sampling.rates));
+
+    // Both have the same brightness, and about the same rays.
+    const RenderResult crop = render(scene, room_camera(), chosen);
+    const RenderResult alone = render(scene, camera, expected);
+    const auto rays = [](const RenderResult& result) {
+        return static_cast<double>(result.stats.rays.camera + result.stats.rays.light +
+                                   result.stats.rays.shadow);
+    };
+    CHECK(rays(crop) < 1.2 * rays(alone));
 }
 
 TEST_CASE("auto traces light paths where they pay", "[auto]")
@@ -132,9 +168,11 @@ TEST_CASE("auto takes path tracing where few samples are planned", "[auto]")
         CAPTURE(samples);
         options.sampling.planned_samples = samples;
         CHECK(choice(scene, options).integrator == kind);
-        // A crop has the pixels of the whole image.
-        options.film.crop = PixelRect{.x0 = 3, .y0 = 4, .x1 = 9, .y1 = 8};
+        // A crop counts as an image of its own.
+        options.film.height = 128;
+        options.film.crop = PixelRect{.x0 = 0, .y0 = 32, .x1 = 64, .y1 = 96};
         CHECK(choice(scene, options).integrator == kind);
+        options.film.height = 64;
         options.film.crop.reset();
     }
 }
@@ -200,14 +238,20 @@ TEST_CASE("the pilot of auto proposes rates for an object before an empty backgr
     CHECK(chosen.rates->width() == 96);
     CHECK(chosen.rates->height() == 64);
     CHECK(chosen.rates->rate(4, 4) < chosen.rates->rate(48, 32));
-    // Rates, like the integrator, depend on scene, camera and size alone.
+    // Rates, like the integrator, depend on scene, camera, size and crop alone.
     RenderOptions other = options;
     other.sampling.seed = 7;
     other.sampling.samples = {.begin = 8, .end = 24};
-    other.film.crop = PixelRect{.x0 = 3, .y0 = 5, .x1 = 20, .y1 = 40};
     other.system.threads = 1;
     other.system.tile_size = 5;
     CHECK(*choose_integrator(ball, camera, other).rates == *chosen.rates);
+    other.film.crop = PixelRect{.x0 = 0, .y0 = 16, .x1 = 96, .y1 = 64};
+    const auto cropped = choose_integrator(ball, camera, other).rates;
+    REQUIRE(cropped != nullptr);
+    CHECK(cropped->width() == 96);
+    CHECK(cropped->height() == 64);
+    CHECK(cropped->rate(4, 60) < cropped->rate(48, 32));
+    CHECK(cropped->rate(48, 8) == 1.0f);  // outside
     options.integrator = chosen.options.integrator;
     CHECK(choose_integrator(ball, camera, options).rates == nullptr);
     // A room has light everywhere.

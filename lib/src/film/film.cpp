@@ -31,7 +31,7 @@ std::string text(const FilmLayout& layout)
     return "[" + std::to_string(r.x0) + ", " + std::to_string(r.x1) + ") x [" +
            std::to_string(r.y0) + ", " + std::to_string(r.y1) + ") of " +
            std::to_string(layout.width) + "x" + std::to_string(layout.height) +
-           (layout.splats == SplatImage::present ? " with splats" : " without splats");
+           (layout.splats == SplatImage::absent ? " without splats" : " with splats");
 }
 
 }  // namespace
@@ -61,10 +61,10 @@ Film::Film(const FilmLayout& layout) : layout_(layout)
 {
     const std::size_t pixels =
         static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
-    const bool splats = layout.splats == SplatImage::present;
+    const bool apart = layout.splats == SplatImage::apart;
     for (std::size_t half = 0; half < 2; ++half) {
         resize_in_huge_pages(samples_[half], pixels);
-        resize_in_huge_pages(splats_[half], splats ? pixels : 0);
+        resize_in_huge_pages(splats_[half], apart ? pixels : 0);
     }
     const bool clamps = layout.clamp != std::numeric_limits<float>::infinity();
     losses_.resize(clamps ? static_cast<std::size_t>(height()) : 0);
@@ -136,25 +136,36 @@ Rgb Film::clamp(Rgb value, int y, float scale) noexcept
 void Film::add_sample(int x, int y, std::int64_t sample_index, Rgb radiance, float scale) noexcept
 {
     if (accept(radiance, x, y, sample_index, scale)) {
-        samples_[find_half(sample_index)][index(x, y)].add_alone(radiance);
+        Pixel& pixel = samples_[find_half(sample_index)][index(x, y)];
+        if (layout_.splats == SplatImage::present) {
+            pixel.add(radiance);  // other threads may splat into it
+        } else {
+            pixel.add_alone(radiance);
+        }
     }
 }
 
-bool Film::holds(Vec2 raster) const noexcept
+bool Film::takes_splat(Vec2 raster) const noexcept
 {
-    return raster.x >= static_cast<float>(region().x0) &&
+    return layout_.splats != SplatImage::absent && raster.x >= static_cast<float>(region().x0) &&
            raster.x < static_cast<float>(region().x1) &&
            raster.y >= static_cast<float>(region().y0) &&
            raster.y < static_cast<float>(region().y1);
 }
 
-void Film::prefetch_splat(Vec2 raster, std::int64_t sample_index) const noexcept
+Film::Pixel& Film::splats_at(Vec2 raster, std::int64_t sample_index) noexcept
 {
-    if (!holds(raster)) {
+    auto& sums = layout_.splats == SplatImage::apart ? splats_ : samples_;
+    return sums[find_half(sample_index)]
+               [index(static_cast<int>(raster.x), static_cast<int>(raster.y))];
+}
+
+void Film::prefetch_splat(Vec2 raster, std::int64_t sample_index) noexcept
+{
+    if (!takes_splat(raster)) {
         return;
     }
-    const Pixel& pixel = splats_[find_half(sample_index)]
-                                [index(static_cast<int>(raster.x), static_cast<int>(raster.y))];
+    const Pixel& pixel = splats_at(raster, sample_index);
     constexpr int for_writing = 1;
     __builtin_prefetch(&pixel.rgb.front(), for_writing);
     __builtin_prefetch(&pixel.rgb.back(), for_writing);
@@ -162,13 +173,12 @@ void Film::prefetch_splat(Vec2 raster, std::int64_t sample_index) const noexcept
 
 void Film::add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance, float scale) noexcept
 {
-    if (!holds(raster)) {
+    if (!takes_splat(raster)) {
         return;
     }
-    const int x = static_cast<int>(raster.x);
-    const int y = static_cast<int>(raster.y);
-    if (accept(radiance, x, y, sample_index, scale)) {
-        splats_[find_half(sample_index)][index(x, y)].add(radiance);
+    if (accept(radiance, static_cast<int>(raster.x), static_cast<int>(raster.y), sample_index,
+               scale)) {
+        splats_at(raster, sample_index).add(radiance);
     }
 }
 

@@ -98,9 +98,11 @@ void render_group(const Scene& scene, const MovingCamera& camera, const RenderOp
     RenderOptions without_aovs = options;
     without_aovs.film.aovs = {};
     const AovPass no_aovs(scene.world(), camera, without_aovs);
+    FilmLayout layout = film_layout(options);
+    layout.splats = SplatImage::apart;  // rates do not change their number
     RenderResult part{.identity = {},
                       .samples = {},
-                      .film = Film(film_layout(options)),
+                      .film = Film(layout),
                       .aovs = {},
                       .ids = {},
                       .strategies = {},

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <thread>
 
 namespace bdpt::film_test {
 namespace {
@@ -116,6 +117,33 @@ TEST_CASE("ExactSum adds alone what it adds among threads", "[film]")
         alone.add_alone(value);
         REQUIRE(among == alone);
     }
+}
+
+TEST_CASE("a pixel takes splats while another thread adds its samples", "[film]")
+{
+    constexpr int count = 300'000;
+    const SplatImage splats = GENERATE(SplatImage::present, SplatImage::apart);
+    Film film(layout(1, 1, splats));
+    std::thread splatting([&] {
+        for (int i = 0; i < count; ++i) {
+            film.add_splat({0.5f, 0.5f}, 0, Rgb(0x1p10f));
+        }
+    });
+    for (int i = 0; i < count; ++i) {
+        film.add_sample(0, 0, 0, Rgb(3.0f));
+    }
+    splatting.join();
+    film.count_samples(0, 1);
+    CHECK(film.develop().at(0, 0) == Rgb(count * 1027.0f));
+}
+
+TEST_CASE("a film without splats drops them", "[film]")
+{
+    Film film(layout(1, 1, SplatImage::absent));
+    film.add_sample(0, 0, 0, Rgb(3.0f));
+    film.add_splat({0.5f, 0.5f}, 0, Rgb(4.0f));
+    film.count_samples(0, 1);
+    CHECK(film.develop().at(0, 0) == Rgb(3.0f));
 }
 
 TEST_CASE("Film estimates the variance of its estimate from the halves", "[film]")

@@ -195,8 +195,11 @@ TEST_CASE("rates are powers of two for each pixel", "[rates]")
 
 TEST_CASE("a film clamps what a sample brings, whatever it counts", "[rates]")
 {
-    Film film(FilmLayout{
-        .width = 2, .height = 1, .region = {.x0 = 0, .y0 = 0, .x1 = 2, .y1 = 1}, .clamp = 2.0f});
+    Film film(FilmLayout{.width = 2,
+                         .height = 1,
+                         .region = {.x0 = 0, .y0 = 0, .x1 = 2, .y1 = 1},
+                         .splats = SplatImage::apart,
+                         .clamp = 2.0f});
     film.add_sample(0, 0, 0, Rgb(8.0f), 4.0f);
     film.add_sample(1, 0, 0, Rgb(8.0f), 0.25f);
     film.add_splat({1.5f, 0.5f}, 0, Rgb(8.0f), 0.5f);

@@ -47,15 +47,19 @@ struct FilmDefects {
     std::optional<Place> first_invalid;
 };
 
-/// Presence of a buffer for splats, the contributions of light paths to any pixel.
-enum class SplatImage : std::uint8_t { absent, present };
+/// Where a film adds splats, the contributions of light paths to any pixel.
+enum class SplatImage : std::uint8_t {
+    absent,   ///< nowhere
+    present,  ///< to the sums of camera samples
+    apart     ///< to sums of their own, which double the memory
+};
 
 /// The size and the buffers of a film.
 struct FilmLayout {
     int width = 0;  ///< width of the whole image [pixels]
     int height = 0;
     PixelRect region;  ///< the part of the image that the film holds: not empty, inside
-    SplatImage splats = SplatImage::present;  ///< `absent` halves the memory
+    SplatImage splats = SplatImage::present;
     /// Maximum component [nit] of one contribution; larger ones are scaled down.
     float clamp = std::numeric_limits<float>::infinity();
     [[nodiscard]] bool operator==(const FilmLayout&) const = default;
@@ -74,9 +78,9 @@ struct ClampLoss {
     Rgb radiance{0.0f};               ///< mean over the pixels of the region [nit]
 };
 
-/// The sums of a render: for each pixel the sum of its own camera samples and the sum of the splats
-/// of light paths, each in two halves (even and odd sample index). All positions refer
-/// to the whole image, even if the film holds only a part of it.
+/// The sums of a render: for each pixel the sum of its own camera samples and of the splats of
+/// light paths, in two halves (even and odd sample index). All positions refer to the whole image,
+/// even if the film holds only a part of it.
 class BDPT_EXPORT Film {
 public:
     Film() = default;
@@ -92,18 +96,18 @@ public:
     /// Returns the samples per pixel (and light paths per pixel) that the sums hold.
     [[nodiscard]] std::int64_t sample_count() const { return counts_[0] + counts_[1]; }
 
-    /// Adds one camera sample of pixel (x, y), which is in the region. Each pixel belongs to one
-    /// thread at a time. The radiance is clamped unscaled, then weighted by `scale`, which differs
-    /// from 1 if pixels take different numbers of samples.
+    /// Adds one camera sample of pixel (x, y), which is in the region. Its camera samples come from
+    /// one thread at a time, while others may add splats. The radiance is clamped unscaled, then
+    /// weighted by `scale`, which differs from 1 if pixels take different numbers of samples.
     void add_sample(int x, int y, std::int64_t sample_index, Rgb radiance,
                     float scale = 1.0f) noexcept;
     /// Adds the contribution of a light path of sample `sample_index` at `raster` [pixels, origin
-    /// at the top left]; ignored outside of the region. Clamped and scaled as in `add_sample`. Safe
-    /// from any thread.
+    /// at the top left]; ignored outside of the region, and by films without splats. Clamped and
+    /// scaled as in `add_sample`. Safe from any thread.
     void add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance,
                    float scale = 1.0f) noexcept;
     /// Prefetches the memory that such a splat will change.
-    void prefetch_splat(Vec2 raster, std::int64_t sample_index) const noexcept;
+    void prefetch_splat(Vec2 raster, std::int64_t sample_index) noexcept;
     /// Records that the samples [begin, end) of every pixel have been added.
     void count_samples(std::int64_t begin, std::int64_t end);
 
@@ -116,8 +120,7 @@ public:
     [[nodiscard]] Image develop() const;
     /// Returns the estimate from one half of the samples (0: even indices, 1: odd ones).
     [[nodiscard]] Image develop_half(int half) const;
-    /// Returns the estimate from camera samples alone, without splats. Only for samples that were
-    /// added to this film one by one: files store both in one sum.
+    /// Returns the estimate from camera samples alone, of a film that adds splats apart.
     [[nodiscard]] Image develop_camera() const;
     /// Estimates the variance of `develop()` [nit^2], splats included, from the difference of the
     /// halves: with one degree of freedom per pixel, so very noisy in a single pixel. Unbiased if
@@ -129,8 +132,7 @@ public:
 
     // Access for files: the sums as planes, of which each row has one number per pixel.
 
-    /// Returns "half0.R", ..., "half1.B". A plane sums camera samples and splats: no image
-    /// separates them.
+    /// Returns "half0.R", ..., "half1.B". A plane sums camera samples and splats.
     [[nodiscard]] static std::vector<std::string> plane_names();
     /// Reads a row. `row` counts from the top of the region; `words` has the region's width.
     void read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const;
@@ -164,13 +166,15 @@ private:
     [[nodiscard]] Rgb clamp(Rgb value, int y, float scale) noexcept;
     [[nodiscard]] bool accept(Rgb& value, int x, int y, std::int64_t sample_index,
                               float scale) noexcept;
-    [[nodiscard]] bool holds(Vec2 raster) const noexcept;
+    [[nodiscard]] bool takes_splat(Vec2 raster) const noexcept;
+    /// Returns the sum of splats at `raster`, a place that takes them.
+    [[nodiscard]] Pixel& splats_at(Vec2 raster, std::int64_t sample_index) noexcept;
     [[nodiscard]] std::size_t index(int x, int y) const;
 
     FilmLayout layout_;
     std::array<std::int64_t, 2> counts_{};
     std::array<std::vector<Pixel>, 2> samples_;  // one per half
-    std::array<std::vector<Pixel>, 2> splats_;   // one per half; empty without splats
+    std::array<std::vector<Pixel>, 2> splats_;   // one per half; empty unless they are apart
     std::vector<RowLoss> losses_;                // one per row; empty without a clamp
     std::atomic<std::uint64_t> invalid_{0};
     std::atomic<std::uint64_t> saturated_{0};

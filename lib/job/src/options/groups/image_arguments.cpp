@@ -144,9 +144,8 @@ std::uint64_t count_pixels(const RenderOptions& options, const Size& size)
 
 std::uint64_t film_bytes(const RenderOptions& options, const Size& size)
 {
-    const bool splats = info(options.integrator).traces_light_paths;
     constexpr std::uint64_t halves = 2;
-    std::uint64_t pixel = halves * (splats ? 2 : 1) * color_sum + sizeof(Rgb);
+    std::uint64_t pixel = halves * color_sum + sizeof(Rgb);
     for (const AovLayer& layer : aov_layers) {
         if (options.film.aovs.contains(layer.aov)) {
             const bool is_id = asks_for_ids({layer.aov});

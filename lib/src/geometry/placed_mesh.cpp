@@ -239,6 +239,12 @@ Vec3 PlacedMesh::shading_normal(std::uint32_t triangle, Vec2 barycentrics, float
     if (mesh_->normals.empty()) {
         return Vec3(0.0f);
     }
+    if (const std::vector<Vec2>& uvs = mesh_->uvs[0]; !uvs.empty()) {
+        const UVec3& i = mesh_->triangles[triangle];
+        for (const std::uint32_t vertex : {i.x, i.y, i.z}) {
+            __builtin_prefetch(&uvs[vertex]);  // looked up next
+        }
+    }
     const Vec3 n =
         moves() ? placement(time).normal_matrix *
                       interpolate(mesh_->normals, &MeshPose::normals, triangle, barycentrics, time)

@@ -90,6 +90,7 @@ public:
     /// differently; this is bit-identical on all.
     void hit(std::uint32_t triangle, const Ray& ray, TriangleHit& at) const
     {
+        __builtin_prefetch(&mesh_->triangles[triangle]);  // for the surface at the hit
         if (settled_.empty()) {
             unsettled_hit(triangle, ray, at);
         } else {

@@ -70,23 +70,35 @@ Vec2 EnvironmentLight::to_uv(Vec3 to_light) const
     return {0.5f + atan2_exact(d.x, -d.z) * (0.5f * inv_pi), acos_exact(d.y) * inv_pi};
 }
 
-Rgb EnvironmentLight::lookup(Vec2 uv) const
+EnvironmentLight::Neighbours EnvironmentLight::neighbours(Vec2 uv) const
 {
-    const EnvironmentTexels& texels = *texels_;
     const float x = uv.x * static_cast<float>(width()) - 0.5f;
     const float y = uv.y * static_cast<float>(height()) - 0.5f;
     const float x0 = std::floor(x);
     const float y0 = std::floor(y);
-    const float fx = x - x0;
-    const float fy = y - y0;
     const int ix = std::clamp(static_cast<int>(x0), -1, width() - 1);
     const int iy = static_cast<int>(y0);
-    const int left = ix < 0 ? width() - 1 : ix;
-    const int right = ix + 1 < width() ? ix + 1 : 0;
-    const int upper = std::clamp(iy, 0, height() - 1);
-    const int lower = std::clamp(iy + 1, 0, height() - 1);
+    return {.left = ix < 0 ? width() - 1 : ix,
+            .right = ix + 1 < width() ? ix + 1 : 0,
+            .upper = std::clamp(iy, 0, height() - 1),
+            .lower = std::clamp(iy + 1, 0, height() - 1),
+            .across = x - x0,
+            .down = y - y0};
+}
+
+Rgb EnvironmentLight::lookup(Vec2 uv) const
+{
+    const EnvironmentTexels& texels = *texels_;
+    const auto [left, right, upper, lower, fx, fy] = neighbours(uv);
     return (1.0f - fy) * ((1.0f - fx) * texels(left, upper) + fx * texels(right, upper)) +
            fy * ((1.0f - fx) * texels(left, lower) + fx * texels(right, lower));
+}
+
+void EnvironmentLight::prefetch(Vec2 uv) const
+{
+    const Neighbours near = neighbours(uv);
+    texels_->prefetch(near.left, near.upper);
+    texels_->prefetch(near.left, near.lower);
 }
 
 Rgb EnvironmentLight::radiance(Vec3 to_light) const
@@ -214,6 +226,7 @@ std::optional<IncidentSample> EnvironmentLight::sample_incident(const LightSampl
     if (!from) {
         return std::nullopt;
     }
+    prefetch(from->uv);  // for `incident_weight`
     return IncidentSample{.end = {},
                           .barycentrics = from->uv,
                           .wi = from->to_light,

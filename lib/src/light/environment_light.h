@@ -95,7 +95,19 @@ private:
     [[nodiscard]] Cell cell_to(Vec3 to_light) const;
     [[nodiscard]] std::optional<Vec3> in_image(const std::optional<Vec3>& normal) const;
     [[nodiscard]] Vec2 to_uv(Vec3 to_light) const;
+    /// The four texels around a point of the image, and its place between them.
+    struct Neighbours {
+        int left;
+        int right;
+        int upper;
+        int lower;
+        float across;  ///< in [0, 1]
+        float down;
+    };
+    [[nodiscard]] Neighbours neighbours(Vec2 uv) const;
     [[nodiscard]] Rgb lookup(Vec2 uv) const;
+    /// Starts to load the texels of a `lookup` into the cache.
+    void prefetch(Vec2 uv) const;
     [[nodiscard]] SolidAnglePdf to_solid_angle(float pdf_square, int row) const;
 
     Mat3 world_from_environment_;

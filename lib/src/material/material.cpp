@@ -194,6 +194,19 @@ Bsdf Material::at(const ShadingPoint& point, const PlainModel& any, bool turned)
         any);
 }
 
+void Material::prefetch(const std::array<Vec2, 2>& uv) const noexcept
+{
+    if (base_color_map_) {
+        base_color_map_->prefetch(uv);
+    }
+    if (metallic_roughness_map_) {
+        metallic_roughness_map_->prefetch(uv);
+    }
+    if (normal_map_) {
+        normal_map_->prefetch(uv);
+    }
+}
+
 Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
 {
     if (plain_ && point.color == Vec4(1.0f)) {

@@ -48,6 +48,7 @@ public:
     /// possible. `ns` itself if the point has no tangent.
     [[nodiscard]] Vec3 normal(const ShadingPoint& point) const noexcept;
     [[nodiscard]] int uv_set() const noexcept { return map_.uv_set(); }
+    void prefetch(const std::array<Vec2, 2>& uv) const noexcept { map_.prefetch(uv); }
 
 private:
     Texture map_;

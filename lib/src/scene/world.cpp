@@ -232,6 +232,7 @@ Bsdf World::varying_bsdf(const RayHit& hit, const ShadingNormals& normals, Vec3 
     }
     const PlacedMesh& mesh = placed_[hit.instance];
     const TexturePoint at = texture_point(mesh, hit.triangle, hit.at.barycentrics);
+    material.prefetch(at.uv);
     const auto tangent_uv_set = material.tangent_uv_set();
     std::optional<UvFootprint> footprint;
     if (material.needs_footprint()) [[unlikely]] {

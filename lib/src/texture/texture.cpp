@@ -258,6 +258,25 @@ Vec4 Texture::bilinear(const TexelImage& image, const std::array<Vec2, 2>& uv) c
     });
 }
 
+void Texture::prefetch(const std::array<Vec2, 2>& uv) const noexcept
+{
+    constexpr std::size_t bytes_of_cache = std::size_t{1} << 18U;  // of a core, for textures
+    const TexelImage& image = *image_;
+    if (image.bytes.size() < bytes_of_cache) {
+        return;
+    }
+    const Vec2 p = transformed(uv);
+    const auto x = static_cast<std::size_t>(find_span(p.x, image.width, wrap_u_).first);
+    const Span y = find_span(p.y, image.height, wrap_v_);
+    const std::size_t texel_bytes =
+        static_cast<std::size_t>(image.channels) * count_value_bytes(image.type);
+    for (const int row : {y.first, y.second}) {
+        const std::size_t texel =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) + x;
+        __builtin_prefetch(&image.bytes[texel * texel_bytes]);
+    }
+}
+
 template <typename Visit>
 void Texture::for_each_texel(const Visit& visit) const
 {

@@ -69,6 +69,9 @@ public:
         return bilinear(footprint == nullptr || coarser_.empty() ? *image_ : level(*footprint), uv);
     }
 
+    /// Starts to load the texels of a `lookup` without a footprint into the cache.
+    void prefetch(const std::array<Vec2, 2>& uv) const noexcept;
+
     /// Returns the position of a `lookup`, in texels of the infinitely repeated image.
     [[nodiscard]] Vec2 texel_position(const std::array<Vec2, 2>& uv) const noexcept;
 

@@ -75,6 +75,15 @@ public:
         const float* const texel = floats_.data() + first;
         return {texel[0], texel[1], texel[2]};
     }
+    /// Starts to load a texel into the cache.
+    void prefetch(int x, int y) const noexcept
+    {
+        const std::size_t first =
+            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                 static_cast<std::size_t>(x));
+        __builtin_prefetch(are_halves() ? static_cast<const void*>(&halves_[first])
+                                        : static_cast<const void*>(&floats_[first]));
+    }
     /// Returns the maximum over all channels of all texels.
     [[nodiscard]] float greatest() const noexcept { return greatest_; }
     /// Tests whether texels are half floats.

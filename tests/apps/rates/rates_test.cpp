@@ -1,6 +1,7 @@
 // Adaptive sampling as users see it.
 
 #include <bdpt/io/gltf.h>
+#include <bdpt/io/part_file.h>
 #include <bdpt/renderer.h>
 
 #include <cstddef>
@@ -106,6 +107,10 @@ TEST_CASE("the library renders the command's default image to the bit", "[comman
                           .sampling = {.samples = {.begin = 0, .end = 16}, .planned_samples = 16}};
     REQUIRE(chosen_options(scene, camera, options).sampling.rates);
     CHECK(bdpt::render(scene, camera, options).image().pixels == expected);
+    CHECK(by_command({"--spp", "16", "--save-rates", path(folder, "rates.exr")}) == expected);
+    CHECK(io::read_rates(folder / "rates.exr") ==
+          *chosen_options(scene, camera, options).sampling.rates);
+    CHECK(by_command({"--spp", "16", "--rates", path(folder, "rates.exr")}) == expected);
     Renderer renderer(scene, camera, options);
     renderer.render(11);  // which takes two whole groups of 8
     CHECK(renderer.samples() == 16);
@@ -289,9 +294,10 @@ TEST_CASE("what does not go with rates is refused", "[command]")
     check_refused(folder, {"--adaptive", "--integrator", "lt"}, 2, {"integrator lt"});
     check_refused(folder, {"--adaptive", "--integrator", "vcm"}, 2, {"integrator vcm"});
     check_refused(folder, {"--adaptive", "--rates", rates}, 2, {"--rates", "--adaptive"});
-    check_refused(folder, {"--save-rates", rates}, 2, {"--save-rates", "--adaptive"});
+    check_refused(folder, {"--save-rates", rates}, 2,
+                  {"--save-rates", "equally many", "--adaptive"});
     check_refused(folder, {"--adaptive=false", "--save-rates", rates}, 2,
-                  {"--save-rates", "--adaptive=false"});
+                  {"--save-rates", "equally many"});
     check_refused(folder, {"--adaptive", "--save-rates", path(folder, "rates.jpg")}, 2,
                   {"rates.jpg", ".exr or .png"});
     check_refused(folder, {"--adaptive", "--save-rates", path(folder, "refused.exr")}, 2,

@@ -120,9 +120,9 @@ void add_process_options(OptionList& options, RenderRequest& request)
         .uses.stated_in = StatedIn::own_folder;
     options
         .add("--save-rates", "FILE",
-             "Write the samples of each pixel as multiples of --spp: .exr for --rates, or .png "
-             "in false colours",
-             request.rates.saved,
+             "Write the samples of each pixel as multiples of --spp, of --integrator auto or "
+             "--adaptive: .exr for --rates, or .png in false colours",
+             arguments.saved_rates,
              file_named({".exr", ".png"}, "a file name that ends in .exr or .png"))
         .uses.stated_in = StatedIn::own_folder;
     add_strategy_options(options, request.strategies);
@@ -217,9 +217,7 @@ void check_combinations(const OptionList& options, const std::optional<std::stri
         Conflict{"--noise", "--samples", "a range of samples cannot decide when to stop"},
         Conflict{"--adaptive", "--rates"}, Conflict{"--half", "--float"},
         Conflict{"--quiet", "--verbose"}};
-    static constexpr std::array needs{Need{"--save-rates", "--adaptive|--rates"}};
     check(conflicts, options);
-    check(needs, options);
     check_camera_options(options, camera);
     check_medium_options(options);
 }
@@ -323,11 +321,14 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
     result.options.sampling.planned_samples = plan_samples(request, result.goal);
     if (takes_rates(request)) {
         result.rates = request.rates;
-    } else if (request.rates.saved) {
-        throw OptionError("--save-rates: --adaptive=false has none");
     }
     result.options = with_transport(result.options, request.only, options);
     result.may_adapt = may_adapt(request, result);
+    if (result.saved_rates && !result.rates && !result.may_adapt) {
+        throw OptionError(
+            "--save-rates: all pixels get equally many samples here; --adaptive gives them "
+            "different ones");
+    }
     if (!result.options.film.aovs.empty() && !writes_exr(result.outputs) && !result.part) {
         throw OptionError("--aov needs an .exr file among the outputs, or --part");
     }

@@ -96,10 +96,9 @@ void add_merge_options(OptionList& options, MergeArguments& arguments);
 /// Returns the arguments. Throws `OptionError` for incompatible options.
 [[nodiscard]] MergeArguments checked(const MergeArguments& arguments, const OptionList& options);
 
-/// Source and destination of sample rates.
+/// Source of sample rates.
 struct RatesChoice {
-    std::optional<std::filesystem::path> file{};   ///< none: a pilot measures them
-    std::optional<std::filesystem::path> saved{};  ///< .exr or .png
+    std::optional<std::filesystem::path> file{};  ///< none: a pilot measures them
 };
 
 /// Whether pixels take different numbers of samples.
@@ -156,9 +155,10 @@ struct RenderArguments {
     SampleRange samples{};                         ///< per pixel
     std::optional<RatesChoice> rates{};  ///< set if pixels take different numbers of samples
     bool may_adapt = false;              ///< the pilot of the integrator may choose rates
-    std::optional<Sequence> sequence{};  ///< set if there are several images
-    std::optional<SequenceView> sequence_view{};  ///< the image of the sequence that this is
-    std::optional<NetworkAddress> viewer{};       ///< viewer that shows the render
+    std::optional<std::filesystem::path> saved_rates{};  ///< .exr or .png for the rates
+    std::optional<Sequence> sequence{};                  ///< set if there are several images
+    std::optional<SequenceView> sequence_view{};         ///< the image of the sequence that this is
+    std::optional<NetworkAddress> viewer{};              ///< viewer that shows the render
     Printed printed{};
     PathNames path_names = PathNames::files;  ///< in the metadata of images
     std::optional<JobSource> job{};           ///< set if there is one
@@ -180,8 +180,8 @@ void for_each_written_file(Arguments& arguments, const Visitor& visit)
     if (arguments.part) {
         visit("--part", arguments.part->file);
     }
-    if (arguments.rates && arguments.rates->saved) {
-        visit("--save-rates", *arguments.rates->saved);
+    if (arguments.saved_rates) {
+        visit("--save-rates", *arguments.saved_rates);
     }
     if (arguments.stats) {
         visit("--stats", *arguments.stats);

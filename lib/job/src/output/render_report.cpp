@@ -304,9 +304,16 @@ void write_strategy_files(const StrategyFiles& files, const Image& image,
                   {.exposure = exposure, .metadata = options.metadata});
 }
 
-void save_rates(const std::filesystem::path& file, const SampleRates& rates,
+void save_rates(const std::filesystem::path& file, const RenderOptions& options,
                 const io::ImageMetadata& metadata)
 {
+    const FilmOptions& film = options.film;
+    const SampleRates rates =
+        options.sampling.rates
+            ? *options.sampling.rates
+            : SampleRates(film.width, film.height,
+                          std::vector<std::int8_t>(static_cast<std::size_t>(film.width) *
+                                                   static_cast<std::size_t>(film.height)));
     if (has_extension(file, ".exr")) {
         io::write_rates(file, rates, metadata);
         return;
@@ -401,10 +408,10 @@ std::vector<std::filesystem::path> check_files(const RenderArguments& arguments,
         check_strategy_files(*arguments.strategies, inputs, outputs);
         outputs.add(arguments.strategies->both());
     }
-    if (arguments.rates && arguments.rates->saved) {
-        written.push_back(*arguments.rates->saved);
+    if (arguments.saved_rates) {
+        written.push_back(*arguments.saved_rates);
         check_outputs(written, inputs);
-        outputs.add(*arguments.rates->saved);
+        outputs.add(*arguments.saved_rates);
     }
     if (arguments.part) {
         check_output("--part", arguments.part->file, inputs, outputs);

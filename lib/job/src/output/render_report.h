@@ -73,7 +73,7 @@ void write_strategy_files(const StrategyFiles& files, const Image& image,
 
 /// Writes rates as .exr, which --rates reads, or as .png in false colours: the number of samples of
 /// each pixel. Throws `Error` (output).
-void save_rates(const std::filesystem::path& file, const SampleRates& rates,
+void save_rates(const std::filesystem::path& file, const RenderOptions& options,
                 const io::ImageMetadata& metadata);
 
 /// Throws `Error` if the job of `arguments`, whose author may be a stranger, names files to write:

@@ -326,8 +326,8 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
                          100.0 * light_beyond, arguments.options.transport.max_depth)});
     }
     const io::ImageMetadata metadata = make_metadata(arguments, stage, settings);
-    if (arguments.rates && arguments.rates->saved) {
-        save_rates(*arguments.rates->saved, *arguments.options.sampling.rates, metadata);
+    if (arguments.saved_rates) {
+        save_rates(*arguments.saved_rates, arguments.options, metadata);
     }
     const RenderResult result = render_stage(
         arguments, stage, part_notes(arguments, metadata, session.words), session, keeper);

@@ -43,8 +43,10 @@ if(BDPT_BUILD_IO)
   # Installs the companions where bdpt_io looks for them (lib/io/src/file/read_file.cpp). The TIFF module is a component
   # of its own, because it depends on OpenImageIO and its 260 libraries, and everything else works without it. So is the
   # reader of volumes.
-  install(TARGETS bdpt_oiio LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
-          COMPONENT bdpt_openimageio)
+  if(BDPT_HAS_OPENIMAGEIO)
+    install(TARGETS bdpt_oiio LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
+            COMPONENT bdpt_openimageio)
+  endif()
   # The KTX reader links no library; it opens libktx at run time.
   if(BDPT_KTX)
     install(DIRECTORY "${BDPT_KTX}/" DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt/ktx" COMPONENT bdpt_ktx)

@@ -35,7 +35,9 @@ if(DEFINED SKBUILD)
   install(TARGETS bdpt_app RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
   install(FILES apps/python/package/__main__.py
           DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
-  install(TARGETS bdpt_oiio LIBRARY DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python_companions)
+  if(BDPT_HAS_OPENIMAGEIO)
+    install(TARGETS bdpt_oiio LIBRARY DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python_companions)
+  endif()
   install(TARGETS bdpt_ktx_reader RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt"
           COMPONENT bdpt_python_companions)
   if(BDPT_KTX)

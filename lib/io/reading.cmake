@@ -89,11 +89,13 @@ target_link_libraries(bdpt_io PRIVATE
   ${CMAKE_DL_LIBS})
 
 # OpenImageIO is in a module that is loaded for the first TIFF image (src/image/linear/tiff_reader.cpp).
-add_library(bdpt_oiio MODULE src/oiio_module/oiio_module.cpp)
-bdpt_compile_options(bdpt_oiio)
-target_include_directories(bdpt_oiio PRIVATE src)
-target_link_libraries(bdpt_oiio PRIVATE OpenImageIO::OpenImageIO)
-bdpt_add_companion(bdpt_oiio)
+if(BDPT_HAS_OPENIMAGEIO)
+  add_library(bdpt_oiio MODULE src/oiio_module/oiio_module.cpp)
+  bdpt_compile_options(bdpt_oiio)
+  target_include_directories(bdpt_oiio PRIVATE src)
+  target_link_libraries(bdpt_oiio PRIVATE OpenImageIO::OpenImageIO)
+  bdpt_add_companion(bdpt_oiio)
+endif()
 
 # bdpt_add_reader(TARGET NAME SOURCES...): a program that reads one file of a stranger, in a process of its own.
 function(bdpt_add_reader target name)

@@ -99,7 +99,7 @@ TEST_CASE("what is no denoiser is refused by name")
         CHECK(std::string(error.what()).find(name) != std::string::npos);
         CHECK(std::string(error.what()).find("openimagedenoise.org") != std::string::npos);
     }
-    const Error error = refusal(BDPT_OIIO_MODULE);
+    const Error error = refusal(BDPT_FAKE_KTX);
     CHECK(error.code() == ErrorCode::unsupported);
     CHECK(std::string(error.what()).find("oidnNewDevice") != std::string::npos);
 }

@@ -277,7 +277,8 @@ TEST_CASE("mistakes in a job are told with their place", "[job]")
             "/output/1: must be a text");
     refused("[]", "is not a job");
     refused("{}", "has no \"bdpt_job\"");
-    refused(R"({"bdpt_job": 2, "file": "x.gltf"})", "/bdpt_job: has format 2");
+    refused(R"({"bdpt_job": 2, "file": "x.gltf"})",
+            "/bdpt_job: has format 2, of a newer bdpt; this program reads format 1");
     refused(R"({"bdpt_job": "1"})", "/bdpt_job: must be an integer");
     refused(R"({"bdpt_job": 1})", "has no \"file\"");
     refused(R"({"bdpt_job": 1, "file": "a.json", "output": "o.exr"})", "/file: must be a scene");

@@ -401,12 +401,17 @@ TEST_CASE("words about plans that make no sense are refused, and nothing is writ
     check_refused(run({"render", "--plan", path(folder, "cube.gltf"), "--task", "0"}), 4,
                   {"cube.gltf: is not a plan of bdpt plan"});
     json other = json::parse(read_text(file));
-    for (const json& format : {json(99), json("new"), json(2.5)}) {
+    for (const json& format : {json("new"), json(1)}) {
         other["format"] = format;
         write_text(folder / "job" / "plan.json", other.dump());
         check_refused(render_task(folder, "0"), 4,
                       {"plan.json: is not a plan of bdpt plan: format ", "this program reads 2"});
     }
+    other["format"] = 99;
+    write_text(folder / "job" / "plan.json", other.dump());
+    check_refused(render_task(folder, "0"), 4,
+                  {"plan.json: is a plan of format 99, which a newer bdpt wrote; this program "
+                   "reads format 2"});
     write_text(folder / "job" / "plan.json", "{}");
     check_refused(render_task(folder, "0"), 4, {"plan.json: is not a plan of bdpt plan"});
     write_text(folder / "job" / "plan.json", "");

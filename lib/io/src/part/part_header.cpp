@@ -267,8 +267,10 @@ PartHeader read(const JsonValue& json)
 {
     const int found = json.at("format").number<int>();
     if (found != format) {
-        throw Error(ErrorCode::invalid_input, "is a part of format " + std::to_string(found) +
-                                                  "; this program reads " + std::to_string(format));
+        throw Error(ErrorCode::invalid_input,
+                    "is a part of format " + std::to_string(found) +
+                        (found > format ? ", which a newer bdpt wrote" : "") +
+                        "; this program reads format " + std::to_string(format));
     }
     PartHeader header;
     for (const auto& [name, value] : json.at("identity").members()) {

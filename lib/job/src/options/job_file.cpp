@@ -124,7 +124,8 @@ void check_format(const JsonValue& job)
     const auto format = job.at(format_key).number<std::int64_t>();
     if (format != job_format) {
         job.at(format_key)
-            .fail(fmt::format("has format {}, but this program reads {}", format, job_format));
+            .fail(fmt::format("has format {}{}; this program reads format {}", format,
+                              format > job_format ? ", of a newer bdpt" : "", job_format));
     }
 }
 

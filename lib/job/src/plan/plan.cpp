@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -494,6 +495,15 @@ Plan read(const JsonValue& json)
     }
     if (const std::string format = json.at("format").scalar_text();
         format != std::to_string(plan_format)) {
+        int number = 0;
+        if (std::from_chars(format.data(), format.data() + format.size(), number).ec ==
+                std::errc() &&
+            number > plan_format) {
+            json.fail(
+                fmt::format("is a plan of format {}, which a newer bdpt wrote; this program "
+                            "reads format {}",
+                            format, plan_format));
+        }
         json.fail(fmt::format("is not a plan of bdpt plan: format {}, but this program reads {}",
                               format, plan_format));
     }

@@ -280,7 +280,10 @@ TEST_CASE("a part file that lies about itself is refused before it costs memory"
         REQUIRE(place != std::string::npos);
         REQUIRE(truth.size() == lie.size());
         write_sealed(file, std::string(bytes).replace(place, truth.size(), lie));
-        CHECK(error_of(file).code() == ErrorCode::invalid_input);
+        const Error error = error_of(file);
+        CHECK(error.code() == ErrorCode::invalid_input);
+        CHECK((std::string(error.what()).find("which a newer bdpt wrote") != std::string::npos) ==
+              (lie == R"("format":2)"));
     }
     // Whatever else it says is an error or harmless.
     std::mt19937 engine(9);

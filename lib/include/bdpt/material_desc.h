@@ -14,6 +14,7 @@
 /// builder.place(builder.add(bdpt::sphere_mesh(0.5f)), builder.add(glass));
 /// @endcode
 
+#include <bdpt/export.h>
 #include <bdpt/fields.h>
 #include <bdpt/medium_desc.h>
 #include <bdpt/scene_ids.h>
@@ -144,8 +145,8 @@ struct MaterialDesc {
     AnisotropyDesc anisotropy{};
     IridescenceDesc iridescence{};
     DiffuseTransmissionDesc diffuse_transmission{};
-    DiffuseRoughnessDesc diffuse_roughness{};
-    VolumeScatterDesc volume_scatter{};
+    BDPT_EXPERIMENTAL DiffuseRoughnessDesc diffuse_roughness{};
+    BDPT_EXPERIMENTAL VolumeScatterDesc volume_scatter{};
 
     std::optional<TextureRef> base_color_texture;          ///< sRGB, times base_color
     std::optional<TextureRef> metallic_roughness_texture;  ///< linear; G roughness, B metallic

@@ -88,7 +88,7 @@ enum class EnvironmentSampling : std::uint8_t {
     /// (docs/decisions/0071-learned-groups-of-lights.md). Light paths of bdpt and vcm start where
     /// light of the environment and of suns enters (docs/decisions/0073-learned-entries.md), and at
     /// the lights that bring most indirect light (docs/decisions/0075-learned-starts.md).
-    learned,
+    BDPT_EXPERIMENTAL learned,
 };
 
 /// Selection of one of many lights in next-event estimation.
@@ -181,7 +181,7 @@ struct BidirectionalOptions {
     /// If above 0, each camera path is connected to about this many vertices of these light paths,
     /// chosen by their estimated contribution, in place of all of them: a connection costs a shadow
     /// ray. `connections` must be whole then, and all pixels share light paths.
-    double connection_rays = 0.0;
+    BDPT_EXPERIMENTAL double connection_rays = 0.0;
     /// Points on lights that are connected to the lens (s = t = 1), per camera path: above 0, up to
     /// 1. Few are enough: camera paths hit lights that fill a pixel, and a point on any other light
     /// serves the whole image. Where camera paths cannot hit lights (lt), and with uniform

@@ -162,8 +162,8 @@ inline constexpr auto fields<SamplingOptions> = all_fields(
                 &SamplingOptions::environment,
                 {.help = "Environment sampling: plain (by luminance), compensated (MIS "
                          "compensation: leaves uniform light to BSDF sampling) or learned "
-                         "(compensated, and a pilot render learns how much light of the "
-                         "environment, suns and lamps reaches each place)"}},
+                         "(experimental: compensated, and a pilot render learns how much "
+                         "light of the environment, suns and lamps reaches each place)"}},
     OptionField{"light_sampling",
                 &SamplingOptions::lights,
                 {.help = "Choice of one light: power (by emitted power), tree (light tree: by "
@@ -217,9 +217,9 @@ inline constexpr auto fields<BidirectionalOptions> = all_fields(
                 &BidirectionalOptions::connection_rays,
                 {.range = {0, 4096},
                  .value = "K",
-                 .help = "Connect each camera subpath to about K vertices of its light subpaths, "
-                         "chosen by estimated contribution (bdpt, vcm). Needs a whole number of "
-                         "--connections; 8 of each is often good",
+                 .help = "Experimental: connect each camera subpath to about K vertices of its "
+                         "light subpaths, chosen by estimated contribution (bdpt, vcm). Needs a "
+                         "whole number of --connections; 8 of each is often good",
                  .otherwise = "all vertices; auto chooses it"}},
     OptionField{"visible_light_samples",
                 &BidirectionalOptions::visible_light_samples,

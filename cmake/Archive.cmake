@@ -13,7 +13,8 @@ endif()
 add_custom_target(bdpt_archive
   COMMAND "${CMAKE_COMMAND}" "-DBUILD=${PROJECT_BINARY_DIR}" "-DCONFIG=$<CONFIG>" "-DNAME=${BDPT_ARCHIVE_NAME}"
           "-DCOMPONENTS=${archive_components}" "-DLIBDIR=${CMAKE_INSTALL_LIBDIR}" "-DFOLDER=${PROJECT_BINARY_DIR}"
-          "-DDENOISER=${BDPT_DENOISER}" "-DKTX=${BDPT_KTX}"
+          "-DDENOISER=${BDPT_DENOISER}" "-DKTX=${BDPT_KTX}" "-DSYSROOT=${CMAKE_SYSROOT}"
+          "-DARCHITECTURE=${CMAKE_LIBRARY_ARCHITECTURE}" "-DOBJDUMP=${CMAKE_OBJDUMP}"
           -P "${PROJECT_SOURCE_DIR}/cmake/archive/make_archive.cmake"
   COMMENT "Packing ${BDPT_ARCHIVE_NAME}.tar.xz" VERBATIM)
 add_dependencies(bdpt_archive bdpt_app bdpt_manual_files)

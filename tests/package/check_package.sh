@@ -428,7 +428,7 @@ make_archive() {
   mkdir "$folder/ktx"
   cp "$FAKE_KTX" "$folder/ktx/libktx.so"
   "$CMAKE" -DBUILD="$BUILD" -DCONFIG="$CONFIG" -DNAME="$name" -DCOMPONENTS="$components" -DLIBDIR="$LIBDIR" \
-    -DFOLDER="$folder" -DDENOISER="$folder/denoiser" -DKTX="$folder/ktx" -DLEVEL=0 -P "$SOURCE/cmake/archive/make_archive.cmake"
+    -DFOLDER="$folder" -DDENOISER="$folder/denoiser" -DKTX="$folder/ktx" -DOBJDUMP="$(command -v objdump)" -DLEVEL=0 -P "$SOURCE/cmake/archive/make_archive.cmake"
   check_names "$BUILD/archive" "$BUILD" "$SOURCE" "$WORK"
   rm -rf "$BUILD/archive"
   "$PYTHON3" "$here/check_archive.py" "$folder/$name.tar.xz" "$folder" "$SOURCE/scenes" "$VERSION" "$OPENVDB"

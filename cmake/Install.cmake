@@ -14,7 +14,7 @@ if(BDPT_BUILD_APPS)
   list(APPEND libraries bdpt_job)
 endif()
 
-# Before 1.0 every minor version may break the ABI.
+# Sources that compile with 1.0 compile with each later 1.x, but structs grow: each minor version has its own ABI.
 set_target_properties(${libraries} PROPERTIES VERSION ${PROJECT_VERSION}
                       SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
@@ -98,7 +98,7 @@ endif()
 configure_package_config_file(cmake/bdptConfig.cmake.in cmake/bdptConfig.cmake
   INSTALL_DESTINATION "${package_dir}")
 write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/cmake/bdptConfigVersion.cmake"
-  COMPATIBILITY SameMinorVersion)
+  COMPATIBILITY SameMajorVersion)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdptConfig.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdptConfigVersion.cmake"
         DESTINATION "${package_dir}" COMPONENT bdpt_development)

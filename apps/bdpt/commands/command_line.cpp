@@ -14,7 +14,7 @@ namespace bdpt::app {
 
 namespace {
 
-/// Returns "bdpt 0.2.0", and in further lines its libraries and the ray tracing kernels that it
+/// Returns "bdpt 1.0.0", and in further lines its libraries and the ray tracing kernels that it
 /// uses on this machine.
 std::string version_text()
 {

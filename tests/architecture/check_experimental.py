@@ -16,7 +16,7 @@ def main():
     source, command = pathlib.Path(sys.argv[1]), sys.argv[2]
     marked = {name for header in source.glob("lib/**/include/**/*.h") for name in MARK.findall(header.read_text(encoding="utf-8"))}
     text = (source / "docs/library.md").read_text(encoding="utf-8").partition("\n## What may change\n")[2].partition("\n## ")[0]
-    listed = set(re.findall(r"`(?:\w+::)?(\w+)`", text))
+    listed = set(re.findall(r"`(?:\w+::)?(\w+)`", text)) - {"BDPT_EXPERIMENTAL"}
     said = subprocess.run([command, "render", "--help-all"], check=True, capture_output=True, text=True).stdout
     helped = {name for name, words in OPTION.findall(said) if "experimental" in words.lower()}
     options = set(re.findall(r"`(--[\w-]+)", text))

@@ -68,7 +68,8 @@ prepare_build_root() {
   done
   cp -r "$work/packages" "$root/packages"
   in_root "$root" python3 -m venv /venv
-  in_root "$root" /venv/bin/pip install -q --no-index --find-links /packages auditwheel nanobind numpy scikit-build-core
+  in_root "$root" /venv/bin/pip install -q --no-index --find-links /packages --upgrade pip \
+    auditwheel cmake nanobind numpy scikit-build-core
 }
 
 # add_newer_python ROOT: unpacks it to /opt/python, and lets it find its own libraries.
@@ -79,7 +80,7 @@ add_newer_python() {
   cp "$root"/usr/include/x86_64-linux-gnu/python3.13/pyconfig.h "$root/usr/include/python3.13/pyconfig.h"
   in_root "$1" patchelf --set-interpreter "$libraries/ld-linux-x86-64.so.2" --force-rpath --set-rpath "$libraries" "$python"
   in_root "$1" /venv/bin/pip --python "$python" install -q --no-index --find-links /packages --break-system-packages \
-    pip nanobind numpy scikit-build-core
+    cmake nanobind numpy pip scikit-build-core
 }
 
 prepare_root() {

@@ -46,6 +46,20 @@ EqualityCase cloth()
     return ball("sheen", material);
 }
 
+/// Dust on varnish, both on a bumpy base.
+EqualityCase dusty()
+{
+    MaterialDesc material = plastic({0.6f, 0.2f, 0.1f}, 0.5f);
+    material.normal_texture = TextureRef{.image = ImageId{0}, .scale = {6, 4}};
+    material.clearcoat.factor = 1.0f;
+    material.clearcoat.roughness = 0.3f;
+    material.fuzz.factor = 0.8f;
+    material.fuzz.color = {0.9f, 0.8f, 0.6f};
+    EqualityCase result = ball("fuzz", material);
+    result.scene.images.push_back(bumps());
+    return result;
+}
+
 /// The sphere has texture coordinates, which give it tangents.
 EqualityCase brushed()
 {
@@ -190,7 +204,7 @@ std::vector<EqualityCase> volume_cases()
 
 std::vector<EqualityCase> layer_cases()
 {
-    return {clearcoat(), cloth(), brushed(), film(), clay(), translucent(), dispersion()};
+    return {clearcoat(), cloth(), dusty(), brushed(), film(), clay(), translucent(), dispersion()};
 }
 
 std::vector<EqualityCase> normal_map_cases()

@@ -64,8 +64,20 @@ struct ClearcoatDesc {
 
 /// Fibres on top of a cloth, above everything but a coat [KHR_materials_sheen].
 struct SheenDesc {
-    Rgb color{0.0f};                              ///< [0, 1]; black: no sheen
+    Rgb color{0.0f};                              ///< [0, 1], also their density; black: no sheen
     float roughness = 0.0f;                       ///< [0, 1]
+    std::optional<TextureRef> color_texture;      ///< sRGB
+    std::optional<TextureRef> roughness_texture;  ///< linear; A
+};
+
+/// Fibres or dust on top of everything, such as black velvet [KHR_materials_fuzz, a draft]. They
+/// replace a sheen.
+struct FuzzDesc {
+    float factor = 0.0f;  ///< [0, 1], fraction of the surface with fibres; 0: none
+    Rgb color{1.0f};      ///< [0, 1]
+    /// [0, 1], from upright fibres to dust, which covers more; at least 0.1 counts.
+    float roughness = 0.5f;
+    std::optional<TextureRef> texture;            ///< linear; R, times factor
     std::optional<TextureRef> color_texture;      ///< sRGB
     std::optional<TextureRef> roughness_texture;  ///< linear; A
 };
@@ -114,9 +126,9 @@ struct VolumeScatterDesc {
 };
 
 /// glTF 2.0 metallic-roughness material with KHR_materials_{anisotropy, clearcoat,
-/// diffuse_roughness, diffuse_transmission, dispersion, emissive_strength, iridescence, ior, sheen,
-/// specular, transmission, volume, volume_scatter, unlit}; names, defaults and ranges are those of
-/// the specification [glTF 2.0, sec. 3.9; KHR extensions of these names].
+/// diffuse_roughness, diffuse_transmission, dispersion, emissive_strength, fuzz, iridescence, ior,
+/// sheen, specular, transmission, volume, volume_scatter, unlit}; names, defaults and ranges are
+/// those of the specification [glTF 2.0, sec. 3.9; KHR extensions of these names].
 struct MaterialDesc {
     std::string name{};
     Vec4 base_color{1.0f};  ///< [0, 1]
@@ -142,6 +154,7 @@ struct MaterialDesc {
 
     ClearcoatDesc clearcoat{};
     SheenDesc sheen{};
+    FuzzDesc fuzz{};
     AnisotropyDesc anisotropy{};
     IridescenceDesc iridescence{};
     DiffuseTransmissionDesc diffuse_transmission{};
@@ -182,6 +195,15 @@ inline constexpr auto fields<SheenDesc> =
                Number{"sheen roughness", &SheenDesc::roughness, Limits::unit()},
                Field{"sheen colour texture", &SheenDesc::color_texture},
                Field{"sheen roughness texture", &SheenDesc::roughness_texture});
+/// Fields of `FuzzDesc`, with names and limits.
+template <>
+inline constexpr auto fields<FuzzDesc> =
+    all_fields(Number{"fuzz", &FuzzDesc::factor, Limits::unit()},
+               Number{"fuzz colour", &FuzzDesc::color, Limits::unit()},
+               Number{"fuzz roughness", &FuzzDesc::roughness, Limits::unit()},
+               Field{"fuzz texture", &FuzzDesc::texture},
+               Field{"fuzz colour texture", &FuzzDesc::color_texture},
+               Field{"fuzz roughness texture", &FuzzDesc::roughness_texture});
 /// Fields of `AnisotropyDesc`, with names and limits.
 template <>
 inline constexpr auto fields<AnisotropyDesc> =
@@ -239,7 +261,7 @@ inline constexpr auto fields<MaterialDesc> = all_fields(
     Number{"attenuation colour", &MaterialDesc::attenuation_color, Limits::unit()},
     Number{"dispersion", &MaterialDesc::dispersion, Limits::at_least(0.0f)},
     Field{"clearcoat", &MaterialDesc::clearcoat}, Field{"sheen", &MaterialDesc::sheen},
-    Field{"anisotropy", &MaterialDesc::anisotropy},
+    Field{"fuzz", &MaterialDesc::fuzz}, Field{"anisotropy", &MaterialDesc::anisotropy},
     Field{"iridescence", &MaterialDesc::iridescence},
     Field{"diffuse transmission", &MaterialDesc::diffuse_transmission},
     Field{"diffuse roughness", &MaterialDesc::diffuse_roughness},

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "material/lobes/sheen.h"
+#include "material/lobes/fuzz.h"
 #include "material/models/metallic_roughness.h"
 #include "material/small_numbers.h"
 #include "material/specular_albedo.h"
@@ -12,7 +12,7 @@
 
 namespace bdpt {
 
-class CoatLoss;
+class LayerLoss;
 
 /// Tables shared by all materials with layers.
 struct LayerTables {
@@ -25,39 +25,70 @@ struct LayerTables {
     [[nodiscard]] bool are_enough_for(std::span<const MaterialDesc> materials) const;
 
     std::unique_ptr<const SpecularAlbedo> coat;  ///< for index 1.5
-    std::unique_ptr<const CoatLoss> coat_loss;   ///< for index 1.5
-    std::unique_ptr<const SheenAlbedo> sheen;
+    std::unique_ptr<const LayerLoss> coat_loss;  ///< for index 1.5
+    std::unique_ptr<const FuzzTable> fuzz;
+    std::unique_ptr<const LayerLoss> fuzz_loss;
 };
 
 /// Parameters that are constant over a layered material.
 struct LayeredConstants {
     const SpecularAlbedo* base = nullptr;  ///< has the refractive index of the base
     float film_ior = 1.3f;
+    float film_thickness = 0.0f;  ///< greatest one [nm]
+    bool fuzz_covers_coat = false;
     const LayerTables* tables = nullptr;
 };
 
-/// A surface of several layers at one point, from the top: coat, sheen, base; the base's own
-/// parameters are inherited, so that no byte is lost to padding. Compact, as it lives in path
-/// vertices; `LayeredBsdf` makes a model of it.
-struct LayeredParameters : GltfParameters {
-    Unit8 diffuse_roughness{};  ///< 0: Lambertian. First: the base ends in padding
+/// A surface of several layers at one point: `GltfParameters`, coat, fibres above or below it, film
+/// and diffuse transmission. Compact, as it lives in path vertices; `LayeredBsdf` makes a model of
+/// it.
+struct LayeredParameters {
+    Rgb base_color{1.0f};
+    Rgb specular_color{1.0f};
+    Unit16 metallic{};
+    Unit16 roughness{1.0f};
+    Unit16 specular{1.0f};
+    Unit16 transmission{};
+    Body body = Body::thin_walled;
+    Unit8 diffuse_roughness{};  ///< 0: Lambertian
     Unit16 coat{};              ///< coated fraction of the surface
     Unit16 coat_roughness{};    ///< perceptual
     Direction16 coat_normal{};  ///< local, like all directions of a `LayeredBsdf`
-    Unit16 sheen_roughness{};
-    Color16 sheen{};
+    Unit16 fuzz_roughness{};
+    Color16 fuzz_color{};
+    Unit16 fuzz{};        ///< fraction of the surface with fibres
     Unit16 anisotropy{};  ///< rougher along x
     Unit16 film{};
+    Unit16 film_thickness{};  ///< over the greatest one
     Unit16 diffuse_transmission{};
     Color16 transmission_color{};
-    float film_thickness = 0.0f;                        ///< [nm]
     PackedPointer<const LayeredConstants> constants{};  ///< must outlive this
 
     LayeredParameters() = default;
-    LayeredParameters(const GltfParameters& base, const LayeredConstants& equal)
-        : GltfParameters(base), constants(&equal)
-    {}
-    void set_base(const GltfParameters& base) { static_cast<GltfParameters&>(*this) = base; }
+    LayeredParameters(const GltfParameters& base, const LayeredConstants& equal) : constants(&equal)
+    {
+        set_base(base);
+    }
+    void set_base(const GltfParameters& base)
+    {
+        base_color = base.base_color;
+        specular_color = base.specular_color;
+        metallic = Unit16(base.metallic);
+        roughness = Unit16(base.roughness);
+        specular = Unit16(base.specular);
+        transmission = Unit16(base.transmission);
+        body = base.body;
+    }
+    [[nodiscard]] GltfParameters base() const
+    {
+        return {base_color,
+                metallic.value(),
+                roughness.value(),
+                specular.value(),
+                specular_color,
+                transmission.value(),
+                body};
+    }
 };
 
 }  // namespace bdpt

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -17,20 +18,37 @@ namespace {
     return map ? map->lookup(point.uv, point.footprint) : Vec4(1.0f);
 }
 
+/// Returns the fibres of a material; fuzz replaces sheen.
+[[nodiscard]] FuzzDesc fuzz_of(const MaterialDesc& desc)
+{
+    if (desc.fuzz.factor > 0.0f) {
+        return desc.fuzz;
+    }
+    const SheenDesc& sheen = desc.sheen;
+    return {.factor = is_black(sheen.color) ? 0.0f : 1.0f,
+            .color = sheen.color,
+            .roughness = sheen.roughness,
+            .texture = {},
+            .color_texture = sheen.color_texture,
+            .roughness_texture = sheen.roughness_texture};
+}
+
 }  // namespace
 
 bool has_layers(const MaterialDesc& desc)
 {
-    return !desc.unlit && (desc.clearcoat.factor > 0.0f || !is_black(desc.sheen.color) ||
-                           desc.anisotropy.strength > 0.0f || desc.iridescence.factor > 0.0f ||
-                           desc.diffuse_transmission.factor > 0.0f ||
-                           desc.diffuse_roughness.factor > 0.0f);
+    return !desc.unlit &&
+           (desc.clearcoat.factor > 0.0f || !is_black(desc.sheen.color) ||
+            desc.fuzz.factor > 0.0f || desc.anisotropy.strength > 0.0f ||
+            desc.iridescence.factor > 0.0f || desc.diffuse_transmission.factor > 0.0f ||
+            desc.diffuse_roughness.factor > 0.0f);
 }
 
 MaterialLayers::MaterialLayers(const MaterialDesc& desc, const TextureImages& images,
                                const ChannelAlbedos& albedos, const LayerTables& tables)
     : coat_(desc.clearcoat),
-      sheen_(desc.sheen),
+      fuzz_(fuzz_of(desc)),
+      is_sheen_(desc.fuzz.factor == 0.0f),
       anisotropy_(desc.anisotropy),
       film_(desc.iridescence),
       transmission_(desc.diffuse_transmission),
@@ -38,8 +56,9 @@ MaterialLayers::MaterialLayers(const MaterialDesc& desc, const TextureImages& im
       coat_maps_{make_texture(coat_.texture, images, Encoding::linear),
                  make_texture(coat_.roughness_texture, images, Encoding::linear),
                  make_normal_map(coat_.normal_texture, coat_.normal_scale, images)},
-      sheen_maps_{make_texture(sheen_.color_texture, images, Encoding::srgb),
-                  make_texture(sheen_.roughness_texture, images, Encoding::linear)},
+      fuzz_maps_{make_texture(fuzz_.texture, images, Encoding::linear),
+                 make_texture(fuzz_.color_texture, images, Encoding::srgb),
+                 make_texture(fuzz_.roughness_texture, images, Encoding::linear)},
       film_maps_{make_texture(film_.texture, images, Encoding::linear),
                  make_texture(film_.thickness_texture, images, Encoding::linear)},
       transmission_maps_{make_texture(transmission_.texture, images, Encoding::linear),
@@ -50,7 +69,11 @@ MaterialLayers::MaterialLayers(const MaterialDesc& desc, const TextureImages& im
 {
     for (const Wavelength channel : {Wavelength::red, Wavelength::green, Wavelength::blue}) {
         constants_[static_cast<std::size_t>(channel)] = {
-            .base = &albedos.at(channel), .film_ior = film_.ior, .tables = &tables};
+            .base = &albedos.at(channel),
+            .film_ior = film_.ior,
+            .film_thickness = std::max(film_.thickness_minimum, film_.thickness_maximum),
+            .fuzz_covers_coat = !is_sheen_,
+            .tables = &tables};
     }
 }
 
@@ -74,18 +97,26 @@ void MaterialLayers::add_coat(const ShadingPoint& point, const Frame& shading,
     layers.coat_normal = Direction16(shading.to_local(normal));
 }
 
-void MaterialLayers::add_sheen(const ShadingPoint& point, LayeredParameters& layers) const noexcept
+void MaterialLayers::add_fuzz(const ShadingPoint& point, LayeredParameters& layers) const noexcept
 {
-    layers.sheen = Color16(sheen_.color * Rgb(at(sheen_maps_.color, point)));
-    layers.sheen_roughness = Unit16(sheen_.roughness * at(sheen_maps_.roughness, point).w);
+    Rgb color = fuzz_.color * Rgb(at(fuzz_maps_.color, point));
+    float factor = fuzz_.factor * at(fuzz_maps_.factor, point).x;
+    if (is_sheen_) {
+        factor = max_component(color);
+        color = factor > 0.0f ? color / factor : color;
+    }
+    layers.fuzz = Unit16(factor);
+    layers.fuzz_color = Color16(color);
+    layers.fuzz_roughness = Unit16(fuzz_.roughness * at(fuzz_maps_.roughness, point).w);
 }
 
 void MaterialLayers::add_film(const ShadingPoint& point, LayeredParameters& layers) const noexcept
 {
     layers.film = Unit16(film_.factor * at(film_maps_.factor, point).x);
     const float share = at(film_maps_.thickness, point).y;
-    layers.film_thickness =
+    const float thickness =
         film_.thickness_minimum + share * (film_.thickness_maximum - film_.thickness_minimum);
+    layers.film_thickness = Unit16(thickness / std::max(layers.constants->film_thickness, 1e-3f));
 }
 
 void MaterialLayers::add_transmission(const ShadingPoint& point,
@@ -140,8 +171,8 @@ Bsdf MaterialLayers::bsdf(const ShadingPoint& point, const Frame& shading,
     if (coat_.factor > 0.0f) {
         add_coat(point, frame, layers);
     }
-    if (!is_black(sheen_.color)) {
-        add_sheen(point, layers);
+    if (fuzz_.factor > 0.0f) {
+        add_fuzz(point, layers);
     }
     if (film_.factor > 0.0f) {
         add_film(point, layers);

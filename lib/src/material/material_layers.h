@@ -36,7 +36,8 @@ private:
         std::optional<Texture> roughness;
         std::optional<NormalMap> normal;
     };
-    struct SheenMaps {
+    struct FuzzMaps {
+        std::optional<Texture> factor;
         std::optional<Texture> color;
         std::optional<Texture> roughness;
     };
@@ -51,7 +52,7 @@ private:
 
     void add_coat(const ShadingPoint& point, const Frame& shading,
                   LayeredParameters& layers) const noexcept;
-    void add_sheen(const ShadingPoint& point, LayeredParameters& layers) const noexcept;
+    void add_fuzz(const ShadingPoint& point, LayeredParameters& layers) const noexcept;
     void add_film(const ShadingPoint& point, LayeredParameters& layers) const noexcept;
     void add_transmission(const ShadingPoint& point, LayeredParameters& layers) const noexcept;
     [[nodiscard]] Frame add_anisotropy(const ShadingPoint& point, const Frame& shading,
@@ -59,13 +60,14 @@ private:
 
     // Factors; their textures are in the maps.
     ClearcoatDesc coat_;
-    SheenDesc sheen_;
+    FuzzDesc fuzz_;
+    bool is_sheen_;  ///< `fuzz_` has the colour of a sheen, which is also its factor
     AnisotropyDesc anisotropy_;
     IridescenceDesc film_;
     DiffuseTransmissionDesc transmission_;
     float diffuse_roughness_;
     CoatMaps coat_maps_;
-    SheenMaps sheen_maps_;
+    FuzzMaps fuzz_maps_;
     FilmMaps film_maps_;
     TransmissionMaps transmission_maps_;
     std::optional<Texture> diffuse_roughness_map_;

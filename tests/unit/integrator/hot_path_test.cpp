@@ -72,8 +72,8 @@ SceneDesc everything()
     layers.clearcoat.factor = 1.0f;
     layers.clearcoat.texture = colors;
     layers.clearcoat.normal_texture = slopes;
-    layers.sheen.color = Rgb(0.5f);
-    layers.sheen.color_texture = colors;
+    layers.fuzz.factor = 0.5f;
+    layers.fuzz.color_texture = colors;
     layers.anisotropy.strength = 0.5f;
     layers.anisotropy.texture = colors;
     layers.iridescence.factor = 0.5f;

@@ -1,4 +1,4 @@
-#include "material/coat_loss.h"
+#include "material/layer_loss.h"
 
 #include "bsdf_cases.h"
 #include "catch.hpp"
@@ -86,6 +86,39 @@ TEST_CASE("a white surface below any coat is invisible in a white furnace", "[lo
     }
 }
 
+TEST_CASE("a white surface below fibres, and any coat above or below them, loses next to nothing",
+          "[long]")
+{
+    const Rgb white{1.0f};
+    const float fuzz = GENERATE(0.1f, 0.3f, 0.6f, 1.0f);
+    for (const float coat : {-1.0f, 0.0f, 0.3f, 1.0f}) {
+        for (const bool on_coat : {false, true}) {
+            if (coat < 0.0f && on_coat) {
+                continue;
+            }
+            const LayeredParameters layers = test::fuzzy(
+                1, white, fuzz, coat < 0.0f ? LayeredParameters{} : test::coated(1, coat));
+            std::vector<test::BsdfCase> cases{{"lambert", {white, 0, 1, 0}, 1.5f, layers},
+                                              {"plastic 0.2", {white, 0, 0.2f}, 1.5f, layers},
+                                              {"plastic 1", {white, 0, 1}, 1.5f, layers},
+                                              {"index 2.4", {white, 0, 0.4f}, 2.4f, layers},
+                                              {"mirror", {white, 1, 0}, 1.5f, layers},
+                                              {"metal 0.3", {white, 1, 0.3f}, 1.5f, layers},
+                                              {"metal 1", {white, 1, 1}, 1.5f, layers}};
+            for (test::BsdfCase& bsdf_case : cases) {
+                bsdf_case.fuzz_on_coat = on_coat;
+                const test::TestedBsdf bsdf(bsdf_case);
+                for (const float cosine : {1.0f, 0.7f, 0.4f, 0.15f, -0.6f}) {
+                    CAPTURE(fuzz, coat, on_coat, bsdf_case.name, cosine);
+                    const test::Moments sum = albedo_of(bsdf, at_cosine(cosine));
+                    CHECK(sum.standard_error() < 0.0035);
+                    CHECK(std::abs(sum.mean() - 1.0) < 0.005 + 3.0 * sum.standard_error());
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("light between a coat and a darker base gets darker and more saturated")
 {
     // A share a of what arrives leaves a Lambertian base; the coat returns what it reflects.
@@ -102,7 +135,10 @@ TEST_CASE("light between a coat and a darker base gets darker and more saturated
     const float returned = r0 * average.f0 + average.f90;
     // Straight down nothing else comes between: f = T a / pi + a^2 (1 - r) / (1 - a r) L^2 / (pi
     // Lavg) with the loss L of white.
-    const CoatLoss loss(coat);
+    const LayerLoss loss(coat, [&coat](float cosine, SpecularAlbedo::Roughness roughness) {
+        const SpecularAlbedo::Split split = coat.directional(cosine, roughness);
+        return coat.normal_reflectance() * split.f0 + split.f90;
+    });
     const float lost = loss.directional(1.0f, smooth, smooth).below;
     const float lost_average = loss.average(smooth, smooth).below;
     CHECK(lost == Approx(returned - r0).epsilon(5e-3));

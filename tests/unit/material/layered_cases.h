@@ -4,6 +4,7 @@
 #include "material/models/layered.h"
 #include "material/models/models.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct BsdfCase {
     std::optional<LayeredParameters> layers{};
     /// The coat has a normal of its own: f is reciprocal with other cosines only.
     bool tilted_coat = false;
+    bool fuzz_on_coat = false;  ///< the fibres are on the coat, not below it
 
     [[nodiscard]] bool refracts() const
     {
@@ -44,7 +46,11 @@ public:
         if (tested.layers) {
             static const LayerTables tables = all_tables();
             constants_ = std::make_unique<const LayeredConstants>(
-                LayeredConstants{.base = albedo_.get(), .film_ior = 1.8f, .tables = &tables});
+                LayeredConstants{.base = albedo_.get(),
+                                 .film_ior = 1.8f,
+                                 .film_thickness = 1000.0f,
+                                 .fuzz_covers_coat = tested.fuzz_on_coat,
+                                 .tables = &tables});
             LayeredParameters layers = *tested.layers;
             layers.set_base(tested.surface);
             layers.constants = PackedPointer(constants_.get());
@@ -85,7 +91,7 @@ private:
     {
         MaterialDesc everything;
         everything.clearcoat.factor = 1.0f;
-        everything.sheen.color = Rgb(1.0f);
+        everything.fuzz.factor = 1.0f;
         return LayerTables({&everything, 1});
     }
 
@@ -106,12 +112,21 @@ private:
     return layers;
 }
 
+[[nodiscard]] inline LayeredParameters fuzzy(float share, Rgb color, float roughness,
+                                             LayeredParameters layers = {})
+{
+    layers.fuzz = Unit16(share);
+    layers.fuzz_color = Color16(color);
+    layers.fuzz_roughness = Unit16(roughness);
+    return layers;
+}
+
+/// The brightest channel is the share of the surface.
 [[nodiscard]] inline LayeredParameters sheen(Rgb color, float roughness,
                                              LayeredParameters layers = {})
 {
-    layers.sheen = Color16(color);
-    layers.sheen_roughness = Unit16(roughness);
-    return layers;
+    const float share = std::max({color.r, color.g, color.b});
+    return fuzzy(share, color / share, roughness, layers);
 }
 
 [[nodiscard]] inline LayeredParameters brushed(float strength, LayeredParameters layers = {})
@@ -125,7 +140,7 @@ private:
                                               LayeredParameters layers = {})
 {
     layers.film = Unit16(factor);
-    layers.film_thickness = thickness;
+    layers.film_thickness = Unit16(thickness / 1000.0f);
     return layers;
 }
 
@@ -173,6 +188,19 @@ private:
          {blue, 1, 0.4f},
          1.5f,
          sheen({0.5f, 0.9f, 0.7f}, 0.6f, coated(0.8f, 0.3f))},
+        {"fuzz 0.3 on a coat 0.3 on dielectric 0.4",
+         {blue, 0, 0.4f},
+         1.5f,
+         fuzzy(0.8f, {0.5f, 0.9f, 0.7f}, 0.3f, coated(0.8f, 0.3f)),
+         false,
+         true},
+        {"fuzz 0.7 on a smooth coat on lambert",
+         {blue, 0, 1, 0},
+         1.5f,
+         fuzzy(1, white, 0.7f, coated(1, 0)),
+         false,
+         true},
+        {"black fuzz 0.8 on dielectric 0.5", {blue, 0, 0.5f}, 1.5f, fuzzy(0.9f, Rgb{0.0f}, 0.8f)},
         {"brushed metal 0.2", {blue, 1, 0.2f}, 1.5f, brushed(0.7f)},
         {"brushed metal 0.1", {blue, 1, 0.1f}, 1.5f, brushed(0.5f)},
         {"brushed dielectric 0.4", {blue, 0, 0.4f}, 1.5f, brushed(0.8f)},

@@ -5,8 +5,8 @@
 #include "material/lobes/boundary_lobes.h"
 #include "material/lobes/coat.h"
 #include "material/lobes/diffuse.h"
+#include "material/lobes/fuzz.h"
 #include "material/lobes/rough_diffuse.h"
-#include "material/lobes/sheen.h"
 #include "math/rgb.h"
 
 #include <cmath>
@@ -72,7 +72,7 @@ std::vector<LobeCase> lobes()
     static const Boundary<NoFilm> plastic = dielectric(0.0f, false);
     static const Boundary<NoFilm> pane = dielectric(1.0f, false);
     static const Boundary<NoFilm> glass = dielectric(1.0f, true);
-    static const SheenAlbedo fibres;
+    static const FuzzTable fibres;
     const Vec2 brushed{0.5f, 0.2f};
     const Rgb f{0.1f, 0.2f, 0.3f};
     std::vector<LobeCase> result{
@@ -95,7 +95,9 @@ std::vector<LobeCase> lobes()
         {"coat", EvenCoat(0.8f, 0.5f, &albedo())},
         {"smooth coat", EvenCoat(0.8f, 0.0f, &albedo())},
         {"tilted coat", Coat(1.0f, 0.5f, normalize(Vec3{0.3f, -0.2f, 1.0f}), &albedo())},
-        {"sheen", Sheen(f, 0.5f, &fibres)},
+        {"fuzz", Fuzz(0.9f, Rgb{1.0f, 0.5f, 0.2f}, 0.5f, &fibres)},
+        {"thin fuzz", Fuzz(1.0f, Rgb{1.0f}, 0.2f, &fibres)},
+        {"dust", Fuzz(1.0f, Rgb{1.0f}, 1.0f, &fibres)},
     };
     for (LobeCase lobe : above) {
         lobe.from_above = true;

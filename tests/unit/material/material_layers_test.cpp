@@ -120,6 +120,57 @@ TEST_CASE("sheen has an sRGB colour and a roughness in alpha")
     check_texture(textured, same, texel(255, 255, 255, 204));
 }
 
+TEST_CASE("fuzz is red of its texture, its colour sRGB, its roughness alpha")
+{
+    MaterialDesc textured = dark_plastic();
+    textured.fuzz.factor = 0.8f;
+    textured.fuzz.color = {1.0f, 0.5f, 0.25f};
+    textured.fuzz.roughness = 0.5f;
+    MaterialDesc same = textured;
+    textured.fuzz.texture = first_image;
+    same.fuzz.factor = 0.32f;
+    check_texture(textured, same, texel(102, 255, 255, 255));
+    textured.fuzz.texture.reset();
+    textured.fuzz.color_texture = first_image;
+    same.fuzz.factor = 0.8f;
+    same.fuzz.color = {srgb(0.4), 0.5f * srgb(0.6), 0.25f * srgb(0.8)};
+    check_texture(textured, same, texel(102, 153, 204, 255));
+    textured.fuzz.color_texture.reset();
+    textured.fuzz.roughness_texture = first_image;
+    same.fuzz.color = textured.fuzz.color;
+    same.fuzz.roughness = 0.4f;
+    check_texture(textured, same, texel(255, 255, 255, 204));
+    // It replaces a sheen, of which it is the general case.
+    MaterialDesc sheen = dark_plastic();
+    sheen.sheen.color = {0.8f, 0.4f, 0.2f};
+    sheen.sheen.roughness = 0.5f;
+    same.fuzz.roughness = 0.5f;
+    check_equal(scattered(same), scattered(sheen));
+    sheen.fuzz = same.fuzz;
+    sheen.sheen.color = Rgb(1.0f);
+    check_equal(scattered(same), scattered(sheen));
+}
+
+TEST_CASE("fuzz covers a coat, and a coat covers a sheen")
+{
+    // Black dust takes from the reflection of the coat above which it is.
+    MaterialDesc fuzz;
+    fuzz.base_color = {0.0f, 0.0f, 0.0f, 1.0f};
+    fuzz.metallic = 0.0f;
+    fuzz.specular = 0.0f;
+    fuzz.clearcoat.factor = 1.0f;
+    fuzz.clearcoat.roughness = 0.5f;
+    const Rgb coat = scattered(fuzz);
+    MaterialDesc sheen = fuzz;
+    fuzz.fuzz.factor = 1.0f;
+    fuzz.fuzz.color = Rgb(0.0f);
+    fuzz.fuzz.roughness = 1.0f;
+    CHECK(scattered(fuzz).g < 0.7f * coat.g);
+    sheen.sheen.color = Rgb(0.2f);
+    sheen.sheen.roughness = 1.0f;
+    CHECK(scattered(sheen).g > coat.g);
+}
+
 TEST_CASE("grooves follow the tangent, their rotation and their texture")
 {
     MaterialDesc desc = dark_plastic();
@@ -204,6 +255,7 @@ TEST_CASE("unlit materials have no layers, and layers of factor 0 are none")
     const std::vector<std::function<void(MaterialDesc&)>> changes{
         [](MaterialDesc& d) { d.clearcoat.factor = 0.1f; },
         [](MaterialDesc& d) { d.sheen.color.b = 0.1f; },
+        [](MaterialDesc& d) { d.fuzz.factor = 0.1f; },
         [](MaterialDesc& d) { d.anisotropy.strength = 0.1f; },
         [](MaterialDesc& d) { d.iridescence.factor = 0.1f; },
         [](MaterialDesc& d) { d.diffuse_transmission.factor = 0.1f; },

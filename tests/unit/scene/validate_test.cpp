@@ -103,9 +103,8 @@ TEST_CASE("everything is within reach of rays", "[validate]")
         };
     };
     CHECK(refusal(scale(1e-17f, 1)).empty());
-    check_refused(
-        "is the most, because an instanced or moving mesh is scaled down very much",
-        scale(1e-18f, 2));
+    check_refused("is the most, because an instanced or moving mesh is scaled down very much",
+                  scale(1e-18f, 2));
     CHECK(refusal(scale(1e-6f, 2)).empty());
 }
 
@@ -133,6 +132,8 @@ TEST_CASE("materials: ranges and textures", "[validate]")
                   [](SceneDesc& d) { d.materials[0].iridescence.ior = 0.9f; });
     check_refused("material 0: iridescence thickness minimum is -5",
                   [](SceneDesc& d) { d.materials[0].iridescence.thickness_minimum = -5.0f; });
+    check_refused("material 0: fuzz roughness is 1.5",
+                  [](SceneDesc& d) { d.materials[0].fuzz.roughness = 1.5f; });
     check_refused("material 0: diffuse roughness is -1",
                   [](SceneDesc& d) { d.materials[0].diffuse_roughness.factor = -1.0f; });
     check_refused("material 0: diffuse transmission is 2",

@@ -28,15 +28,10 @@ float EvenCoat::reflected(float cosine) const noexcept
     return weight_ * std::min(1.0f, albedo_->normal_reflectance() * split.f0 + split.f90);
 }
 
-CoatInterreflection EvenCoat::interreflection(const CoatedBase& base,
-                                              const CoatLoss* loss) const noexcept
+float EvenCoat::average() const noexcept
 {
-    if (!exists()) {
-        return {};
-    }
     const SpecularAlbedo::Split average = albedo_->average(roughness_);
-    const float reflected = albedo_->normal_reflectance() * average.f0 + average.f90;
-    return {base, weight_, reflected, roughness_, *loss};
+    return weight_ * (albedo_->normal_reflectance() * average.f0 + average.f90);
 }
 
 BsdfEval EvenCoat::eval(Vec3 wo, Vec3 wi, TransportMode) const noexcept
@@ -73,16 +68,22 @@ Coat::Coat(float weight, float roughness, Vec3 normal, const SpecularAlbedo* alb
       tilted_(normal != Vec3{0.0f, 0.0f, 1.0f})
 {}
 
-CoatInterreflection Coat::interreflection(const CoatedBase& base,
-                                          const CoatLoss* loss) const noexcept
+Rgb Coat::returned(Rgb base) const noexcept
 {
-    const CoatInterreflection even = even_.interreflection(base, loss);
-    if (!tilted_) {
-        return even;
-    }
     constexpr float less_per_sine = 1.3f;  // so that no direction reflects more than arrives
+    const float again = even_.average();
     const float sine = std::sqrt(frame_.z.x * frame_.z.x + frame_.z.y * frame_.z.y);
-    return even.times(std::max(0.0f, 1.0f - less_per_sine * sine));
+    const float kept = tilted_ ? std::max(0.0f, 1.0f - less_per_sine * sine) : 1.0f;
+    return base * base * (kept * (1.0f - again) / (Rgb(1.0f) - base * again));
+}
+
+float Coat::lost_below(const ReturnedLight& above, float cosine, float passed,
+                       float lost) const noexcept
+{
+    const auto [reflected, thinned] =
+        above.at_boundary(cosine, even_.weight() * even_.normal_reflectance(), even_.weight(),
+                          even_.row(), 1.0f - even_.average());
+    return reflected + passed * std::min(1.0f, thinned) * lost;
 }
 
 float Coat::reflected(Vec3 w) const noexcept

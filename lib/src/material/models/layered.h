@@ -2,86 +2,108 @@
 
 #include "material/layers.h"
 #include "material/lobes/coat.h"
-#include "material/lobes/sheen.h"
+#include "material/lobes/fuzz.h"
+#include "material/models/layer_over.h"
 #include "material/models/metallic_roughness.h"
 #include "material/models/scattering_model.h"
+#include "material/tilted_facet.h"
 
 #include <glm/common.hpp>
 
-#include <cmath>
 #include <optional>
 
 namespace bdpt {
 
-/// Layers over the glTF material model: KHR_materials_{clearcoat, sheen}, and a base with
-/// KHR_materials_{anisotropy, diffuse_roughness, diffuse_transmission, iridescence}. Directions as in all models; +x
-/// is the rougher direction. Layers cover the outside of solid bodies, and both sides of all other
-/// surfaces.
-///
-/// Everything below a layer is multiplied by min(T(wo), T(wi)), where T is the fraction that the
-/// layer does not reflect: so no energy is created, and the model is reciprocal. That is the rule
-/// that KHR_materials_sheen gives for its layer. The energy that a base below a coat loses by it is
-/// restored as diffuse light (`CoatInterreflection`).
-class LayeredBsdf {
+/// What is below all layers: the glTF material model with KHR_materials_{anisotropy,
+/// diffuse_roughness, diffuse_transmission, iridescence}. Directions as in all models; +x is the
+/// rougher direction.
+class LowestLayer {
 public:
-    explicit LayeredBsdf(const LayeredParameters& parameters);
+    using Side = LayerBase::Side;
 
-    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
-    /// `u_lobe` and `u` are uniform in [0, 1).
-    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
-                                                   TransportMode mode) const noexcept;
-    /// Tests whether it has a lobe that is not delta.
-    [[nodiscard]] bool has_smooth_lobe() const noexcept;
-    /// Returns the approximate albedo of the base, > 0.
-    [[nodiscard]] float base_weight() const noexcept { return base_weight_; }
-    /// Returns the light that a coat on top reflects back.
-    [[nodiscard]] CoatInterreflection interreflection(const Coat& coat,
-                                                      const CoatLoss* loss) const noexcept
+    explicit LowestLayer(const LayeredParameters& parameters);
+
+    [[nodiscard]] Side side(Vec3 w) const noexcept { return base_.side(w.z); }
+    [[nodiscard]] float weight(const Side&) const noexcept { return weight_; }
+    [[nodiscard]] BsdfEval eval(const Side& from, const Side& to, Vec3 wo, Vec3 wi,
+                                TransportMode mode) const noexcept
     {
-        return coat.interreflection(base_.coated(), loss);
+        return base_.eval(from, to, wo, wi, mode);
     }
-    /// Returns the fraction of light from a direction with this z, on a covered side, that is lost
-    /// without it.
-    [[nodiscard]] float lost(const CoatInterreflection& again, float z) const noexcept
+    [[nodiscard]] std::optional<BsdfSample> direct(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept
     {
-        return lost(again, z, base_.side(z));
+        return base_.direct(from, wo, u_lobe, u, mode);
+    }
+    [[nodiscard]] bool has_smooth_lobe() const noexcept { return base_.has_smooth_lobe(); }
+    [[nodiscard]] CoveredBase covered_base() const noexcept { return base_.covered(); }
+    [[nodiscard]] float lost(const ReturnedLight& again, float z, const Side& side) const noexcept
+    {
+        return again.lost(std::abs(z), {side.base_transmitted, base_.metal_unreflected(z)});
+    }
+    [[nodiscard]] float average_lost(const ReturnedLight& again) const noexcept
+    {
+        return again.average_lost();
     }
 
 private:
-    /// Values that depend on one direction alone.
-    struct Side {
-        LayerBase::Side base;
-        // Probabilities of the lobes.
-        float coat_choice = 0.0f;
-        float sheen_choice = 0.0f;
-        float base_choice = 1.0f;
-        float again_choice = 0.0f;
-        float lost = 0.0f;  ///< fraction of light between coat and base
-        // Fraction of light that remains below each layer.
-        float below_coat = 1.0f;
-        float below_sheen = 1.0f;
-    };
-
-    [[nodiscard]] Side side(Vec3 w) const noexcept;
-    [[nodiscard]] float lost(const CoatInterreflection& again, float z,
-                             const LayerBase::Side& base) const noexcept
-    {
-        return again.lost(std::abs(z), {base.base_transmitted, base_.metal_unreflected(z)});
-    }
-    [[nodiscard]] bool is_covered(Vec3 w) const noexcept { return !solid_ || w.z > 0.0f; }
-    [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
-                                      TransportMode mode) const noexcept;
-    [[nodiscard]] std::optional<BsdfSample> sample_coat(const Side& from, Vec3 wo, float u_lobe,
-                                                        Vec2 u, TransportMode mode) const noexcept;
-    [[nodiscard]] std::optional<BsdfSample> sample_base(const Side& from, Vec3 wo, float u_lobe,
-                                                        Vec2 u, TransportMode mode) const noexcept;
-
     LayerBase base_;
-    Coat coat_;
-    Sheen sheen_;
-    CoatInterreflection again_;
-    float base_weight_;
-    bool solid_;
+    float weight_;  ///< approximate albedo, > 0
+};
+
+using FuzzyBase = LayerOver<Fuzz, LowestLayer, SameFrame>;
+
+/// A surface of several layers: fibres, a coat, fibres below it, and the base.
+class LayeredBsdf : public LayerOver<Fuzz, LayerOver<Coat, FuzzyBase, SameFrame>, SameFrame> {
+public:
+    explicit LayeredBsdf(const LayeredParameters& parameters);
+};
+
+/// Fibres and base on the facet of a normal map (`MappedBsdf`), below a coat.
+class LowestFacet {
+public:
+    struct Side {};
+
+    LowestFacet(const TiltedFacet& facet, const LayeredParameters& parameters);
+
+    [[nodiscard]] Side side(Vec3) const noexcept { return {}; }
+    [[nodiscard]] float weight(const Side&) const noexcept { return weight_; }
+    [[nodiscard]] BsdfEval eval(const Side&, const Side&, Vec3 wo, Vec3 wi,
+                                TransportMode mode) const noexcept
+    {
+        return MappedBsdf(facet_, base_, color_).eval(wo, wi, mode);
+    }
+    [[nodiscard]] std::optional<BsdfSample> direct(const Side&, Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept
+    {
+        return MappedBsdf(facet_, base_, color_).sample(wo, u_lobe, u, mode);
+    }
+    [[nodiscard]] bool has_smooth_lobe() const noexcept { return base_.has_smooth_lobe(); }
+    [[nodiscard]] CoveredBase covered_base() const noexcept { return base_.covered_base(); }
+    /// As if there were no normal map.
+    [[nodiscard]] float lost(const ReturnedLight& again, float z, const Side&) const noexcept;
+    [[nodiscard]] float average_lost(const ReturnedLight& again) const noexcept
+    {
+        return base_.average_lost(again);
+    }
+
+private:
+    TiltedFacet facet_;
+    FuzzyBase base_;
+    Rgb color_;
+    float weight_;
+};
+
+/// Layers over the facet of a normal map. A coat follows the surface, ignoring the map of the base,
+/// or has a map of its own, and fibres on the coat follow the surface; the other layers follow the
+/// facet. Directions are local to the facet.
+class LayeredFacet : public LayerOver<Fuzz, LayerOver<Coat, LowestFacet, Frame>, Frame> {
+public:
+    LayeredFacet(const TiltedFacet& facet, const LayeredParameters& parameters);
+
+private:
+    LayeredFacet(const TiltedFacet& facet, const Frame& surface,
+                 const LayeredParameters& parameters);
 };
 
 /// A surface with layers, stored as its parameters: `LayeredBsdf` is constructed at each call, so
@@ -96,7 +118,8 @@ public:
     [[nodiscard]] bool has_smooth_lobe() const noexcept;
     [[nodiscard]] bool transmits() const noexcept
     {
-        return parameters_.transmission > 0.0f || parameters_.diffuse_transmission.value() > 0.0f;
+        return parameters_.transmission.value() > 0.0f ||
+               parameters_.diffuse_transmission.value() > 0.0f;
     }
     [[nodiscard]] Rgb base_color() const noexcept
     {

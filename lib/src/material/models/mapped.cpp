@@ -1,7 +1,7 @@
 #include "material/models/mapped.h"
 
 #include "material/mapped_bsdf.h"
-#include "material/models/coated_facet.h"
+#include "material/models/layered.h"
 
 namespace bdpt {
 namespace {
@@ -12,7 +12,7 @@ template <typename Model>
     return {TiltedFacet(ns), model, model.base_color()};
 }
 
-[[nodiscard]] CoatedFacet on_facet(Vec3 ns, const Layered& model)
+[[nodiscard]] LayeredFacet on_facet(Vec3 ns, const Layered& model)
 {
     return {TiltedFacet(ns), model.parameters()};
 }

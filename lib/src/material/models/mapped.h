@@ -10,7 +10,7 @@
 namespace bdpt {
 
 /// A model on the facet of a normal map (`MappedBsdf`), whose normal is +z; a coat follows the
-/// surface or has a map of its own (`CoatedFacet`).
+/// surface or has a map of its own (`LayeredFacet`).
 template <ScatteringModel Model>
 class Mapped {
 public:

@@ -84,7 +84,7 @@ float BasicMetallicRoughness<Film, Roughness, Base>::reaches_base() const noexce
 }
 
 template <typename Film, typename Roughness, typename Base>
-CoatedBase BasicMetallicRoughness<Film, Roughness, Base>::coated() const noexcept
+CoveredBase BasicMetallicRoughness<Film, Roughness, Base>::covered() const noexcept
 {
     const float metallic = boundary_.metallic;
     const float passes = boundary_.exists ? reaches_base() : 1.0f;
@@ -229,11 +229,14 @@ float base_choice(const Side& side)
 }
 
 template <typename Film, typename Roughness, typename Base>
-BsdfEval BasicMetallicRoughness<Film, Roughness, Base>::eval_lobes(
-    const Side& from, Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+BsdfEval BasicMetallicRoughness<Film, Roughness, Base>::eval(const Side& from, const Side& to,
+                                                             Vec3 wo, Vec3 wi,
+                                                             TransportMode mode) const noexcept
 {
     BsdfEval sum;
-    const Side to = side(wi.z);
+    if (grazes(wo) || grazes(wi)) {
+        return sum;
+    }
     if (boundary_.exists && roughness_.is_rough()) {
         sum = chosen(GgxBoundary(boundary_, roughness_.alpha()).eval(wo, wi, mode),
                      from.boundary_choice, to.boundary_choice);
@@ -255,14 +258,7 @@ BsdfEval BasicMetallicRoughness<Film, Roughness, Base>::eval_lobes(
 }
 
 template <typename Film, typename Roughness, typename Base>
-BsdfEval BasicMetallicRoughness<Film, Roughness, Base>::eval(const Side& from, Vec3 wo, Vec3 wi,
-                                                             TransportMode mode) const noexcept
-{
-    return grazes(wo) || grazes(wi) ? BsdfEval{} : eval_lobes(from, wo, wi, mode);
-}
-
-template <typename Film, typename Roughness, typename Base>
-std::optional<BsdfSample> BasicMetallicRoughness<Film, Roughness, Base>::sample(
+std::optional<BsdfSample> BasicMetallicRoughness<Film, Roughness, Base>::direct(
     const Side& from, Vec3 wo, float u_lobe, Vec2 u, TransportMode mode) const noexcept
 {
     if (grazes(wo)) {
@@ -283,10 +279,21 @@ std::optional<BsdfSample> BasicMetallicRoughness<Film, Roughness, Base>::sample(
         const auto choice_at = [this](float z) { return side(z).boundary_choice; };
         return SmoothBoundary(boundary_, choice, choice_at).sample(wo, u_lobe / choice, u, mode);
     }
-    if (!sampled || grazes(sampled->wi)) {
+    return sampled;
+}
+
+template <typename Film, typename Roughness, typename Base>
+std::optional<BsdfSample> BasicMetallicRoughness<Film, Roughness, Base>::sample(
+    const Side& from, Vec3 wo, float u_lobe, Vec2 u, TransportMode mode) const noexcept
+{
+    std::optional<BsdfSample> sampled = direct(from, wo, u_lobe, u, mode);
+    if (!sampled || sampled->delta) {
+        return sampled;
+    }
+    if (grazes(sampled->wi)) {
         return std::nullopt;
     }
-    return smooth_sample(sampled->wi, eval_lobes(from, wo, sampled->wi, mode));
+    return smooth_sample(sampled->wi, eval(from, wo, sampled->wi, mode));
 }
 
 template class BasicMetallicRoughness<NoFilm, IsotropicRoughness, DiffuseBase>;

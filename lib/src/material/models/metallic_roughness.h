@@ -1,10 +1,10 @@
 #pragma once
 
 #include "material/lobes/boundary.h"
-#include "material/lobes/coat.h"
 #include "material/lobes/diffuse.h"
 #include "material/lobes/fresnel.h"
 #include "material/lobes/interreflection.h"
+#include "material/lobes/returned_light.h"
 #include "material/lobes/rough_diffuse.h"
 #include "material/lobes/roughness.h"
 #include "material/models/scattering_model.h"
@@ -184,8 +184,8 @@ public:
     /// Returns the values of a direction with this z.
     [[nodiscard]] Side side(float z) const noexcept;
 
-    /// Returns the properties that a coat above needs.
-    [[nodiscard]] CoatedBase coated() const noexcept;
+    /// Returns the properties that a layer above needs.
+    [[nodiscard]] CoveredBase covered() const noexcept;
     /// Returns the fraction of light from a direction with this z that white microfacets do not
     /// reflect at once; 0 if they do not interreflect.
     [[nodiscard]] float metal_unreflected(float z) const noexcept
@@ -193,9 +193,17 @@ public:
         return interreflects() ? unreflected(z) : 0.0f;
     }
 
-    /// Evaluates the model; `from` belongs to wo.
-    [[nodiscard]] BsdfEval eval(const Side& from, Vec3 wo, Vec3 wi,
+    /// Evaluates the model; `from` belongs to wo, `to` to wi.
+    [[nodiscard]] BsdfEval eval(const Side& from, const Side& to, Vec3 wo, Vec3 wi,
                                 TransportMode mode) const noexcept;
+    [[nodiscard]] BsdfEval eval(const Side& from, Vec3 wo, Vec3 wi,
+                                TransportMode mode) const noexcept
+    {
+        return eval(from, side(wi.z), wo, wi, mode);
+    }
+    /// Samples a direction: the complete sample of a delta lobe, else only the direction matters.
+    [[nodiscard]] std::optional<BsdfSample> direct(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept;
     [[nodiscard]] std::optional<BsdfSample> sample(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept;
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
@@ -243,8 +251,6 @@ private:
     [[nodiscard]] float average_unreflected() const noexcept;
     /// Returns the fraction that transparent microfacets do not scatter out at once.
     [[nodiscard]] float lost(float z) const noexcept;
-    [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
-                                      TransportMode mode) const noexcept;
 
     Boundary<Film> boundary_;
     Roughness roughness_;

@@ -86,6 +86,37 @@ TEST_CASE("sheen is read")
     CHECK(none.scene.images.empty());
 }
 
+TEST_CASE("fuzz is read, as a draft, and replaces a sheen")
+{
+    GltfFixture fixture =
+        with_extension("KHR_materials_fuzz", {{"fuzzFactor", 0.5},
+                                              {"fuzzTexture", texture(1)},
+                                              {"fuzzColorFactor", {0.75, 0.5, 0.25}},
+                                              {"fuzzColorTexture", texture(2)},
+                                              {"fuzzRoughnessFactor", 0.25},
+                                              {"fuzzRoughnessTexture", texture(3)}});
+    fixture.json["materials"][0]["extensions"]["KHR_materials_sheen"] = {
+        {"sheenColorFactor", {1, 1, 1}}};
+    const LoadedScene loaded = fixture.load();
+    CHECK(loaded.warnings.empty());
+    CHECK(loaded.notes.size() == 1);
+    const MaterialDesc& material = loaded.scene.materials.at(0);
+    CHECK(material.sheen.color == Rgb(0.0f));
+    CHECK(material.fuzz.factor == 0.5f);
+    CHECK(material.fuzz.color == Rgb(0.75f, 0.5f, 0.25f));
+    CHECK(material.fuzz.roughness == 0.25f);
+    CHECK(grey_image(loaded, material.fuzz.texture) == 1);
+    CHECK(grey_image(loaded, material.fuzz.color_texture) == 2);
+    CHECK(grey_image(loaded, material.fuzz.roughness_texture) == 3);
+    const LoadedScene defaults = with_extension("KHR_materials_fuzz", {{"fuzzFactor", 1}}).load();
+    CHECK(defaults.scene.materials.at(0).fuzz.color == Rgb(1.0f));
+    CHECK(defaults.scene.materials.at(0).fuzz.roughness == 0.5f);
+    const LoadedScene none =
+        with_extension("KHR_materials_fuzz", {{"fuzzTexture", texture(1)}}).load();
+    CHECK(none.scene.materials.at(0).fuzz.factor == 0.0f);
+    CHECK(none.scene.images.empty());
+}
+
 TEST_CASE("anisotropy is read")
 {
     const LoadedScene loaded =
@@ -232,6 +263,7 @@ TEST_CASE("each property of an extension must have its type")
         {"clearcoat", "clearcoatFactor"},
         {"clearcoat", "clearcoatRoughnessFactor"},
         {"diffuse_roughness", "diffuseRoughnessFactor"},
+        {"fuzz", "fuzzFactor"},
         {"diffuse_transmission", "diffuseTransmissionFactor"},
         {"diffuse_transmission", "diffuseTransmissionColorFactor", "3 numbers"},
         {"dispersion", "dispersion"},

@@ -41,6 +41,27 @@ SheenDesc read_sheen(const MaterialExtension& from)
     return sheen;
 }
 
+/// The draft's text and schema differ in the default of the roughness: it is that of the text and
+/// of OpenPBR, as in other readers.
+FuzzDesc read_fuzz(const MaterialExtension& from)
+{
+    FuzzDesc fuzz;
+    fuzz.factor = from.number("fuzzFactor", 0.0, 0.0, 1.0);
+    if (fuzz.factor == 0.0f) {
+        return fuzz;
+    }
+    fuzz.texture = from.texture("fuzzTexture");
+    fuzz.color = from.color("fuzzColorFactor", 1.0);
+    if (fuzz.color != Rgb(0.0f)) {
+        fuzz.color_texture = from.texture("fuzzColorTexture");
+    }
+    fuzz.roughness = from.number("fuzzRoughnessFactor", 0.5, 0.0, 1.0);
+    if (fuzz.roughness > 0.0f) {
+        fuzz.roughness_texture = from.texture("fuzzRoughnessTexture");
+    }
+    return fuzz;
+}
+
 AnisotropyDesc read_anisotropy(const MaterialExtension& from)
 {
     AnisotropyDesc anisotropy;
@@ -116,7 +137,12 @@ void read_extension(const MaterialValues& values, const std::string& name,
 void read_layers(const MaterialValues& values, MaterialDesc& desc)
 {
     read_extension(values, "KHR_materials_clearcoat", read_clearcoat, desc.clearcoat);
-    read_extension(values, "KHR_materials_sheen", read_sheen, desc.sheen);
+    // A layer that another replaces, even by none, is a fallback for readers without the draft.
+    if (values.extension("KHR_materials_fuzz")) {
+        read_extension(values, "KHR_materials_fuzz", read_fuzz, desc.fuzz);
+    } else {
+        read_extension(values, "KHR_materials_sheen", read_sheen, desc.sheen);
+    }
     read_extension(values, "KHR_materials_anisotropy", read_anisotropy, desc.anisotropy);
     read_extension(values, "KHR_materials_iridescence", read_iridescence, desc.iridescence);
     read_extension(values, "KHR_materials_diffuse_transmission", read_diffuse_transmission,

@@ -1,7 +1,9 @@
-#include "material/coat_loss.h"
+#include "material/layer_loss.h"
 
+#include "material/lobes/fuzz.h"
 #include "material/lobes/ggx_quadrature.h"
 #include "material/table_nodes.h"
+#include "math/elementary.h"
 
 #include <algorithm>
 #include <array>
@@ -10,14 +12,20 @@
 namespace bdpt {
 namespace {
 
-using Directional = CoatLoss::Directional;
-using Average = CoatLoss::Average;
+using Directional = LayerLoss::Directional;
+using Average = LayerLoss::Average;
+using AtFibres = LayerLoss::AtFibres;
 
 [[nodiscard]] Directional mix_losses(const Directional& a, const Directional& b, float t)
 {
     return {a.f0 + t * (b.f0 - a.f0), a.f90 + t * (b.f90 - a.f90),
             a.below + t * (b.below - a.below), a.below_f0 + t * (b.below_f0 - a.below_f0),
             a.below_f90 + t * (b.below_f90 - a.below_f90)};
+}
+
+[[nodiscard]] AtFibres mix_losses(const AtFibres& a, const AtFibres& b, float t)
+{
+    return {a.reflected + t * (b.reflected - a.reflected), a.passed + t * (b.passed - a.passed)};
 }
 
 [[nodiscard]] Average mix_losses(const Average& a, const Average& b, float t)
@@ -32,13 +40,6 @@ using Average = CoatLoss::Average;
             a.below_f90_f90 + t * (b.below_f90_f90 - a.below_f90_f90)};
 }
 
-[[nodiscard]] float coat_albedo(const SpecularAlbedo& coat, float cosine,
-                                SpecularAlbedo::Roughness roughness)
-{
-    const SpecularAlbedo::Split split = coat.directional(cosine, roughness);
-    return std::min(1.0f, coat.normal_reflectance() * split.f0 + split.f90);
-}
-
 [[nodiscard]] SpecularAlbedo::Roughness roughness_at(int node, int nodes)
 {
     return SpecularAlbedo::at_roughness(static_cast<float>(node) / static_cast<float>(nodes - 1));
@@ -51,28 +52,20 @@ using Average = CoatLoss::Average;
     return x * x;
 }
 
-/// Returns the coat's albedo at the nodes of cosines.
-template <std::size_t Nodes>
-[[nodiscard]] std::array<float, Nodes> coat_row(const SpecularAlbedo& coat,
-                                                SpecularAlbedo::Roughness roughness)
-{
-    std::array<float, Nodes> row{};
-    for (std::size_t i = 0; i < Nodes; ++i) {
-        row[i] = coat_albedo(coat, cosine_at(static_cast<int>(i), Nodes), roughness);
-    }
-    return row;
-}
-
 }  // namespace
 
-CoatLoss::CoatLoss(const SpecularAlbedo& coat) : fresnel_rise_(coat.average({}).f90)
+LayerLoss::LayerLoss(const SpecularAlbedo& boundary, const Albedo& layer, const FuzzTable* fibres)
+    : fresnel_rise_(boundary.average({}).f90)
 {
-    integrate_boundary(coat);
-    integrate_below(coat);
-    integrate_averages(coat);
+    integrate_boundary(boundary, layer);
+    integrate_below(boundary, layer);
+    integrate_averages(boundary);
+    if (fibres != nullptr) {
+        integrate_fibres(*fibres, layer);
+    }
 }
 
-void CoatLoss::integrate_boundary(const SpecularAlbedo& coat)
+void LayerLoss::integrate_boundary(const SpecularAlbedo& boundary, const Albedo& layer)
 {
     for (int base = 1; base < roughness_nodes; ++base) {  // a mirror loses nothing
         const float roughness = roughness_at(base, roughness_nodes).value();
@@ -82,16 +75,15 @@ void CoatLoss::integrate_boundary(const SpecularAlbedo& coat)
             std::array<float, roughness_nodes> reflected{};
             for (int c = 0; c < roughness_nodes; ++c) {
                 reflected[static_cast<std::size_t>(c)] =
-                    coat_albedo(coat, cosine, roughness_at(c, roughness_nodes));
+                    layer(cosine, roughness_at(c, roughness_nodes));
             }
             const auto add = [&](const ggx::QuadraturePoint& point) {
                 const Vec3 wi = point.facet.reflected();
                 const float leaves = point.share * point.leaves(wi, alpha);
-                const float g = coat.fresnel_course(point.facet.cosine);
+                const float g = boundary.fresnel_course(point.facet.cosine);
                 for (std::size_t c = 0; leaves > 0.0f && c < roughness_nodes; ++c) {
-                    const float there =
-                        coat_albedo(coat, std::min(1.0f, wi.z),
-                                    roughness_at(static_cast<int>(c), roughness_nodes));
+                    const float there = layer(std::min(1.0f, wi.z),
+                                              roughness_at(static_cast<int>(c), roughness_nodes));
                     const float lost = leaves * std::max(0.0f, there - reflected[c]);
                     Directional& node =
                         directional_[row(static_cast<std::size_t>(base), c) * cosine_nodes +
@@ -105,13 +97,17 @@ void CoatLoss::integrate_boundary(const SpecularAlbedo& coat)
     }
 }
 
-void CoatLoss::integrate_below(const SpecularAlbedo& coat)
+void LayerLoss::integrate_below(const SpecularAlbedo& boundary, const Albedo& layer)
 {
     // Midpoints evenly spaced in sqrt(cosine).
     constexpr int points = 128;
     for (int c = 0; c < roughness_nodes; ++c) {
-        const SpecularAlbedo::Roughness of_coat = roughness_at(c, roughness_nodes);
-        const std::array<float, cosine_nodes> reflected = coat_row<cosine_nodes>(coat, of_coat);
+        const SpecularAlbedo::Roughness of_layer = roughness_at(c, roughness_nodes);
+        std::array<float, cosine_nodes> reflected{};
+        for (int column = 0; column < cosine_nodes; ++column) {
+            reflected[static_cast<std::size_t>(column)] =
+                layer(cosine_at(column, cosine_nodes), of_layer);
+        }
         for (int base = 0; base < roughness_nodes; ++base) {
             const SpecularAlbedo::Roughness of_base = roughness_at(base, roughness_nodes);
             Directional* nodes =
@@ -120,8 +116,8 @@ void CoatLoss::integrate_below(const SpecularAlbedo& coat)
             for (int i = 0; i < points; ++i) {
                 const float x = (static_cast<float>(i) + 0.5f) / points;
                 const float cosine = x * x;
-                const float there = coat_albedo(coat, cosine, of_coat);
-                const SpecularAlbedo::Split kept = coat.directional(cosine, of_base);
+                const float there = layer(cosine, of_layer);
+                const SpecularAlbedo::Split kept = boundary.directional(cosine, of_base);
                 for (int column = 0; column < cosine_nodes; ++column) {
                     const float here = reflected[static_cast<std::size_t>(column)];
                     const float lost = 4.0f * x * cosine / points * std::max(0.0f, there - here);
@@ -134,7 +130,7 @@ void CoatLoss::integrate_below(const SpecularAlbedo& coat)
     }
 }
 
-void CoatLoss::integrate_averages(const SpecularAlbedo& coat)
+void LayerLoss::integrate_averages(const SpecularAlbedo& boundary)
 {
     for (int base = 0; base < roughness_nodes; ++base) {
         const SpecularAlbedo::Roughness of_base = roughness_at(base, roughness_nodes);
@@ -144,7 +140,7 @@ void CoatLoss::integrate_averages(const SpecularAlbedo& coat)
             Average& sum = average_[at];
             for_each_cosine_interval(cosine_nodes, [&](int column, float share, float fraction) {
                 const float x = (static_cast<float>(column) + fraction) / (cosine_nodes - 1);
-                const SpecularAlbedo::Split kept = coat.directional(x * x, of_base);
+                const SpecularAlbedo::Split kept = boundary.directional(x * x, of_base);
                 const Directional lost = mix_losses(nodes[column], nodes[column + 1], fraction);
                 sum.f0 += share * lost.f0;
                 sum.f90 += share * lost.f90;
@@ -159,14 +155,60 @@ void CoatLoss::integrate_averages(const SpecularAlbedo& coat)
     }
 }
 
-Directional CoatLoss::directional(float cosine, Roughness base, Roughness coat) const noexcept
+void LayerLoss::integrate_fibres(const FuzzTable& fibres, const Albedo& layer)
+{
+    constexpr int heights = 24;  // evenly spaced in sqrt(cosine)
+    constexpr int azimuths = 12;
+    at_fibres_.resize(directional_.size());
+    for (int base = 0; base < roughness_nodes; ++base) {
+        const float roughness = roughness_at(base, roughness_nodes).value();
+        const auto passed = [roughness](float cosine) {
+            return 1.0f - FuzzTable::directional(cosine, roughness);
+        };
+        float passed_average = 0.0f;
+        for (int i = 0; i < heights; ++i) {
+            const float x = (static_cast<float>(i) + 0.5f) / heights;
+            passed_average += 4.0f * x * x * x / heights * passed(x * x);
+        }
+        for (int column = 0; column < cosine_nodes; ++column) {
+            const float cos_o = std::max(cosine_at(column, cosine_nodes), 1e-4f);
+            const Vec3 wo{std::sqrt(1.0f - cos_o * cos_o), 0.0f, cos_o};
+            for (int i = 0; i < heights; ++i) {
+                const float x = (static_cast<float>(i) + 0.5f) / heights;
+                const float cos_i = x * x;
+                const float sine = std::sqrt(1.0f - cos_i * cos_i);
+                float around = 0.0f;
+                for (int j = 0; j < azimuths; ++j) {
+                    const SinCos turn = sin_cos(pi * (static_cast<float>(j) + 0.5f) / azimuths);
+                    around +=
+                        fibres.value(wo, {sine * turn.cos, sine * turn.sin, cos_i}, roughness);
+                }
+                const float area = 4.0f * x * cos_i / heights;  // of cos d cos, over 1/2
+                for (int c = 0; c < roughness_nodes; ++c) {
+                    const auto of_layer = roughness_at(c, roughness_nodes);
+                    const float lost =
+                        area * std::max(0.0f, layer(cos_i, of_layer) - layer(cos_o, of_layer));
+                    AtFibres& node = at_fibres_[row(static_cast<std::size_t>(base),
+                                                    static_cast<std::size_t>(c)) *
+                                                    cosine_nodes +
+                                                static_cast<std::size_t>(column)];
+                    node.reflected += lost * around * pi / azimuths;
+                    node.passed += lost * passed(cos_i) / passed_average;
+                }
+            }
+        }
+    }
+}
+
+template <typename Loss>
+Loss LayerLoss::interpolated(const Loss* table, float cosine, Roughness base,
+                             Roughness layer) noexcept
 {
     const NodePosition p = node_position(std::sqrt(cosine) * (cosine_nodes - 1), cosine_nodes);
     const NodePosition b = node_position(base.value() * (roughness_nodes - 1), roughness_nodes);
-    const NodePosition c = node_position(coat.value() * (roughness_nodes - 1), roughness_nodes);
-    const auto at = [&](std::size_t base_node, std::size_t coat_node) {
-        const Directional* nodes =
-            directional_.data() + row(base_node, coat_node) * cosine_nodes + p.node;
+    const NodePosition c = node_position(layer.value() * (roughness_nodes - 1), roughness_nodes);
+    const auto at = [&](std::size_t base_node, std::size_t layer_node) {
+        const Loss* nodes = table + row(base_node, layer_node) * cosine_nodes + p.node;
         return mix_losses(nodes[0], nodes[1], p.fraction);
     };
     return mix_losses(mix_losses(at(b.node, c.node), at(b.node, c.node + 1), c.fraction),
@@ -174,10 +216,20 @@ Directional CoatLoss::directional(float cosine, Roughness base, Roughness coat) 
                       b.fraction);
 }
 
-Average CoatLoss::average(Roughness base, Roughness coat) const noexcept
+Directional LayerLoss::directional(float cosine, Roughness base, Roughness layer) const noexcept
+{
+    return interpolated(directional_.data(), cosine, base, layer);
+}
+
+AtFibres LayerLoss::at_fibres(float cosine, Roughness fibres, Roughness layer) const noexcept
+{
+    return interpolated(at_fibres_.data(), cosine, fibres, layer);
+}
+
+Average LayerLoss::average(Roughness base, Roughness layer) const noexcept
 {
     const NodePosition b = node_position(base.value() * (roughness_nodes - 1), roughness_nodes);
-    const NodePosition c = node_position(coat.value() * (roughness_nodes - 1), roughness_nodes);
+    const NodePosition c = node_position(layer.value() * (roughness_nodes - 1), roughness_nodes);
     const auto at = [&](std::size_t base_node) {
         return mix_losses(average_[row(base_node, c.node)], average_[row(base_node, c.node + 1)],
                           c.fraction);

@@ -74,16 +74,15 @@ EnvironmentLight::Neighbours EnvironmentLight::neighbours(Vec2 uv) const
 {
     const float x = uv.x * static_cast<float>(width()) - 0.5f;
     const float y = uv.y * static_cast<float>(height()) - 0.5f;
-    const float x0 = std::floor(x);
-    const float y0 = std::floor(y);
-    const int ix = std::clamp(static_cast<int>(x0), -1, width() - 1);
-    const int iy = static_cast<int>(y0);
+    const int x0 = floor_to_int(x);
+    const int iy = floor_to_int(y);
+    const int ix = std::clamp(x0, -1, width() - 1);
     return {.left = ix < 0 ? width() - 1 : ix,
             .right = ix + 1 < width() ? ix + 1 : 0,
             .upper = std::clamp(iy, 0, height() - 1),
             .lower = std::clamp(iy + 1, 0, height() - 1),
-            .across = x - x0,
-            .down = y - y0};
+            .across = x - static_cast<float>(x0),
+            .down = y - static_cast<float>(iy)};
 }
 
 Rgb EnvironmentLight::lookup(Vec2 uv) const

@@ -15,6 +15,14 @@ namespace bdpt {
 inline constexpr float pi = 3.14159265358979f;
 inline constexpr float inv_pi = 0.31830988618379f;
 
+/// Returns the greatest whole number that is not above `x`, whose magnitude is below 2^31. Without
+/// SSE 4.1, std::floor is a call of the C library.
+[[nodiscard]] inline int floor_to_int(float x)
+{
+    const int truncated = static_cast<int>(x);
+    return truncated - (static_cast<float>(truncated) > x ? 1 : 0);
+}
+
 struct SinCos {
     float sin;
     float cos;

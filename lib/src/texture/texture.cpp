@@ -157,12 +157,6 @@ struct Span {
     float fraction;
 };
 
-[[nodiscard]] int floor_to_int(float x)
-{
-    const int truncated = static_cast<int>(x);
-    return truncated - (static_cast<float>(truncated) > x ? 1 : 0);
-}
-
 [[nodiscard]] Span find_span(float coordinate, int size, Wrap wrap)
 {
     constexpr float limit = 0x1p22f;  // beyond it a float has less than two bits of fraction

@@ -12,16 +12,16 @@ import sys
 
 PLAIN = set("""
     alpha anisotropy axis background bench bias bidirectional bounds budget builder cache channel choice clamp clearcoat
-    code color combined comparison component content contribution control count counts curve default defects denoiser
-    desc diffuse direction directional display enumerator epsilon equal error errors estimate estimator exact exposures
-    exr extension facts false field file film flip frame framed gltf halved hash hasher heuristic ids info inspected
-    instance integrator iridescence isa json kind layer layout length lights limit limits list load loaded loss machine
-    manifest map maps material mean memory merge mesh message metadata meter metric mode moments name named noisy notes number
-    old option options output phase pixel place placement png point primary profile profiling progress projection range
-    read record rect ref reference render renderer report result run sampler scale scatter scene score set setting shared sheen
-    shutter size source speed split spot spread stats status storage sum summary surface system test texel text texture
-    thread threshold time to tone totals transmission transport type unit up use value variant verify vertex view volume
-    weight wrap write checkpoint role sheet""".split())
+    coat code color combined comparison component content contribution control count counts curve default defects
+    denoiser desc diffuse direction directional display enumerator epsilon equal error errors estimate estimator exact
+    exposures exr extension facts false field file film flip frame framed fuzz gltf halved hash hasher heuristic ids
+    info inspected instance integrator iridescence isa json kind layer layout length lights limit limits list load
+    loaded loss machine manifest map maps material mean memory merge mesh message metadata meter metric mode moments
+    name named noisy notes number old option options output phase pixel place placement png point primary profile
+    profiling progress projection range read record rect ref reference render renderer report result run sampler scale
+    scatter scene score set setting shared sheen shutter size source speed split spot spread stats status storage sum
+    summary surface system test texel text texture thread threshold time to tone totals transmission transport type unit
+    up use value variant verify vertex view volume weight wrap write checkpoint role sheet""".split())
 
 
 def read_terms(glossary):

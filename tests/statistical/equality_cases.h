@@ -37,6 +37,8 @@ struct EqualityCase {
 
 /// Materials with layers and other extensions of glTF, one each. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> layer_cases();
+/// Sixty materials with random layers, in one scene. Not among `equality_cases` either.
+[[nodiscard]] std::vector<EqualityCase> any_material_cases();
 /// Bodies in bodies, and a camera in one. Not among `equality_cases` either.
 [[nodiscard]] std::vector<EqualityCase> volume_cases();
 /// Materials whose normal maps lean by up to 70 degrees. Not among `equality_cases` either.

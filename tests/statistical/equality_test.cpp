@@ -129,6 +129,11 @@ TEST_CASE("all integrators agree: layered materials", "[equality][cases][layers]
     check_cases(layer_cases(), 300000);
 }
 
+TEST_CASE("all integrators agree: sixty materials", "[equality][cases][layers][long]")
+{
+    check_cases(any_material_cases(), 340000);
+}
+
 TEST_CASE("all integrators agree: bodies in bodies", "[equality][cases][bodies][long]")
 {
     check_cases(volume_cases(), 320000);

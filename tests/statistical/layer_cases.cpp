@@ -1,5 +1,6 @@
 #include "equality_cases.h"
 #include "scene_builder.h"
+#include "statistics.h"
 
 #include <utility>
 
@@ -36,6 +37,17 @@ EqualityCase clearcoat()
     EqualityCase result = ball("clearcoat", material);
     result.scene.images.push_back(bumps());
     return result;
+}
+
+EqualityCase lacquer()
+{
+    MaterialDesc material = plastic({0.8f, 0.6f, 0.4f}, 0.3f);
+    material.coat.factor = 0.9f;
+    material.coat.roughness = 0.3f;
+    material.coat.ior = 1.8f;
+    material.coat.color = {0.9f, 0.4f, 0.2f};
+    material.coat.anisotropy_strength = 0.5f;
+    return ball("coat", material);
 }
 
 EqualityCase cloth()
@@ -153,6 +165,44 @@ EqualityCase steep_coat()
     return steep_map("coat with a steep normal map", material);
 }
 
+/// A material with some of all layers and other properties, rough enough for light tracing.
+MaterialDesc any_material(Random& random)
+{
+    const auto color = [&random] { return Rgb(random.next(), random.next(), random.next()); };
+    const auto sometimes = [&random](float share) {
+        return random.next() < share ? 0.3f + 0.7f * random.next() : 0.0f;
+    };
+    const auto rough = [&random] { return 0.35f + 0.65f * random.next(); };
+    MaterialDesc material;
+    material.base_color = Vec4(color(), 1.0f);
+    material.metallic = sometimes(0.4f);
+    material.roughness = rough();
+    material.ior = 1.0f + 1.5f * random.next();
+    material.specular = random.next();
+    material.specular_color = color();
+    material.clearcoat.factor = sometimes(0.3f);
+    material.clearcoat.roughness = rough();
+    material.coat.factor = sometimes(0.5f);
+    material.coat.roughness = rough();
+    material.coat.ior = 1.0f + 1.2f * random.next();
+    material.coat.color = color();
+    material.coat.darkening = random.next();
+    material.coat.anisotropy_strength = sometimes(0.4f);
+    material.sheen.color = sometimes(0.3f) * color();
+    material.sheen.roughness = random.next();
+    material.fuzz.factor = sometimes(0.4f);
+    material.fuzz.color = color();
+    material.fuzz.roughness = random.next();
+    material.anisotropy.strength = sometimes(0.3f);
+    material.iridescence.factor = sometimes(0.3f);
+    material.diffuse_transmission.factor = sometimes(0.2f);
+    material.diffuse_roughness.factor = sometimes(0.4f);
+    if (random.next() < 0.3f) {
+        material.normal_texture = TextureRef{.image = ImageId{0}, .scale = {6, 4}};
+    }
+    return material;
+}
+
 MaterialDesc tinted_glass(float roughness, float ior, Rgb color)
 {
     MaterialDesc material = glass(roughness);
@@ -202,9 +252,30 @@ std::vector<EqualityCase> volume_cases()
     return {spheres_in_a_sphere(), camera_in_a_block()};
 }
 
+std::vector<EqualityCase> any_material_cases()
+{
+    // Six rows of ten balls on the wall that the camera faces.
+    const Rgb white(0.7f);
+    SceneBuilder builder;
+    builder.walls(lambertian(white), lambertian({0.7f, 0.5f, 0.3f})).ceiling(lambertian(white));
+    builder.lamp(0.98f, 0.85f, Rgb(4.0f, 3.5f, 3.0f));
+    Random random(2022);
+    for (int i = 0; i < 60; ++i) {
+        const auto column = static_cast<float>(i % 10);
+        const auto row = static_cast<float>(i / 10);
+        builder.sphere({-0.81f + 0.18f * column, -0.75f + 0.3f * row, -0.3f}, 0.085f,
+                       any_material(random), 16);
+    }
+    EqualityCase result{
+        .name = "sixty materials", .scene = std::move(builder.desc), .camera = room_camera()};
+    result.scene.images.push_back(bumps());
+    return {result};
+}
+
 std::vector<EqualityCase> layer_cases()
 {
-    return {clearcoat(), cloth(), dusty(), brushed(), film(), clay(), translucent(), dispersion()};
+    return {clearcoat(), lacquer(), cloth(),       dusty(),     brushed(),
+            film(),      clay(),    translucent(), dispersion()};
 }
 
 std::vector<EqualityCase> normal_map_cases()

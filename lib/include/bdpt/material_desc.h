@@ -62,6 +62,26 @@ struct ClearcoatDesc {
     std::optional<TextureRef> normal_texture;
 };
 
+/// A coat of any dielectric over everything but fuzz, such as tinted lacquer [KHR_materials_coat, a
+/// draft]. It replaces a clearcoat, of which it is the general case.
+struct CoatDesc {
+    float factor = 0.0f;     ///< [0, 1], fraction of the surface that is coated; 0: no coat
+    float roughness = 0.0f;  ///< [0, 1], perceptual; also blurs the reflection of the base
+    float ior = 1.5f;        ///< >= 1
+    Rgb color{1.0f};         ///< [0, 1], of light that passes straight through and back
+    /// [0, 1], how much light that the coat reflects back inside darkens a coloured base.
+    float darkening = 1.0f;
+    float anisotropy_strength = 0.0f;  ///< [0, 1]; 0: round highlights
+    float anisotropy_rotation = 0.0f;  ///< of the blur, from the tangent to the bitangent [rad]
+    float normal_scale = 1.0f;
+    std::optional<TextureRef> texture;            ///< linear; R, times factor
+    std::optional<TextureRef> roughness_texture;  ///< linear; G, times roughness
+    std::optional<TextureRef> color_texture;      ///< sRGB
+    /// Linear; RG direction, B times anisotropy_strength.
+    std::optional<TextureRef> anisotropy_texture;
+    std::optional<TextureRef> normal_texture;  ///< linear; none: normals are not perturbed
+};
+
 /// Fibres on top of a cloth, above everything but a coat [KHR_materials_sheen].
 struct SheenDesc {
     Rgb color{0.0f};                              ///< [0, 1], also their density; black: no sheen
@@ -125,7 +145,7 @@ struct VolumeScatterDesc {
     float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1); > 0 scatters forwards
 };
 
-/// glTF 2.0 metallic-roughness material with KHR_materials_{anisotropy, clearcoat,
+/// glTF 2.0 metallic-roughness material with KHR_materials_{anisotropy, clearcoat, coat,
 /// diffuse_roughness, diffuse_transmission, dispersion, emissive_strength, fuzz, iridescence, ior,
 /// sheen, specular, transmission, volume, volume_scatter, unlit}; names, defaults and ranges are
 /// those of the specification [glTF 2.0, sec. 3.9; KHR extensions of these names].
@@ -153,6 +173,7 @@ struct MaterialDesc {
     float dispersion = 0.0f;      ///< >= 0, 20 / Abbe number of a solid transmitter
 
     ClearcoatDesc clearcoat{};
+    CoatDesc coat{};
     SheenDesc sheen{};
     FuzzDesc fuzz{};
     AnisotropyDesc anisotropy{};
@@ -188,6 +209,22 @@ inline constexpr auto fields<ClearcoatDesc> =
                Field{"clearcoat texture", &ClearcoatDesc::texture},
                Field{"clearcoat roughness texture", &ClearcoatDesc::roughness_texture},
                Field{"clearcoat normal texture", &ClearcoatDesc::normal_texture});
+/// Fields of `CoatDesc`, with names and limits.
+template <>
+inline constexpr auto fields<CoatDesc> =
+    all_fields(Number{"coat", &CoatDesc::factor, Limits::unit()},
+               Number{"coat roughness", &CoatDesc::roughness, Limits::unit()},
+               Number{"coat index of refraction", &CoatDesc::ior, Limits::at_least(1.0f)},
+               Number{"coat colour", &CoatDesc::color, Limits::unit()},
+               Number{"coat darkening", &CoatDesc::darkening, Limits::unit()},
+               Number{"coat anisotropy strength", &CoatDesc::anisotropy_strength, Limits::unit()},
+               Number{"coat anisotropy rotation", &CoatDesc::anisotropy_rotation, Limits::finite()},
+               Number{"coat normal scale", &CoatDesc::normal_scale, Limits::finite()},
+               Field{"coat texture", &CoatDesc::texture},
+               Field{"coat roughness texture", &CoatDesc::roughness_texture},
+               Field{"coat colour texture", &CoatDesc::color_texture},
+               Field{"coat anisotropy texture", &CoatDesc::anisotropy_texture},
+               Field{"coat normal texture", &CoatDesc::normal_texture});
 /// Fields of `SheenDesc`, with names and limits.
 template <>
 inline constexpr auto fields<SheenDesc> =
@@ -260,8 +297,9 @@ inline constexpr auto fields<MaterialDesc> = all_fields(
     Number{"attenuation distance", &MaterialDesc::attenuation_distance, Limits::above(0.0f)},
     Number{"attenuation colour", &MaterialDesc::attenuation_color, Limits::unit()},
     Number{"dispersion", &MaterialDesc::dispersion, Limits::at_least(0.0f)},
-    Field{"clearcoat", &MaterialDesc::clearcoat}, Field{"sheen", &MaterialDesc::sheen},
-    Field{"fuzz", &MaterialDesc::fuzz}, Field{"anisotropy", &MaterialDesc::anisotropy},
+    Field{"clearcoat", &MaterialDesc::clearcoat}, Field{"coat", &MaterialDesc::coat},
+    Field{"sheen", &MaterialDesc::sheen}, Field{"fuzz", &MaterialDesc::fuzz},
+    Field{"anisotropy", &MaterialDesc::anisotropy},
     Field{"iridescence", &MaterialDesc::iridescence},
     Field{"diffuse transmission", &MaterialDesc::diffuse_transmission},
     Field{"diffuse roughness", &MaterialDesc::diffuse_roughness},

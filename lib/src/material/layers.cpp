@@ -1,6 +1,5 @@
 #include "material/layers.h"
 
-#include "material/layer_loss.h"
 #include "math/rgb.h"
 
 #include <algorithm>
@@ -8,20 +7,56 @@
 namespace bdpt {
 namespace {
 
-bool need_coat(std::span<const MaterialDesc> materials)
-{
-    return std::any_of(materials.begin(), materials.end(),
-                       [](const MaterialDesc& desc) { return desc.clearcoat.factor > 0.0f; });
-}
-
 bool need_fuzz(std::span<const MaterialDesc> materials)
 {
-    return std::any_of(materials.begin(), materials.end(), [](const MaterialDesc& desc) {
-        return desc.fuzz.factor > 0.0f || !is_black(desc.sheen.color);
-    });
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const MaterialDesc& desc) { return fuzz_of(desc).factor > 0.0f; });
 }
 
 }  // namespace
+
+CoatDesc coat_of(const MaterialDesc& desc)
+{
+    if (desc.coat.factor > 0.0f) {
+        return desc.coat;
+    }
+    const ClearcoatDesc& clear = desc.clearcoat;
+    CoatDesc coat;
+    coat.factor = clear.factor;
+    coat.roughness = clear.roughness;
+    coat.darkening = 0.0f;
+    coat.normal_scale = clear.normal_scale;
+    coat.texture = clear.texture;
+    coat.roughness_texture = clear.roughness_texture;
+    coat.normal_texture = clear.normal_texture;
+    return coat;
+}
+
+FuzzDesc fuzz_of(const MaterialDesc& desc)
+{
+    if (desc.fuzz.factor > 0.0f) {
+        return desc.fuzz;
+    }
+    const SheenDesc& sheen = desc.sheen;
+    FuzzDesc fuzz;
+    fuzz.factor = is_black(sheen.color) ? 0.0f : 1.0f;
+    fuzz.color = sheen.color;
+    fuzz.roughness = sheen.roughness;
+    fuzz.color_texture = sheen.color_texture;
+    fuzz.roughness_texture = sheen.roughness_texture;
+    return fuzz;
+}
+
+CoatTables::CoatTables(float ior, const FuzzTable* fibres)
+    : albedo(ior),
+      loss(
+          SpecularAlbedo(1.5f),
+          [this](float cosine, SpecularAlbedo::Roughness roughness) {
+              const SpecularAlbedo::Split split = albedo.directional(cosine, roughness);
+              return std::min(1.0f, albedo.normal_reflectance() * split.f0 + split.f90);
+          },
+          fibres)
+{}
 
 LayerTables::LayerTables(std::span<const MaterialDesc> materials)
 {
@@ -32,15 +67,11 @@ LayerTables::LayerTables(std::span<const MaterialDesc> materials)
                 return FuzzTable::directional(cosine, roughness.value());
             });
     }
-    if (need_coat(materials)) {
-        coat = std::make_unique<const SpecularAlbedo>(1.5f);
-        coat_loss = std::make_unique<const LayerLoss>(
-            *coat,
-            [this](float cosine, SpecularAlbedo::Roughness roughness) {
-                const SpecularAlbedo::Split split = coat->directional(cosine, roughness);
-                return std::min(1.0f, coat->normal_reflectance() * split.f0 + split.f90);
-            },
-            fuzz.get());
+    for (const MaterialDesc& desc : materials) {
+        const CoatDesc coated = coat_of(desc);
+        if (coated.factor > 0.0f && coat(coated.ior) == nullptr) {
+            coats.push_back(std::make_unique<const CoatTables>(coated.ior, fuzz.get()));
+        }
     }
 }
 
@@ -48,9 +79,21 @@ LayerTables::~LayerTables() = default;
 LayerTables::LayerTables(LayerTables&&) noexcept = default;
 LayerTables& LayerTables::operator=(LayerTables&&) noexcept = default;
 
+const CoatTables* LayerTables::coat(float ior) const
+{
+    const auto found = std::find_if(coats.begin(), coats.end(), [ior](const auto& tables) {
+        return tables->albedo.ior() == SpecularAlbedo::clamped(ior);
+    });
+    return found != coats.end() ? found->get() : nullptr;
+}
+
 bool LayerTables::are_enough_for(std::span<const MaterialDesc> materials) const
 {
-    return (coat || !need_coat(materials)) && (fuzz || !need_fuzz(materials));
+    const bool coated = std::all_of(materials.begin(), materials.end(), [this](const auto& desc) {
+        const CoatDesc coat_desc = coat_of(desc);
+        return coat_desc.factor == 0.0f || coat(coat_desc.ior) != nullptr;
+    });
+    return coated && (fuzz || !need_fuzz(materials));
 }
 
 }  // namespace bdpt

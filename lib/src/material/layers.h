@@ -1,5 +1,6 @@
 #pragma once
 
+#include "material/layer_loss.h"
 #include "material/lobes/fuzz.h"
 #include "material/models/metallic_roughness.h"
 #include "material/small_numbers.h"
@@ -9,10 +10,25 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace bdpt {
 
-class LayerLoss;
+/// Returns the coat of a material; a clearcoat, unless a coat replaces it, is one that does not
+/// darken its base.
+[[nodiscard]] CoatDesc coat_of(const MaterialDesc& desc);
+/// Returns the fibres of a material: fuzz or, unless it replaces it, a sheen, whose colour is also
+/// its factor.
+[[nodiscard]] FuzzDesc fuzz_of(const MaterialDesc& desc);
+
+/// Tables of a coat of one index of refraction.
+struct CoatTables {
+    /// `fibres` may be below the coat; null if there are none.
+    CoatTables(float ior, const FuzzTable* fibres);
+
+    SpecularAlbedo albedo;
+    LayerLoss loss;
+};
 
 /// Tables shared by all materials with layers.
 struct LayerTables {
@@ -21,11 +37,12 @@ struct LayerTables {
     ~LayerTables();
     LayerTables(LayerTables&&) noexcept;
     LayerTables& operator=(LayerTables&&) noexcept;
+    /// Returns the tables of coats of this index; null if there are none.
+    [[nodiscard]] const CoatTables* coat(float ior) const;
     /// Tests whether the tables that these materials need exist.
     [[nodiscard]] bool are_enough_for(std::span<const MaterialDesc> materials) const;
 
-    std::unique_ptr<const SpecularAlbedo> coat;  ///< for index 1.5
-    std::unique_ptr<const LayerLoss> coat_loss;  ///< for index 1.5
+    std::vector<std::unique_ptr<const CoatTables>> coats;
     std::unique_ptr<const FuzzTable> fuzz;
     std::unique_ptr<const LayerLoss> fuzz_loss;
 };
@@ -35,6 +52,8 @@ struct LayeredConstants {
     const SpecularAlbedo* base = nullptr;  ///< has the refractive index of the base
     float film_ior = 1.3f;
     float film_thickness = 0.0f;  ///< greatest one [nm]
+    float coat_darkening = 0.0f;
+    const CoatTables* coat = nullptr;  ///< set if there is a coat
     bool fuzz_covers_coat = false;
     const LayerTables* tables = nullptr;
 };
@@ -53,6 +72,9 @@ struct LayeredParameters {
     Unit8 diffuse_roughness{};  ///< 0: Lambertian
     Unit16 coat{};              ///< coated fraction of the surface
     Unit16 coat_roughness{};    ///< perceptual
+    Color16 coat_color{Rgb(1.0f)};
+    Unit8 coat_anisotropy{};
+    Unit8 coat_axis{};          ///< its rougher direction: the angle from x to y, over pi
     Direction16 coat_normal{};  ///< local, like all directions of a `LayeredBsdf`
     Unit16 fuzz_roughness{};
     Color16 fuzz_color{};

@@ -18,19 +18,50 @@ namespace {
     return map ? map->lookup(point.uv, point.footprint) : Vec4(1.0f);
 }
 
-/// Returns the fibres of a material; fuzz replaces sheen.
-[[nodiscard]] FuzzDesc fuzz_of(const MaterialDesc& desc)
+/// Grooves at a point: the direction across which highlights are blurred, unit and perpendicular to
+/// the normal, and how much.
+struct Grooves {
+    Vec3 across;
+    float strength;
+};
+
+/// Returns the grooves by KHR_materials_anisotropy; nullopt without a direction, where highlights
+/// stay round.
+[[nodiscard]] std::optional<Grooves> grooves_at(const ShadingPoint& point, Vec3 normal,
+                                                float strength, float rotation,
+                                                const std::optional<Texture>& map)
 {
-    if (desc.fuzz.factor > 0.0f) {
-        return desc.fuzz;
+    const std::optional<TangentAxes> axes = tangent_axes(point);
+    if (!axes) {
+        return std::nullopt;
     }
-    const SheenDesc& sheen = desc.sheen;
-    return {.factor = is_black(sheen.color) ? 0.0f : 1.0f,
-            .color = sheen.color,
-            .roughness = sheen.roughness,
-            .texture = {},
-            .color_texture = sheen.color_texture,
-            .roughness_texture = sheen.roughness_texture};
+    Vec2 direction(1.0f, 0.0f);
+    if (map) {
+        const Vec4 texel = map->lookup(point.uv);
+        strength *= texel.z;
+        const Vec2 mapped = 2.0f * Vec2(texel) - 1.0f;
+        const float length = std::sqrt(dot(mapped, mapped));
+        direction = length > 0.0f ? mapped / length : direction;
+    }
+    const SinCos turn = sin_cos(rotation);
+    const Vec2 turned(turn.cos * direction.x - turn.sin * direction.y,
+                      turn.sin * direction.x + turn.cos * direction.y);
+    const Vec3 along = turned.x * axes->tangent + turned.y * axes->bitangent;
+    const Vec3 level = along - dot(along, normal) * normal;
+    const float length2 = dot(level, level);
+    if (!(length2 > 1e-12f)) {
+        return std::nullopt;
+    }
+    return Grooves{level / std::sqrt(length2), strength};
+}
+
+/// Returns the roughness of a base as seen through a rough coat [OpenPBR 1.1, "Coat"].
+[[nodiscard]] float blurred(float roughness, float coat_roughness, float share)
+{
+    const float base2 = roughness * roughness;
+    const float coat2 = coat_roughness * coat_roughness;
+    const float sum = std::min(1.0f, base2 * base2 + 2.0f * coat2 * coat2);
+    return roughness + share * (std::sqrt(std::sqrt(sum)) - roughness);
 }
 
 }  // namespace
@@ -38,15 +69,15 @@ namespace {
 bool has_layers(const MaterialDesc& desc)
 {
     return !desc.unlit &&
-           (desc.clearcoat.factor > 0.0f || !is_black(desc.sheen.color) ||
-            desc.fuzz.factor > 0.0f || desc.anisotropy.strength > 0.0f ||
-            desc.iridescence.factor > 0.0f || desc.diffuse_transmission.factor > 0.0f ||
-            desc.diffuse_roughness.factor > 0.0f);
+           (coat_of(desc).factor > 0.0f || fuzz_of(desc).factor > 0.0f ||
+            desc.anisotropy.strength > 0.0f || desc.iridescence.factor > 0.0f ||
+            desc.diffuse_transmission.factor > 0.0f || desc.diffuse_roughness.factor > 0.0f);
 }
 
 MaterialLayers::MaterialLayers(const MaterialDesc& desc, const TextureImages& images,
                                const ChannelAlbedos& albedos, const LayerTables& tables)
-    : coat_(desc.clearcoat),
+    : coat_(coat_of(desc)),
+      coat_blurs_(desc.coat.factor > 0.0f),
       fuzz_(fuzz_of(desc)),
       is_sheen_(desc.fuzz.factor == 0.0f),
       anisotropy_(desc.anisotropy),
@@ -55,6 +86,8 @@ MaterialLayers::MaterialLayers(const MaterialDesc& desc, const TextureImages& im
       diffuse_roughness_(desc.diffuse_roughness.factor),
       coat_maps_{make_texture(coat_.texture, images, Encoding::linear),
                  make_texture(coat_.roughness_texture, images, Encoding::linear),
+                 make_texture(coat_.color_texture, images, Encoding::srgb),
+                 make_texture(coat_.anisotropy_texture, images.at_full_size(), Encoding::linear),
                  make_normal_map(coat_.normal_texture, coat_.normal_scale, images)},
       fuzz_maps_{make_texture(fuzz_.texture, images, Encoding::linear),
                  make_texture(fuzz_.color_texture, images, Encoding::srgb),
@@ -72,6 +105,8 @@ MaterialLayers::MaterialLayers(const MaterialDesc& desc, const TextureImages& im
             .base = &albedos.at(channel),
             .film_ior = film_.ior,
             .film_thickness = std::max(film_.thickness_minimum, film_.thickness_maximum),
+            .coat_darkening = coat_.darkening,
+            .coat = tables.coat(coat_.ior),
             .fuzz_covers_coat = !is_sheen_,
             .tables = &tables};
     }
@@ -85,6 +120,9 @@ std::optional<int> MaterialLayers::tangent_uv_set() const noexcept
     if (anisotropy_.strength > 0.0f) {
         return anisotropy_map_ ? anisotropy_map_->uv_set() : 0;
     }
+    if (coat_.factor > 0.0f && coat_.anisotropy_strength > 0.0f) {
+        return coat_maps_.anisotropy ? coat_maps_.anisotropy->uv_set() : 0;
+    }
     return std::nullopt;
 }
 
@@ -95,6 +133,22 @@ void MaterialLayers::add_coat(const ShadingPoint& point, const Frame& shading,
     layers.coat_roughness = Unit16(coat_.roughness * at(coat_maps_.roughness, point).y);
     const Vec3 normal = coat_maps_.normal ? coat_maps_.normal->normal(point) : point.ns;
     layers.coat_normal = Direction16(shading.to_local(normal));
+    layers.coat_color = Color16(coat_.color * Rgb(at(coat_maps_.color, point)));
+    if (coat_.anisotropy_strength > 0.0f) {
+        const std::optional<Grooves> grooves =
+            grooves_at(point, shading.z, coat_.anisotropy_strength, coat_.anisotropy_rotation,
+                       coat_maps_.anisotropy);
+        if (grooves) {
+            const Vec3 across = shading.to_local(grooves->across);
+            const float turns = atan2_exact(across.y, across.x) * inv_pi;
+            layers.coat_axis = Unit8(turns < 0.0f ? turns + 1.0f : turns);
+            layers.coat_anisotropy = Unit8(grooves->strength);
+        }
+    }
+    if (coat_blurs_) {
+        layers.roughness = Unit16(
+            blurred(layers.roughness.value(), layers.coat_roughness.value(), layers.coat.value()));
+    }
 }
 
 void MaterialLayers::add_fuzz(const ShadingPoint& point, LayeredParameters& layers) const noexcept
@@ -132,31 +186,13 @@ void MaterialLayers::add_transmission(const ShadingPoint& point,
 Frame MaterialLayers::add_anisotropy(const ShadingPoint& point, const Frame& shading,
                                      LayeredParameters& layers) const noexcept
 {
-    const std::optional<TangentAxes> axes = tangent_axes(point);
-    if (!axes) {
-        return shading;  // without a direction highlights stay round
-    }
-    float strength = anisotropy_.strength;
-    Vec2 direction(1.0f, 0.0f);
-    if (anisotropy_map_) {
-        const Vec4 texel = anisotropy_map_->lookup(point.uv);
-        strength *= texel.z;
-        const Vec2 mapped = 2.0f * Vec2(texel) - 1.0f;
-        const float length = std::sqrt(dot(mapped, mapped));
-        direction = length > 0.0f ? mapped / length : direction;
-    }
-    const SinCos turn = sin_cos(anisotropy_.rotation);
-    const Vec2 turned(turn.cos * direction.x - turn.sin * direction.y,
-                      turn.sin * direction.x + turn.cos * direction.y);
-    const Vec3 along = turned.x * axes->tangent + turned.y * axes->bitangent;
-    const Vec3 level = along - dot(along, shading.z) * shading.z;
-    const float length2 = dot(level, level);
-    if (!(length2 > 1e-12f)) {
+    const std::optional<Grooves> grooves =
+        grooves_at(point, shading.z, anisotropy_.strength, anisotropy_.rotation, anisotropy_map_);
+    if (!grooves) {
         return shading;
     }
-    layers.anisotropy = Unit16(strength);
-    const Vec3 x = level / std::sqrt(length2);
-    return {x, cross(shading.z, x), shading.z};
+    layers.anisotropy = Unit16(grooves->strength);
+    return {grooves->across, cross(shading.z, grooves->across), shading.z};
 }
 
 Bsdf MaterialLayers::bsdf(const ShadingPoint& point, const Frame& shading,

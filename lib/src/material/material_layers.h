@@ -34,6 +34,8 @@ private:
     struct CoatMaps {
         std::optional<Texture> factor;
         std::optional<Texture> roughness;
+        std::optional<Texture> color;
+        std::optional<Texture> anisotropy;
         std::optional<NormalMap> normal;
     };
     struct FuzzMaps {
@@ -59,7 +61,8 @@ private:
                                        LayeredParameters& layers) const noexcept;
 
     // Factors; their textures are in the maps.
-    ClearcoatDesc coat_;
+    CoatDesc coat_;
+    bool coat_blurs_;  ///< not if it is a clearcoat
     FuzzDesc fuzz_;
     bool is_sheen_;  ///< `fuzz_` has the colour of a sheen, which is also its factor
     AnisotropyDesc anisotropy_;

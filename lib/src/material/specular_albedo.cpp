@@ -9,7 +9,7 @@ namespace bdpt {
 using Split = SpecularAlbedo::Split;
 
 SpecularAlbedo::SpecularAlbedo(float ior)
-    : ior_(std::clamp(ior, 1.0f, 1e6f)),
+    : ior_(clamped(ior)),
       r0_((ior_ - 1.0f) / (ior_ + 1.0f) * ((ior_ - 1.0f) / (ior_ + 1.0f))),
       inv_range_(0.25f * (ior_ + 1.0f) * ((ior_ + 1.0f) / ior_)),
       loss_(*this)

@@ -22,8 +22,9 @@ public:
         float f90 = 0.0f;
     };
 
-    /// `ior` is clamped to [1, 1e6].
+    /// `ior` is `clamped`.
     explicit SpecularAlbedo(float ior);
+    [[nodiscard]] static float clamped(float ior) { return std::clamp(ior, 1.0f, 1e6f); }
 
     [[nodiscard]] float ior() const noexcept { return ior_; }
     /// Returns the reflectance at normal incidence, ((ior - 1) / (ior + 1))^2.

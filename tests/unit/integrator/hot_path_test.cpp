@@ -69,9 +69,10 @@ SceneDesc everything()
     builder.sphere({-0.1f, 0.0f, 0.3f}, 0.4f, blend, 12);
 
     MaterialDesc layers = test::plastic(Rgb(0.5f), 0.3f);
-    layers.clearcoat.factor = 1.0f;
-    layers.clearcoat.texture = colors;
-    layers.clearcoat.normal_texture = slopes;
+    layers.coat.factor = 1.0f;
+    layers.coat.color_texture = colors;
+    layers.coat.anisotropy_strength = 0.5f;
+    layers.coat.normal_texture = slopes;
     layers.fuzz.factor = 0.5f;
     layers.fuzz.color_texture = colors;
     layers.anisotropy.strength = 0.5f;

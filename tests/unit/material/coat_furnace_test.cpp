@@ -119,6 +119,75 @@ TEST_CASE("a white surface below fibres, and any coat above or below them, loses
     }
 }
 
+TEST_CASE("a white surface below a coat of any index loses next to nothing", "[long]")
+{
+    const float ior = GENERATE(1.0f, 1.2f, 1.8f, 2.5f, 4.0f);
+    for (const float coat : {0.0f, 0.4f, 1.0f}) {
+        for (test::BsdfCase bsdf_case : white_cases(coat)) {
+            bsdf_case.coat_ior = ior;
+            bsdf_case.coat_darkening = 1.0f;
+            const test::TestedBsdf bsdf(bsdf_case);
+            for (const float cosine : {1.0f, 0.5f, 0.15f}) {
+                CAPTURE(ior, coat, bsdf_case.name, cosine);
+                const test::Moments sum = albedo_of(bsdf, at_cosine(cosine));
+                CHECK(std::abs(sum.mean() - 1.0) < 0.006 + 3.0 * sum.standard_error());
+            }
+        }
+    }
+}
+
+TEST_CASE("an anisotropic coat neither makes nor loses much light", "[long]")
+{
+    const Rgb white{1.0f};
+    for (const float roughness : {0.0f, 0.3f, 0.6f}) {
+        const LayeredParameters layers = test::lacquered(white, 0.6f, test::coated(1, roughness));
+        const std::vector<test::BsdfCase> cases{{"lambert", {white, 0, 1, 0}, 1.5f, layers},
+                                                {"plastic", {white, 0, 0.3f}, 1.5f, layers},
+                                                {"mirror", {white, 1, 0}, 1.5f, layers},
+                                                {"metal", {white, 1, 0.5f}, 1.5f, layers}};
+        for (const test::BsdfCase& bsdf_case : cases) {
+            const test::TestedBsdf bsdf(bsdf_case);
+            for (const float cosine : {1.0f, 0.7f, 0.4f, 0.15f}) {
+                CAPTURE(roughness, bsdf_case.name, cosine);
+                const test::Moments sum = albedo_of(bsdf, at_cosine(cosine));
+                CHECK(std::abs(sum.mean() - 1.0) < 0.012 + 3.0 * sum.standard_error());
+            }
+        }
+    }
+}
+
+TEST_CASE("a coat colours by the way through it, and darkens by light reflected inside")
+{
+    const Rgb base{0.8f, 0.5f, 0.2f};
+    const Rgb tint{0.9f, 0.4f, 0.25f};
+    constexpr float ior = 1.6f;
+    const auto seen = [&](float darkening, Rgb color, Vec3 wo, Vec3 wi) {
+        test::BsdfCase lacquer{
+            "lacquer", {base, 0, 1, 0}, 1.5f, test::lacquered(color, 0, test::coated(1, 0))};
+        lacquer.coat_ior = ior;
+        lacquer.coat_darkening = darkening;
+        return test::TestedBsdf(lacquer).eval(wo, wi, TransportMode::radiance).f_cos;
+    };
+    const Vec3 up = at_cosine(1.0f);
+    const Vec3 low = at_cosine(0.3f);
+    // The way of light at 0.3 is bent to a cosine of sqrt(1 - 0.91 / 1.6^2).
+    const float steep = std::sqrt(1.0f - 0.91f / (ior * ior));
+    // The average of Fresnel's equations, as light comes from outside, is 0.11024 for 1.6: from
+    // inside 1 - (1 - 0.11024) / 1.6^2 = 0.65244 is reflected.
+    constexpr float inside = 0.65244f;
+    const Rgb clear = seen(0.0f, Rgb(1.0f), low, up);
+    const Rgb tinted = seen(0.0f, tint, low, up);
+    const Rgb dark = seen(1.0f, Rgb(1.0f), low, up);
+    const Rgb half_dark = seen(0.5f, Rgb(1.0f), low, up);
+    for (int c = 0; c < 3; ++c) {
+        const float way = 0.5f + 0.5f / steep;
+        CHECK(tinted[c] / clear[c] == Approx(std::pow(tint[c], way)).epsilon(2e-3));
+        const float left = (1.0f - inside) / (1.0f - inside * base[c]);
+        CHECK(dark[c] / clear[c] == Approx(left).epsilon(5e-3));
+        CHECK(half_dark[c] / clear[c] == Approx(0.5f + 0.5f * left).epsilon(5e-3));
+    }
+}
+
 TEST_CASE("light between a coat and a darker base gets darker and more saturated")
 {
     // A share a of what arrives leaves a Lambertian base; the coat returns what it reflects.

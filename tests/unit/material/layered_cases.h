@@ -23,6 +23,8 @@ struct BsdfCase {
     /// The coat has a normal of its own: f is reciprocal with other cosines only.
     bool tilted_coat = false;
     bool fuzz_on_coat = false;  ///< the fibres are on the coat, not below it
+    float coat_ior = 1.5f;
+    float coat_darkening = 0.0f;
 
     [[nodiscard]] bool refracts() const
     {
@@ -45,10 +47,15 @@ public:
     {
         if (tested.layers) {
             static const LayerTables tables = all_tables();
+            if (tested.coat_ior != 1.5f) {
+                coat_ = std::make_unique<const CoatTables>(tested.coat_ior, nullptr);
+            }
             constants_ = std::make_unique<const LayeredConstants>(
                 LayeredConstants{.base = albedo_.get(),
                                  .film_ior = 1.8f,
                                  .film_thickness = 1000.0f,
+                                 .coat_darkening = tested.coat_darkening,
+                                 .coat = coat_ ? coat_.get() : tables.coat(1.5f),
                                  .fuzz_covers_coat = tested.fuzz_on_coat,
                                  .tables = &tables});
             LayeredParameters layers = *tested.layers;
@@ -96,6 +103,7 @@ private:
     }
 
     std::unique_ptr<const SpecularAlbedo> albedo_;
+    std::unique_ptr<const CoatTables> coat_;
     std::unique_ptr<const LayeredConstants> constants_;
     PlainModel plain_;
     std::optional<LayeredBsdf> layered_;
@@ -109,6 +117,16 @@ private:
     layers.coat = Unit16(share);
     layers.coat_roughness = Unit16(roughness);
     layers.coat_normal = Direction16(normalize(normal));
+    return layers;
+}
+
+/// Colours the coat, and makes it rougher along a direction.
+[[nodiscard]] inline LayeredParameters lacquered(Rgb color, float anisotropy,
+                                                 LayeredParameters layers)
+{
+    layers.coat_color = Color16(color);
+    layers.coat_anisotropy = Unit8(anisotropy);
+    layers.coat_axis = Unit8(0.2f);
     return layers;
 }
 
@@ -200,6 +218,30 @@ private:
          fuzzy(1, white, 0.7f, coated(1, 0)),
          false,
          true},
+        {"dark red coat 0.3 of index 2 on dielectric 0.5",
+         {blue, 0, 0.5f},
+         1.5f,
+         lacquered({0.9f, 0.2f, 0.1f}, 0, coated(0.9f, 0.3f)),
+         false,
+         false,
+         2.0f,
+         1.0f},
+        {"brushed coat 0.3 on metal 0.4",
+         {blue, 1, 0.4f},
+         1.5f,
+         lacquered({0.8f, 0.9f, 0.5f}, 0.6f, coated(1, 0.3f)),
+         false,
+         false,
+         1.5f,
+         0.5f},
+        {"yellow smooth coat of index 1 on glass 0.4",
+         {blue, 0, 0.4f, 1, white, 0.8f, solid},
+         1.4f,
+         lacquered({0.9f, 0.8f, 0.1f}, 0, coated(1, 0)),
+         false,
+         false,
+         1.0f,
+         1.0f},
         {"black fuzz 0.8 on dielectric 0.5", {blue, 0, 0.5f}, 1.5f, fuzzy(0.9f, Rgb{0.0f}, 0.8f)},
         {"brushed metal 0.2", {blue, 1, 0.2f}, 1.5f, brushed(0.7f)},
         {"brushed metal 0.1", {blue, 1, 0.1f}, 1.5f, brushed(0.5f)},
@@ -241,6 +283,14 @@ private:
                 sheen({0.4f, 0.3f, 0.5f}, 0.5f,
                       brushed(0.5f, filmed(0.7f, 350, translucent(0.4f, {0.9f, 0.5f, 0.4f})))))},
         {"tilted coat 0.3 on lambert", {blue, 0, 1, 0}, 1.5f, coated(1, 0.3f, tilt), true},
+        {"tilted brushed blue coat 0.4 on lambert",
+         {white, 0, 1, 0},
+         1.5f,
+         lacquered({0.2f, 0.5f, 0.9f}, 0.5f, coated(1, 0.4f, tilt)),
+         true,
+         false,
+         1.5f,
+         1.0f},
         {"tilted smooth coat on metal 0.3", {blue, 1, 0.3f}, 1.5f, coated(1, 0, tilt), true},
     };
 }

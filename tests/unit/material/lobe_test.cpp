@@ -93,6 +93,7 @@ std::vector<LobeCase> lobes()
     };
     const std::vector<LobeCase> above{
         {"coat", EvenCoat(0.8f, 0.5f, &albedo())},
+        {"brushed coat", EvenCoat(0.8f, 0.5f, &albedo(), 0.5f)},
         {"smooth coat", EvenCoat(0.8f, 0.0f, &albedo())},
         {"tilted coat", Coat(1.0f, 0.5f, normalize(Vec3{0.3f, -0.2f, 1.0f}), &albedo())},
         {"fuzz", Fuzz(0.9f, Rgb{1.0f, 0.5f, 0.2f}, 0.5f, &fibres)},

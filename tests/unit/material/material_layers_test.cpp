@@ -104,6 +104,72 @@ TEST_CASE("the normal map of the base does not bend the coat, its own does")
     check_equal(scattered(bumpy_coat, slope), scattered(even));
 }
 
+TEST_CASE("a clearcoat is a coat that neither darkens nor blurs its base")
+{
+    MaterialDesc clear = dark_plastic();
+    clear.clearcoat.factor = 0.7f;
+    clear.clearcoat.roughness = 0.4f;
+    MaterialDesc coat = dark_plastic();
+    coat.coat.factor = 0.7f;
+    coat.coat.roughness = 0.4f;
+    coat.coat.darkening = 0.0f;
+    // The blurred base has the roughness (0.5^4 + 2 0.4^4)^(1/4), for the share of the coat.
+    MaterialDesc blurred = clear;
+    blurred.roughness = 0.5f + 0.7f * (std::pow(0.0625f + 2.0f * 0.0256f, 0.25f) - 0.5f);
+    check_equal(scattered(coat), scattered(blurred));
+    CHECK(scattered(coat).g != Approx(scattered(clear).g).epsilon(0.01));
+    // It replaces the clearcoat.
+    coat.clearcoat.factor = 1.0f;
+    check_equal(scattered(coat), scattered(blurred));
+    coat.coat.darkening = 1.0f;
+    CHECK(scattered(coat).r < 0.97f * scattered(blurred).r);
+    coat.coat.ior = 2.0f;
+    const LayerTables tables({&coat, 1});
+    CHECK(tables.are_enough_for({&coat, 1}));
+    CHECK(!tables.are_enough_for({&clear, 1}));
+}
+
+TEST_CASE("a coat has an sRGB colour, and a direction and a strength of its anisotropy")
+{
+    MaterialDesc textured = dark_plastic();
+    textured.coat.factor = 1.0f;
+    textured.coat.roughness = 0.3f;
+    textured.coat.color = {1.0f, 0.5f, 0.25f};
+    MaterialDesc same = textured;
+    textured.coat.color_texture = first_image;
+    same.coat.color = {srgb(0.4), 0.5f * srgb(0.6), 0.25f * srgb(0.8)};
+    check_texture(textured, same, texel(102, 153, 204, 255));
+    textured.coat.color_texture.reset();
+    textured.coat.texture = first_image;
+    same.coat.color = textured.coat.color;
+    same.coat.factor = 0.4f;
+    check_texture(textured, same, texel(102, 255, 255, 255));
+    textured.coat.texture.reset();
+    textured.coat.roughness_texture = first_image;
+    same.coat.factor = 1.0f;
+    same.coat.roughness = 0.12f;
+    check_texture(textured, same, texel(255, 102, 255, 255));
+    textured.coat.roughness_texture.reset();
+    textured.coat.anisotropy_strength = 0.8f;
+    textured.coat.anisotropy_rotation = 0.6f;
+    same = textured;
+    const Rgb turned = scattered(textured, {}, {1.0f, 0.0f, 0.0f, 1.0f});
+    same.coat.anisotropy_rotation = 0.0f;
+    const Rgb along_tangent = scattered(same, {}, {std::cos(0.6f), std::sin(0.6f), 0.0f, 1.0f});
+    for (int c = 0; c < 3; ++c) {
+        CHECK(turned[c] == Approx(along_tangent[c]).epsilon(0.01));
+    }
+    CHECK(scattered(same).g != Approx(turned.g).epsilon(0.05));
+    textured.coat.anisotropy_texture = first_image;
+    same = textured;
+    same.coat.anisotropy_texture.reset();
+    same.coat.anisotropy_strength = 0.4f;
+    const Rgb mapped = scattered(textured, {texel(255, 128, 128, 255)});
+    for (int c = 0; c < 3; ++c) {
+        CHECK(mapped[c] == Approx(scattered(same)[c]).epsilon(0.02));
+    }
+}
+
 TEST_CASE("sheen has an sRGB colour and a roughness in alpha")
 {
     MaterialDesc textured = dark_plastic();
@@ -254,6 +320,7 @@ TEST_CASE("unlit materials have no layers, and layers of factor 0 are none")
     CHECK(!has_layers(desc));
     const std::vector<std::function<void(MaterialDesc&)>> changes{
         [](MaterialDesc& d) { d.clearcoat.factor = 0.1f; },
+        [](MaterialDesc& d) { d.coat.factor = 0.1f; },
         [](MaterialDesc& d) { d.sheen.color.b = 0.1f; },
         [](MaterialDesc& d) { d.fuzz.factor = 0.1f; },
         [](MaterialDesc& d) { d.anisotropy.strength = 0.1f; },

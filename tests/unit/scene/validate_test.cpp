@@ -132,6 +132,8 @@ TEST_CASE("materials: ranges and textures", "[validate]")
                   [](SceneDesc& d) { d.materials[0].iridescence.ior = 0.9f; });
     check_refused("material 0: iridescence thickness minimum is -5",
                   [](SceneDesc& d) { d.materials[0].iridescence.thickness_minimum = -5.0f; });
+    check_refused("material 0: coat index of refraction is 0.5",
+                  [](SceneDesc& d) { d.materials[0].coat.ior = 0.5f; });
     check_refused("material 0: fuzz roughness is 1.5",
                   [](SceneDesc& d) { d.materials[0].fuzz.roughness = 1.5f; });
     check_refused("material 0: diffuse roughness is -1",

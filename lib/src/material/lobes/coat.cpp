@@ -4,33 +4,41 @@
 #include "material/lobes/ggx.h"
 #include "material/lobes/roughness.h"
 #include "material/mapped_bsdf.h"
+#include "math/elementary.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace bdpt {
 
-EvenCoat::EvenCoat(float weight, float roughness, const SpecularAlbedo* albedo)
+EvenCoat::EvenCoat(float weight, float roughness, const SpecularAlbedo* albedo, float anisotropy)
     : weight_(albedo != nullptr ? weight : 0.0f),
-      alpha_(roughness * roughness),
-      roughness_(SpecularAlbedo::at_roughness(roughness)),
+      alpha_(AnisotropicRoughness(roughness, anisotropy).alpha()),
+      row_(SpecularAlbedo::at_roughness(anisotropy > 0.0f ? std::sqrt(0.5f * (alpha_.x + alpha_.y))
+                                                          : roughness)),
       albedo_(albedo)
 {}
 
 bool EvenCoat::is_delta() const noexcept
 {
-    return !(alpha_ >= smooth_alpha);
+    return !(alpha_.x >= smooth_alpha);
 }
 
-float EvenCoat::reflected(float cosine) const noexcept
+float EvenCoat::reflected(Vec3 w) const noexcept
 {
-    const SpecularAlbedo::Split split =
-        albedo_->directional(std::clamp(cosine, 0.0f, 1.0f), roughness_);
+    SpecularAlbedo::Roughness row = row_;
+    const float level2 = w.x * w.x + w.y * w.y;
+    if (alpha_.x != alpha_.y && level2 > 1e-6f) {
+        const Vec2 scaled = alpha_ * Vec2(w);
+        row = SpecularAlbedo::at_roughness(std::sqrt(std::sqrt(dot(scaled, scaled) / level2)));
+    }
+    const SpecularAlbedo::Split split = albedo_->directional(std::clamp(w.z, 0.0f, 1.0f), row);
     return weight_ * std::min(1.0f, albedo_->normal_reflectance() * split.f0 + split.f90);
 }
 
 float EvenCoat::average() const noexcept
 {
-    const SpecularAlbedo::Split average = albedo_->average(roughness_);
+    const SpecularAlbedo::Split average = albedo_->average(row_);
     return weight_ * (albedo_->normal_reflectance() * average.f0 + average.f90);
 }
 
@@ -61,12 +69,70 @@ std::optional<BsdfSample> EvenCoat::sample(Vec3 wo, float, Vec2 u, TransportMode
     return towards(wi);
 }
 
-Coat::Coat(float weight, float roughness, Vec3 normal, const SpecularAlbedo* albedo)
-    : frame_(Frame::from_normal(normal)),
-      even_(weight, roughness, albedo),
+/// Returns a frame whose x axis is along `along`, as far as that is perpendicular to the normal.
+[[nodiscard]] static Frame frame_along(Vec3 normal, Vec3 along)
+{
+    const Vec3 level = along - dot(along, normal) * normal;
+    const float length2 = dot(level, level);
+    if (!(length2 > 1e-12f)) {
+        return Frame::from_normal(normal);
+    }
+    const Vec3 x = level / std::sqrt(length2);
+    return {x, cross(normal, x), normal};
+}
+
+Coat::Coat(float weight, float roughness, Vec3 normal, const SpecularAlbedo* albedo,
+           const CoatLook& look)
+    : frame_(look.anisotropy > 0.0f ? frame_along(normal, look.along) : Frame::from_normal(normal)),
+      even_(weight, roughness, albedo, look.anisotropy),
       facet_(frame_.to_local({0.0f, 0.0f, 1.0f})),
-      tilted_(normal != Vec3{0.0f, 0.0f, 1.0f})
-{}
+      tilted_(normal != Vec3{0.0f, 0.0f, 1.0f}),
+      filters_(even_.exists() && (look.color != Rgb(1.0f) || look.darkening > 0.0f)),
+      darkening_(look.darkening)
+{
+    constexpr float darkest = 1e-6f;
+    if (filters_) {
+        for (int c = 0; c < 3; ++c) {
+            log_color_[c] = log_exact(std::max(look.color[c], darkest));
+        }
+    }
+}
+
+void Coat::set_base(const CoveredBase& base) noexcept
+{
+    if (!filters_) {
+        return;
+    }
+    // Diffuse light is reflected inside as by the average of Fresnel's equations from the denser
+    // side, light of a mirror as it was on its way in.
+    const SpecularAlbedo& albedo = even_.albedo();
+    const SpecularAlbedo::Split smooth = albedo.average({});
+    const float r0 = albedo.normal_reflectance();
+    const float outside = r0 * smooth.f0 + smooth.f90;
+    const float diffuse = 1.0f - (1.0f - outside) / (albedo.ior() * albedo.ior());
+    const float roughness = base.roughness.value();
+    const float spread =
+        base.diffuse > 0.0f ? 1.0f + base.metallic * (roughness - 1.0f) : roughness;
+    const float inside = r0 + spread * (diffuse - r0);
+    const Rgb left = (1.0f - inside) / (1.0f - inside * glm::clamp(base.color, 0.0f, 1.0f));
+    darkened_ = Rgb(1.0f) + darkening_ * (left - 1.0f);
+}
+
+float Coat::path(Vec3 w) const noexcept
+{
+    constexpr float longest = 1e3f;  // at grazing incidence on a coat of index 1
+    const float ior = even_.albedo().ior();
+    const float cosine = std::clamp(frame_.to_local(w).z, 0.0f, 1.0f);
+    const float cos2 = 1.0f - (1.0f - cosine * cosine) / (ior * ior);
+    return std::min(longest, 0.5f / std::sqrt(std::max(cos2, 1e-12f)));
+}
+
+Rgb Coat::filter(float paths, bool twice) const noexcept
+{
+    const Rgb passed{exp_exact(log_color_.r * paths), exp_exact(log_color_.g * paths),
+                     exp_exact(log_color_.b * paths)};
+    return Rgb(1.0f) + even_.weight() * (passed * (twice ? darkened_ : Rgb(1.0f)) - Rgb(1.0f));
+}
 
 Rgb Coat::returned(Rgb base) const noexcept
 {
@@ -80,9 +146,9 @@ Rgb Coat::returned(Rgb base) const noexcept
 float Coat::lost_below(const ReturnedLight& above, float cosine, float passed,
                        float lost) const noexcept
 {
-    const auto [reflected, thinned] =
-        above.at_boundary(cosine, even_.weight() * even_.normal_reflectance(), even_.weight(),
-                          even_.row(), 1.0f - even_.average());
+    const auto [reflected, thinned] = above.at_boundary(
+        cosine, even_.weight() * even_.albedo().normal_reflectance(), even_.weight(),
+        even_.albedo().average({}).f90, even_.row(), 1.0f - even_.average());
     return reflected + passed * std::min(1.0f, thinned) * lost;
 }
 
@@ -93,11 +159,11 @@ float Coat::reflected(Vec3 w) const noexcept
     }
     const Vec3 local = frame_.to_local(w);
     if (!tilted_) {
-        return even_.reflected(local.z);
+        return even_.reflected(local);
     }
     const float mirrored = facet_.mirrored_share(local);
-    const float direct = mirrored < 1.0f ? (1.0f - mirrored) * even_.reflected(local.z) : 0.0f;
-    return mirrored > 0.0f ? direct + mirrored * even_.reflected(facet_.mirrored(local).z) : direct;
+    const float direct = mirrored < 1.0f ? (1.0f - mirrored) * even_.reflected(local) : 0.0f;
+    return mirrored > 0.0f ? direct + mirrored * even_.reflected(facet_.mirrored(local)) : direct;
 }
 
 BsdfEval Coat::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept

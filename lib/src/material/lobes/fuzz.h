@@ -83,6 +83,10 @@ public:
         return SpecularAlbedo::at_roughness(roughness_);
     }
     [[nodiscard]] Rgb color_over(Rgb base) const noexcept;
+    void set_base(const CoveredBase&) noexcept {}
+    [[nodiscard]] bool filters() const noexcept { return false; }
+    [[nodiscard]] float path(Vec3) const noexcept { return 0.0f; }
+    [[nodiscard]] Rgb filter(float, bool) const noexcept { return Rgb(1.0f); }
     /// All that would be lost: what is below is scaled by what the fibres do not keep.
     [[nodiscard]] Rgb returned(Rgb base) const noexcept { return base; }
     [[nodiscard]] float lost_below(const ReturnedLight& above, float cosine, float passed,

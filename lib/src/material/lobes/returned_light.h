@@ -102,10 +102,11 @@ public:
         float reflected;  ///< of the light that it reflects
         float thinned;    ///< loss of diffuse light that has passed it, over that without it
     };
-    /// For a boundary of index 1.5.
-    [[nodiscard]] Between at_boundary(float cosine, float f0, float f90, Roughness roughness,
-                                      float transmitted_average) const noexcept
+    /// For a boundary whose normalised Fresnel's equations have the average `rise`.
+    [[nodiscard]] Between at_boundary(float cosine, float f0, float full, float rise,
+                                      Roughness roughness, float transmitted_average) const noexcept
     {
+        const float f90 = full * rise / loss_->fresnel_rise();
         const LayerLoss::Directional part =
             loss_->directional(std::clamp(cosine, 0.0f, 1.0f), roughness, layer_);
         const float passed = part.below - f0 * part.below_f0 - f90 * part.below_f90;

@@ -31,6 +31,9 @@ struct SameFrame {
 /// `row`, its roughness, `reflected`, the fraction of light that does not pass it, and
 /// - `color_over`: the albedo of the layer over a surface of this colour,
 /// - `returned`: the fraction of lost light that leaves a surface of this colour in the end,
+/// - `set_base`: sets what is below, before the first `filter`,
+/// - `filters`: has a colour, by which light that passes it is multiplied: `filter` of the sum of
+///   `path` of both directions,
 /// - `lost_below`: what the layer and something that loses `lost` lose below another layer.
 template <typename Layer, typename Below, typename LayerFrame>
 class LayerOver {
@@ -42,6 +45,7 @@ public:
         bool above = true;
         bool covered = false;
         float passed = 1.0f;  ///< fraction of light that remains below the layer
+        float path = 0.0f;    ///< through the layer, if it filters
         float lost = 0.0f;    ///< fraction of light between the layer and what is below
         float weight = 0.0f;  ///< approximate albedo
         // Probabilities of the lobes.
@@ -57,9 +61,10 @@ public:
         : layer_(layer), below_(below), frame_(frame), solid_(solid)
     {
         if (layer_.exists()) {
-            again_ = {below_.covered_base(), layer_.weight(), layer_.row(), *loss};
-            again_.restore(layer_.returned(below_.covered_base().color),
-                           below_.average_lost(again_));
+            const CoveredBase base = below_.covered_base();
+            layer_.set_base(base);
+            again_ = {base, layer_.weight(), layer_.row(), *loss};
+            again_.restore(layer_.returned(base.color), below_.average_lost(again_));
         }
     }
 
@@ -82,6 +87,9 @@ public:
         }
         const float reflected = layer_.reflected(side.w);
         side.passed = 1.0f - reflected;
+        if (layer_.filters()) {
+            side.path = layer_.path(side.w);
+        }
         float again = 0.0f;
         if (again_.exists()) {
             side.lost = below_.lost(again_, z, side.below);
@@ -103,14 +111,20 @@ public:
         sum = chosen(sum, from.below_choice(), to.below_choice());
         sum.f_cos *= std::min(from.passed, to.passed);
         if (!from.covered || from.above != to.above) {
+            if (layer_.filters()) {
+                sum.f_cos *= filter(from, to);
+            }
             return sum;
-        }
-        if (layer_.has_smooth_lobe()) {
-            add(sum, chosen(layer_.eval(from.w, to.w, mode), from.layer_choice, to.layer_choice));
         }
         if (again_.exists()) {
             add(sum, chosen(again_.lobe(from.lost, to.lost).eval(from.w, to.w, mode),
                             from.again_choice, to.again_choice));
+        }
+        if (layer_.filters()) {
+            sum.f_cos *= filter(from, to);
+        }
+        if (layer_.has_smooth_lobe()) {
+            add(sum, chosen(layer_.eval(from.w, to.w, mode), from.layer_choice, to.layer_choice));
         }
         return sum;
     }
@@ -142,6 +156,9 @@ public:
             const Side to = side(sampled->wi);
             choose_delta(*sampled, from.below_choice(), to.below_choice());
             sampled->weight *= std::min(from.passed, to.passed);
+            if (layer_.filters()) {
+                sampled->weight *= filter(from, to);
+            }
         }
         return sampled;
     }
@@ -221,6 +238,12 @@ public:
 
 private:
     [[nodiscard]] bool grazes_layer(Vec3 w) const { return grazes(frame_.to_local(w)); }
+    [[nodiscard]] Rgb filter(const Side& from, const Side& to) const
+    {
+        return from.covered || to.covered
+                   ? layer_.filter(from.path + to.path, from.covered && to.covered)
+                   : Rgb(1.0f);
+    }
     [[nodiscard]] Vec3 from_layer(Vec3 w, bool above) const
     {
         return frame_.to_world(above ? w : -w);

@@ -1,5 +1,6 @@
 #include "material/models/layered.h"
 
+#include "math/elementary.h"
 #include "math/rgb.h"
 
 #include <algorithm>
@@ -42,10 +43,31 @@ namespace {
             parameters.fuzz_roughness.value(), parameters.constants->tables->fuzz.get()};
 }
 
-[[nodiscard]] Coat make_coat(const LayeredParameters& parameters, Vec3 normal)
+/// Returns the coat's normal in the frame of the surface; exactly +z if it follows the surface.
+[[nodiscard]] Vec3 normal_on(const SameFrame&, Vec3 normal)
 {
-    return {parameters.coat.value(), parameters.coat_roughness.value(), normal,
-            parameters.constants->tables->coat.get()};
+    return normal;
+}
+[[nodiscard]] Vec3 normal_on(const Frame& surface, Vec3 normal)
+{
+    return normal == surface.z ? Vec3{0.0f, 0.0f, 1.0f} : normalize(surface.to_local(normal));
+}
+
+/// `surface` is the local frame of the coat's surface.
+template <typename SurfaceFrame>
+[[nodiscard]] Coat make_coat(const LayeredParameters& parameters, const SurfaceFrame& surface)
+{
+    const CoatTables* tables = parameters.constants->coat;
+    CoatLook look{.color = parameters.coat_color.value(),
+                  .darkening = parameters.constants->coat_darkening,
+                  .anisotropy = parameters.coat_anisotropy.value()};
+    if (look.anisotropy > 0.0f) {
+        const SinCos angle = sin_cos(pi * parameters.coat_axis.value());
+        look.along = surface.to_local({angle.cos, angle.sin, 0.0f});
+    }
+    return {tables != nullptr ? parameters.coat.value() : 0.0f, parameters.coat_roughness.value(),
+            normal_on(surface, parameters.coat_normal.value()),
+            tables != nullptr ? &tables->albedo : nullptr, look};
 }
 
 [[nodiscard]] bool is_solid(const LayeredParameters& parameters)
@@ -55,7 +77,7 @@ namespace {
 
 [[nodiscard]] const LayerLoss* coat_loss(const LayeredParameters& parameters)
 {
-    return parameters.constants->tables->coat_loss.get();
+    return parameters.constants->coat != nullptr ? &parameters.constants->coat->loss : nullptr;
 }
 [[nodiscard]] const LayerLoss* fuzz_loss(const LayeredParameters& parameters)
 {
@@ -68,12 +90,6 @@ namespace {
             is_solid(parameters)};
 }
 
-/// Returns the coat's normal in the frame of the surface; exactly +z if it follows the surface.
-[[nodiscard]] Vec3 coat_normal_on(const Frame& surface, Vec3 normal)
-{
-    return normal == surface.z ? Vec3{0.0f, 0.0f, 1.0f} : normalize(surface.to_local(normal));
-}
-
 }  // namespace
 
 LowestLayer::LowestLayer(const LayeredParameters& parameters)
@@ -82,7 +98,7 @@ LowestLayer::LowestLayer(const LayeredParameters& parameters)
 
 LayeredBsdf::LayeredBsdf(const LayeredParameters& parameters)
     : LayerOver(make_fuzz(parameters, true),
-                {make_coat(parameters, parameters.coat_normal.value()), make_fuzzy_base(parameters),
+                {make_coat(parameters, SameFrame()), make_fuzzy_base(parameters),
                  coat_loss(parameters), is_solid(parameters)},
                 fuzz_loss(parameters), is_solid(parameters))
 {}
@@ -106,11 +122,10 @@ LayeredFacet::LayeredFacet(const TiltedFacet& facet, const LayeredParameters& pa
 
 LayeredFacet::LayeredFacet(const TiltedFacet& facet, const Frame& surface,
                            const LayeredParameters& parameters)
-    : LayerOver(
-          make_fuzz(parameters, true),
-          {make_coat(parameters, coat_normal_on(surface, parameters.coat_normal.value())),
-           LowestFacet(facet, parameters), coat_loss(parameters), is_solid(parameters), surface},
-          fuzz_loss(parameters), is_solid(parameters), surface)
+    : LayerOver(make_fuzz(parameters, true),
+                {make_coat(parameters, surface), LowestFacet(facet, parameters),
+                 coat_loss(parameters), is_solid(parameters), surface},
+                fuzz_loss(parameters), is_solid(parameters), surface)
 {}
 
 BsdfEval Layered::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept

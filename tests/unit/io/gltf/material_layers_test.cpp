@@ -50,6 +50,79 @@ TEST_CASE("clearcoat is read")
     CHECK(coat.normal_texture->uv_set == 1);
 }
 
+TEST_CASE("a coat is read, as a draft, and replaces a clearcoat")
+{
+    GltfFixture fixture =
+        with_extension("KHR_materials_coat", {{"coatFactor", 0.75},
+                                              {"coatTexture", texture(1)},
+                                              {"coatRoughnessFactor", 0.25},
+                                              {"coatRoughnessTexture", texture(2)},
+                                              {"coatNormalTexture", {{"index", 3}, {"scale", 0.5}}},
+                                              {"coatIor", 1.75},
+                                              {"coatColorFactor", {1, 0.5, 0.25}},
+                                              {"coatColorTexture", texture(4)},
+                                              {"coatDarkeningFactor", 0.5},
+                                              {"coatAnisotropyStrength", 0.25},
+                                              {"coatAnisotropyRotation", -1.5},
+                                              {"coatAnisotropyTexture", texture(5)}});
+    fixture.json["materials"][0]["extensions"]["KHR_materials_clearcoat"] = {
+        {"clearcoatFactor", 1}};
+    const LoadedScene loaded = fixture.load();
+    CHECK(loaded.warnings.empty());
+    CHECK(loaded.notes.size() == 1);
+    CHECK(loaded.scene.materials.at(0).clearcoat.factor == 0.0f);
+    const CoatDesc& coat = loaded.scene.materials.at(0).coat;
+    CHECK(coat.factor == 0.75f);
+    CHECK(coat.roughness == 0.25f);
+    CHECK(coat.normal_scale == 0.5f);
+    CHECK(coat.ior == 1.75f);
+    CHECK(coat.color == Rgb(1.0f, 0.5f, 0.25f));
+    CHECK(coat.darkening == 0.5f);
+    CHECK(coat.anisotropy_strength == 0.25f);
+    CHECK(coat.anisotropy_rotation == -1.5f);
+    CHECK(grey_image(loaded, coat.texture) == 1);
+    CHECK(grey_image(loaded, coat.roughness_texture) == 2);
+    CHECK(grey_image(loaded, coat.normal_texture) == 3);
+    CHECK(grey_image(loaded, coat.color_texture) == 4);
+    CHECK(grey_image(loaded, coat.anisotropy_texture) == 5);
+    const LoadedScene defaults = with_extension("KHR_materials_coat", {{"coatFactor", 1}}).load();
+    CHECK(defaults.scene.materials.at(0).coat.ior == 1.5f);
+    CHECK(defaults.scene.materials.at(0).coat.color == Rgb(1.0f));
+    CHECK(defaults.scene.materials.at(0).coat.darkening == 1.0f);
+    // One that is switched off does not even tint, and is no reason for the fallback.
+    const LoadedScene none = with_extension("KHR_materials_coat", {{"coatColorFactor", {1, 0, 0}},
+                                                                   {"coatTexture", texture(1)}})
+                                 .load();
+    CHECK(none.scene.materials.at(0).coat.factor == 0.0f);
+    CHECK(none.scene.images.empty());
+    // An index of 0 stands for total reflection, others below 1 are impossible.
+    CHECK(with_extension("KHR_materials_coat", {{"coatFactor", 1}, {"coatIor", 0}})
+              .load()
+              .scene.materials.at(0)
+              .coat.ior > 1e6f);
+    const LoadedScene low =
+        with_extension("KHR_materials_coat", {{"coatFactor", 1}, {"coatIor", 0.5}}).load();
+    CHECK(low.scene.materials.at(0).coat.ior == 1.0f);
+    CHECK(low.warnings.size() == 1);
+}
+
+TEST_CASE("layers that exclude specular-glossiness are used with it, with a warning")
+{
+    for (const auto& [name, factor] : {std::pair{"KHR_materials_coat", "coatFactor"},
+                                       std::pair{"KHR_materials_fuzz", "fuzzFactor"}}) {
+        GltfFixture fixture = with_extension(name, {{factor, 1}});
+        fixture.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] =
+            nlohmann::json::object();
+        fixture.json["extensionsUsed"].push_back("KHR_materials_pbrSpecularGlossiness");
+        const LoadedScene loaded = fixture.load();
+        REQUIRE(loaded.warnings.size() == 1);
+        CHECK(loaded.warnings[0].find(std::string(name) + " must not be combined") == 0);
+        const MaterialDesc& material = loaded.scene.materials.at(0);
+        CHECK(material.coat.factor + material.fuzz.factor == 1.0f);
+        CHECK(material.specular_color == Rgb(25.0f));
+    }
+}
+
 TEST_CASE("a coat that is not there has no images")
 {
     const LoadedScene loaded =
@@ -264,6 +337,7 @@ TEST_CASE("each property of an extension must have its type")
         {"clearcoat", "clearcoatRoughnessFactor"},
         {"diffuse_roughness", "diffuseRoughnessFactor"},
         {"fuzz", "fuzzFactor"},
+        {"coat", "coatFactor"},
         {"diffuse_transmission", "diffuseTransmissionFactor"},
         {"diffuse_transmission", "diffuseTransmissionColorFactor", "3 numbers"},
         {"dispersion", "dispersion"},

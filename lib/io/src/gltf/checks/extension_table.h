@@ -18,7 +18,7 @@ struct ExtensionSupport {
     std::string_view name;
     std::string_view note = {};  ///< the loss, in a few words
     /// The properties of a material's extension, but textures; those after the last are empty.
-    MaterialProperty properties[4] = {};
+    MaterialProperty properties[8] = {};
     ExtensionStatus status = ExtensionStatus::supported;
 };
 
@@ -30,6 +30,17 @@ inline constexpr ExtensionSupport extension_table[] = {
     {"KHR_materials_clearcoat",
      "",
      {{"clearcoatFactor"}, {"clearcoatRoughnessFactor"}, {"clearcoatNormalTexture/scale"}}},
+    {"KHR_materials_coat",
+     "",
+     {{"coatFactor"},
+      {"coatRoughnessFactor"},
+      {"coatIor"},
+      {"coatColorFactor", 3},
+      {"coatDarkeningFactor"},
+      {"coatAnisotropyStrength"},
+      {"coatAnisotropyRotation"},
+      {"coatNormalTexture/scale"}},
+     ExtensionStatus::draft},
     {"KHR_materials_diffuse_roughness", "", {{"diffuseRoughnessFactor"}}, ExtensionStatus::draft},
     {"KHR_materials_diffuse_transmission",
      "not combined with refraction",

@@ -119,6 +119,14 @@ public:
         read_extension("KHR_materials_volume_scatter", &MaterialReader::read_volume_scatter);
         read_extension("KHR_materials_scatter", &MaterialReader::read_scatter);
         read_layers(values_, desc_);
+        for (const char* layer : {"KHR_materials_coat", "KHR_materials_fuzz"}) {
+            if (specular_glossiness && values_.extension(layer)) {
+                context_.warn(std::string(layer) +
+                                  " must not be combined with "
+                                  "KHR_materials_pbrSpecularGlossiness; both are used",
+                              place_);
+            }
+        }
         if (source_.normalTexture.index >= 0) {
             desc_.normal_scale = static_cast<float>(source_.normalTexture.scale);
             desc_.normal_texture =

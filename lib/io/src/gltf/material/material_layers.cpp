@@ -26,6 +26,40 @@ ClearcoatDesc read_clearcoat(const MaterialExtension& from)
     return coat;
 }
 
+CoatDesc read_coat(const MaterialExtension& from)
+{
+    CoatDesc coat;
+    coat.factor = from.number("coatFactor", 0.0, 0.0, 1.0);
+    if (coat.factor == 0.0f) {
+        return coat;  // all of it is off, also what the draft multiplies the base by
+    }
+    coat.texture = from.texture("coatTexture");
+    coat.roughness = from.number("coatRoughnessFactor", 0.0, 0.0, 1.0);
+    if (coat.roughness > 0.0f) {
+        coat.roughness_texture = from.texture("coatRoughnessTexture");
+    }
+    // 0 stands for a Fresnel term of one, as in KHR_materials_ior.
+    coat.ior = number_or(from.object, "coatIor", 1.5) == 0.0
+                   ? static_cast<float>(no_limit)
+                   : from.number("coatIor", 1.5, 1.0, no_limit);
+    coat.color = from.color("coatColorFactor", 1.0);
+    if (coat.color != Rgb(0.0f)) {
+        coat.color_texture = from.texture("coatColorTexture");
+    }
+    coat.darkening = from.number("coatDarkeningFactor", 1.0, 0.0, 1.0);
+    coat.anisotropy_strength = from.number("coatAnisotropyStrength", 0.0, 0.0, 1.0);
+    if (coat.anisotropy_strength > 0.0f) {
+        coat.anisotropy_rotation = from.number("coatAnisotropyRotation", 0.0, -no_limit, no_limit);
+        coat.anisotropy_texture = from.texture("coatAnisotropyTexture");
+    }
+    coat.normal_texture = from.texture("coatNormalTexture");
+    if (coat.normal_texture) {
+        coat.normal_scale =
+            static_cast<float>(number_or(from.object.Get("coatNormalTexture"), "scale", 1.0));
+    }
+    return coat;
+}
+
 SheenDesc read_sheen(const MaterialExtension& from)
 {
     SheenDesc sheen;
@@ -136,8 +170,12 @@ void read_extension(const MaterialValues& values, const std::string& name,
 
 void read_layers(const MaterialValues& values, MaterialDesc& desc)
 {
-    read_extension(values, "KHR_materials_clearcoat", read_clearcoat, desc.clearcoat);
     // A layer that another replaces, even by none, is a fallback for readers without the draft.
+    if (values.extension("KHR_materials_coat")) {
+        read_extension(values, "KHR_materials_coat", read_coat, desc.coat);
+    } else {
+        read_extension(values, "KHR_materials_clearcoat", read_clearcoat, desc.clearcoat);
+    }
     if (values.extension("KHR_materials_fuzz")) {
         read_extension(values, "KHR_materials_fuzz", read_fuzz, desc.fuzz);
     } else {

@@ -60,10 +60,10 @@ void check_encodings(const MaterialDesc& material, ImageTable& images)
             images.check_encoding(texture->image, wanted);
         }
     };
-    for (const auto* texture :
-         {&material.base_color_texture, &material.emission_texture,
-          &material.specular_color_texture, &material.sheen.color_texture,
-          &material.fuzz.color_texture, &material.diffuse_transmission.color_texture}) {
+    for (const auto* texture : {&material.base_color_texture, &material.emission_texture,
+                                &material.specular_color_texture, &material.sheen.color_texture,
+                                &material.fuzz.color_texture, &material.coat.color_texture,
+                                &material.diffuse_transmission.color_texture}) {
         check(*texture, ColorEncoding::srgb);
     }
     // Alpha is linear in either encoding, so textures of which only alpha is read do not count.
@@ -73,7 +73,8 @@ void check_encodings(const MaterialDesc& material, ImageTable& images)
           &material.clearcoat.roughness_texture, &material.clearcoat.normal_texture,
           &material.anisotropy.texture, &material.iridescence.texture,
           &material.iridescence.thickness_texture, &material.diffuse_roughness.texture,
-          &material.fuzz.texture}) {
+          &material.fuzz.texture, &material.coat.texture, &material.coat.roughness_texture,
+          &material.coat.normal_texture, &material.coat.anisotropy_texture}) {
         check(*texture, ColorEncoding::linear);
     }
 }

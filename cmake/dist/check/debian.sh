@@ -16,5 +16,6 @@ mapfile -t ours < <(dpkg-query -W -f '${Package}\n' | grep bdpt)
 echo "installed: ${ours[*]}"
 apt-get -qq -y remove "${ours[@]}" >/dev/null
 [[ -z $(list) ]] || { list; exit 1; }
-apt-get -qq -y --autoremove purge "${ours[@]}" >/dev/null
+dpkg --purge "${ours[@]}"
+apt-get -qq -y --purge autoremove >/dev/null
 dpkg-query -W -f '${Package}\n' | sort | diff /before -

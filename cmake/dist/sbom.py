@@ -84,9 +84,9 @@ def read_wheel(bill, owner, file):
 
 
 def read_image(bill, owner, status):
-    for name, architecture, version in re.findall(r"^Package: (\S+)\n(?:.+\n)*?Architecture: (\S+)\n(?:.+\n)*?Version: (\S+)$",
-                                                  status, flags=re.M):
-        bill.relate(owner, "CONTAINS", bill.add_debian(name, version, architecture))
+    for paragraph in filter(None, status.split("\n\n")):
+        fields = dict(re.findall(r"^(Package|Version|Architecture): (\S+)$", paragraph, flags=re.M))
+        bill.relate(owner, "CONTAINS", bill.add_debian(fields["Package"], fields["Version"], fields["Architecture"]))
 
 
 def main():

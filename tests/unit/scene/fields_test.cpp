@@ -72,7 +72,7 @@ TEST_CASE("each number of a material is refused when it is none", "[fields]")
         }
         number = before;
     });
-    CHECK(numbers == 45);
+    CHECK(numbers == 60);
 }
 
 TEST_CASE("each texture of a material is checked", "[fields]")
@@ -86,7 +86,7 @@ TEST_CASE("each texture of a material is checked", "[fields]")
         CHECK_THROWS_AS(validate(builder.desc), Error);
         slot.reset();
     });
-    CHECK(slots.size() == 19);
+    CHECK(slots.size() == 27);
 }
 
 }  // namespace bdpt::fields_test

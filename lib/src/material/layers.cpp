@@ -47,15 +47,20 @@ FuzzDesc fuzz_of(const MaterialDesc& desc)
     return fuzz;
 }
 
+/// Returns the loss below a coat, by the table of surfaces of index 1.5.
+[[nodiscard]] static LayerLoss loss_below(const SpecularAlbedo& coat, const FuzzTable* fibres)
+{
+    constexpr float of_surfaces = 1.5f;
+    const auto reflected = [&coat](float cosine, SpecularAlbedo::Roughness roughness) {
+        const SpecularAlbedo::Split split = coat.directional(cosine, roughness);
+        return std::min(1.0f, coat.normal_reflectance() * split.f0 + split.f90);
+    };
+    return coat.ior() == of_surfaces ? LayerLoss(coat, reflected, fibres)
+                                     : LayerLoss(SpecularAlbedo(of_surfaces), reflected, fibres);
+}
+
 CoatTables::CoatTables(float ior, const FuzzTable* fibres)
-    : albedo(ior),
-      loss(
-          SpecularAlbedo(1.5f),
-          [this](float cosine, SpecularAlbedo::Roughness roughness) {
-              const SpecularAlbedo::Split split = albedo.directional(cosine, roughness);
-              return std::min(1.0f, albedo.normal_reflectance() * split.f0 + split.f90);
-          },
-          fibres)
+    : albedo(ior), loss(loss_below(albedo, fibres))
 {}
 
 LayerTables::LayerTables(std::span<const MaterialDesc> materials)

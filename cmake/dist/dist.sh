@@ -40,7 +40,7 @@ python_packages() {
 
 build_root() {
   local packages=("${build_packages[@]}" "${compiler_packages[@]}" "${tiff_packages[@]}"
-    dpkg-dev file patchelf xz-utils catch2 python3-dev python3-venv qemu-user)
+    dpkg-dev file patchelf strip-nondeterminism xz-utils catch2 python3-dev python3-venv qemu-user)
   make_root build bookworm --variant=essential --include="$(IFS=, && echo "${packages[*]}")"
 }
 

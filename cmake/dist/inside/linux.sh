@@ -12,6 +12,7 @@ cmake --preset release -DBDPT_BUILD_TESTS=OFF -DCMAKE_CXX_COMPILER=clang++-19 -D
 cmake --build --preset release --parallel "$jobs" --target all bdpt_archive
 mkdir -p "$out"
 cp build/release/bdpt-*-linux-*.tar.xz build/release/apps/bdpt_render-*.zip "$out"
+strip-nondeterminism --timestamp "$SOURCE_DATE_EPOCH" "$out"/*.zip
 cd build/release
 cpack -G DEB -B "$PWD/packages"
 cp packages/*.deb "$out"

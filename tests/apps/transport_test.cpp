@@ -162,9 +162,9 @@ nlohmann::json choice(const std::string& scene, const std::string& size)
 {
     const ScratchFolder folder;
     const std::string stats = (folder / "stats.json").string();
-    const Outcome outcome = run({"render", BDPT_SOURCE_DIR "/scenes/" + scene, "--size", size,
-                                 "--crop", "0,0,8,8", "--spp", "64", "--samples", "0:1", "--stats",
-                                 stats, "-o", (folder / "image.exr").string()});
+    const Outcome outcome =
+        run({"render", BDPT_SOURCE_DIR "/scenes/" + scene, "--size", size, "--spp", "64",
+             "--samples", "0:1", "--stats", stats, "-o", (folder / "image.exr").string()});
     CAPTURE(scene, size, outcome.err);
     REQUIRE(outcome.exit_code == 0);
     return nlohmann::json::parse(read_text(stats))["settings"];

@@ -131,8 +131,10 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     const ShownImage shown(camera, options);
     const auto taking = [&](const Candidate& candidate) {
         RenderOptions taken = with_candidate(options, candidate);
-        // As many light paths as an image of the crop alone has.
-        taken.bidirectional.light_paths *= shown.share;
+        if (taken.integrator == IntegratorKind::bdpt) {
+            // As many light paths as an image of the crop alone has.
+            taken.bidirectional.light_paths *= shown.share;
+        }
         return taken;
     };
     if (!is_worth_measuring(shown.options)) {

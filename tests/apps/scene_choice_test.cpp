@@ -171,12 +171,12 @@ TEST_CASE("the film counts as a part of the memory of a render")
         all.insert(all.end(), words.begin(), words.end());
         return run(all);
     };
-    // Two halves of samples and of splats, three sums of 16 bytes each, and an image of floats.
-    constexpr int pixel = 2 * 2 * 3 * 16 + 3 * 4;
+    // Two halves of samples, three sums of 16 bytes each, and an image of floats.
+    constexpr int pixel = 2 * 3 * 16 + 3 * 4;
     const Outcome too_large = render({"--size", "1000x1000", "--max-memory", "100M"});
     CAPTURE(too_large.err);
     CHECK(too_large.exit_code == 4);
-    CHECK(too_large.err.find("the film of 1000x1000 pixels needs 204 MB of memory, but the limit "
+    CHECK(too_large.err.find("the film of 1000x1000 pixels needs 108 MB of memory, but the limit "
                              "is 105 MB (--max-memory)") != std::string::npos);
     CHECK(render({"--size", "1000x1000", "--max-memory", "250M", "--crop", "0,0,8,8"}).exit_code ==
           0);
@@ -196,7 +196,7 @@ TEST_CASE("the film counts as a part of the memory of a render")
     CAPTURE(no_room.err);
     CHECK(no_room.exit_code == 4);
     CHECK(no_room.err.find(scene + ": the file needs ") != std::string::npos);
-    CHECK(no_room.err.find("but 1 kB of 419 kB are left (--max-memory)") != std::string::npos);
+    CHECK(no_room.err.find("but 1 kB of 222 kB are left (--max-memory)") != std::string::npos);
 }
 
 /// The integrator and its light paths and connections that a render of `words` says it uses.

@@ -34,7 +34,9 @@ SharedList<T> replaced(const SharedList<T>& list, std::size_t number, T item)
 
 }  // namespace
 
-struct Scene::State {
+// Hidden, or the shared library would export the type of its shared pointer.
+struct [[gnu::visibility("hidden")]] Scene::State
+{
     State(SharedSceneDesc desc, Isa isa)
         : components(scene_components(desc, {}, {})), world(std::move(desc), isa)
     {

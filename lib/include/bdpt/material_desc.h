@@ -173,9 +173,9 @@ struct MaterialDesc {
     float dispersion = 0.0f;      ///< >= 0, 20 / Abbe number of a solid transmitter
 
     ClearcoatDesc clearcoat{};
-    CoatDesc coat{};
+    BDPT_EXPERIMENTAL CoatDesc coat{};
     SheenDesc sheen{};
-    FuzzDesc fuzz{};
+    BDPT_EXPERIMENTAL FuzzDesc fuzz{};
     AnisotropyDesc anisotropy{};
     IridescenceDesc iridescence{};
     DiffuseTransmissionDesc diffuse_transmission{};

@@ -116,7 +116,8 @@ TEST_CASE("layers that exclude specular-glossiness are used with it, with a warn
         fixture.json["extensionsUsed"].push_back("KHR_materials_pbrSpecularGlossiness");
         const LoadedScene loaded = fixture.load();
         REQUIRE(loaded.warnings.size() == 1);
-        CHECK(loaded.warnings[0].find(std::string(name) + " must not be combined") == 0);
+        CHECK(loaded.warnings[0].find(": " + std::string(name) + " must not be combined") !=
+              std::string::npos);
         const MaterialDesc& material = loaded.scene.materials.at(0);
         CHECK(material.coat.factor + material.fuzz.factor == 1.0f);
         CHECK(material.specular_color == Rgb(25.0f));

@@ -108,6 +108,16 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
 {
     ContributionSink& sink = scratch.sink;
     const std::int64_t index = scheduled.index;
+    sink.begin_sample(x, y, scheduled);
+    // Own light paths of pixels outside of a crop can splat into it, and so can lights.
+    const bool wanted = sink.holds_pixel();
+    if (!wanted && own_light_paths() == 0 &&
+        !scratch.joiner.connects_light_to_lens(Sampler(options_.sampling.sampler,
+                                                       options_.sampling.seed, x, y, index,
+                                                       log_samples(options_.sampling, x, y)))) {
+        sink.end_sample();
+        return;
+    }
     SampleStart start(options_, filter_, world_, camera_, x, y, index);
     LightPathCache::Choice shared;
     if (cache_.counts().kept()) {
@@ -122,10 +132,7 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
                          .time = start.moment.time,
                          .wavelength = start.moment.wavelength,
                          .rays = scratch.stats.rays};
-    sink.begin_sample(x, y, scheduled);
 
-    // Own light paths of pixels outside of a crop can splat into it.
-    const bool wanted = sink.holds_pixel();
     trace_camera_subpath(sample, start.raster,
                          {.max_vertices = wanted ? strategies_.camera_vertices() : 1,
                           .rr_start = options_.transport.rr_start,

@@ -27,19 +27,19 @@ void PathJoiner::join_camera_path(SampleContext& sample, Subpath& path)
             join_to_lights(sample, camera);
         }
     }
-    if (sample.camera.is_perspective() && connects_light_to_lens(sample)) {
+    if (sample.camera.is_perspective() && connects_light_to_lens(sample.sampler)) {
         if (const auto found = connect_light_to_lens(sample, weigher_)) {
             sink_.splat(sample, {.s = 1, .t = 1}, *found, strategies_.count(1, 1), 1);
         }
     }
 }
 
-bool PathJoiner::connects_light_to_lens(const SampleContext& sample) const
+bool PathJoiner::connects_light_to_lens(const Sampler& sampler) const
 {
     const float count = strategies_.count(1, 1);
     return count == 1.0f ||
-           (count > 0.0f && sample.sampler.ordered_1d(SampleUse::next_event,
-                                                      Sampler::choice_of_visible_light) < count);
+           (count > 0.0f &&
+            sampler.ordered_1d(SampleUse::next_event, Sampler::choice_of_visible_light) < count);
 }
 
 void PathJoiner::join_to_lights(SampleContext& sample, std::span<const PathVertex> camera)

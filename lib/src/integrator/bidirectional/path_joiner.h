@@ -34,10 +34,11 @@ public:
     /// Handles s >= 2, t >= 2 for all light paths of the choice by connections that are chosen.
     void join_chosen(const SampleContext& sample, const LightPathCache& cache,
                      const LightPathCache::Choice& choice, const Subpath& camera);
+    /// Decides at random whether the camera path of a sample connects a point on a light to the
+    /// lens.
+    [[nodiscard]] bool connects_light_to_lens(const Sampler& sampler) const;
 
 private:
-    /// Decides at random whether a camera path connects a point on a light to the lens.
-    [[nodiscard]] bool connects_light_to_lens(const SampleContext& sample) const;
     void join_to_lights(SampleContext& sample, std::span<const PathVertex> camera);
     /// Tests whether a path of one edge to `x0` is excluded as background.
     [[nodiscard]] bool is_background(const SampleContext& sample, const PathVertex& x0) const;

@@ -2,7 +2,7 @@
 # that cannot be made is named at the end; the others are made.
 source cmake/dist/roots.sh
 
-release_tools=(mmdebstrap debian-archive-keyring umoci git python3 python3-venv xz-utils ca-certificates)
+release_tools=(mmdebstrap debian-archive-keyring umoci iproute2 git python3 python3-venv xz-utils ca-certificates)
 version=$(sed -n 's/^project(bdpt VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 work=$PWD/build/dist
 failed=()

@@ -58,6 +58,7 @@ in_root() {
   unshare --mount --pid --fork --propagation private "${network[@]}" bash -c '
     root=$1
     shift
+    [[ ${root_network:-} == 1 ]] || ip link set lo up  # a view listens on it
     mkdir -p "$root/proc" "$root/dev" "$root/tmp"
     [[ ${root_without_proc:-} == 1 ]] || mount -t proc proc "$root/proc"
     mount --rbind /dev "$root/dev"

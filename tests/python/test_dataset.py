@@ -74,6 +74,8 @@ def test_sizes_are_those_of_poses(command, tmp_path):
     assert view.image.shape == (30, 20, 3)
     (view,) = bdpt.dataset(MODELS[0], 1, spp=1, integrator="pt")
     assert view.image.shape == (512, 512, 3)
+    (view,) = bdpt.dataset(MODELS[0], 1, spp=1, integrator="pt", size=16)
+    assert view.image.shape == (16, 16, 3)
 
 
 def test_lenses_blur():

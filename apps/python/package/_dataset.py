@@ -83,7 +83,7 @@ def _files(models: Union[Path, Sequence[Path]]) -> list[str]:
 def dataset(models: Union[Path, Sequence[Path]], views: Optional[int] = None, *,
             view_range: Union[str, tuple[tuple[float, float], tuple[float, float]], None] = None,
             distance: Optional[Range] = None, fov_range: Optional[tuple[float, float]] = None,
-            poses: Optional[Path] = None, seed: int = 0, size: Optional[tuple[int, int]] = None,
+            poses: Optional[Path] = None, seed: int = 0, size: Union[int, tuple[int, int], None] = None,
             aov: Union[str, Sequence[str]] = (), root: Optional[Path] = None, on_error: str = "warn",
             **options: Any) -> Iterator[View]:
     """Yields views of models, one model after the other: those of the command bdpt dataset, to the bit.
@@ -94,7 +94,7 @@ def dataset(models: Union[Path, Sequence[Path]], views: Optional[int] = None, *,
     distance: a number or a range; at 1 the bounding sphere just fits
     fov_range: range of vertical fields of view [degrees]; fov=... for a single one
     poses: a transforms.json with cameras, in place of drawn ones
-    size: width and height [pixels]; default: that of poses, else (512, 512)
+    size: width and height [pixels], or one number for both; default: that of poses, else (512, 512)
     aov: of depth, distance, normal, camera-normal, uv, position, mask, flow: see View.layers
     root: names models by their paths from this folder; else by the names of their files
     on_error: "warn" goes on with the next model if one cannot be loaded or rendered, "raise" raises
@@ -105,7 +105,7 @@ def dataset(models: Union[Path, Sequence[Path]], views: Optional[int] = None, *,
     if on_error not in ("warn", "raise"):
         raise ValueError(f"on_error={on_error!r}: expected 'warn' or 'raise'")
     given = {"views": views, "distance": distance, "fov-range": fov_range, "poses": poses, "seed": seed,
-             "size": size and "x".join(map(str, size)), **{name.replace("_", "-"): options.pop(name, None) for name in _VIEW},
+             "size": size if isinstance(size, int) else size and "x".join(map(str, size)), **{name.replace("_", "-"): options.pop(name, None) for name in _VIEW},
              "aov": aov if isinstance(aov, str) else ",".join(aov),
              "view-range": view_range if view_range is None or isinstance(view_range, str)
              else ",".join(map(_text, view_range))}

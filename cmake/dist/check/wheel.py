@@ -54,7 +54,6 @@ def main():
     command = PREFIX / "bin/bdpt"
     said = subprocess.run([command, "--version"], check=True, capture_output=True, text=True).stdout
     assert said.startswith(f"bdpt {version}\n"), said
-    subprocess.run(["ip", "link", "set", "lo", "up"], check=False) if shutil.which("ip") else None
     view(command)
     pip("uninstall", "-q", "-y", "bdpt")
     assert files() == before, files() ^ before

@@ -108,9 +108,8 @@ private:
     LoadContext& context_;
 };
 
-/// Reads the layers of KHR_materials_{anisotropy, clearcoat, coat,
-/// diffuse_roughness, diffuse_transmission, fuzz, iridescence, sheen}. Images that have no
-/// influence are not decoded.
+/// Reads the layers of KHR_materials_{anisotropy, clearcoat, coat, diffuse_roughness,
+/// diffuse_transmission, fuzz, iridescence, sheen}. Images that have no influence are not decoded.
 void read_layers(const MaterialValues& values, MaterialDesc& desc);
 
 /// Returns the material of a primitive in a variant of KHR_materials_variants: the one mapped to it

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -82,7 +82,9 @@ bool is_decoding(const std::string& library)
     std::error_code gone;
     for (const auto& process : std::filesystem::directory_iterator("/proc", gone)) {
         std::ifstream stream(process.path() / "cmdline", std::ios::binary);
-        const std::string words{std::istreambuf_iterator<char>(stream), {}};
+        std::ostringstream text;
+        text << stream.rdbuf();  // nothing where the process has just ended: no exception
+        const std::string words = text.str();
         if (contains(words, "bdpt-read-ktx") && contains(words, library + std::string(1, '\0'))) {
             return true;
         }

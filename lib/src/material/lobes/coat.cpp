@@ -14,8 +14,8 @@ namespace bdpt {
 EvenCoat::EvenCoat(float weight, float roughness, const SpecularAlbedo* albedo, float anisotropy)
     : weight_(albedo != nullptr ? weight : 0.0f),
       alpha_(AnisotropicRoughness(roughness, anisotropy).alpha()),
-      row_(SpecularAlbedo::at_roughness(anisotropy > 0.0f ? std::sqrt(0.5f * (alpha_.x + alpha_.y))
-                                                          : roughness)),
+      row_(SpecularAlbedo::at_roughness(
+          anisotropy > 0.0f ? std::sqrt(std::sqrt(0.5f * dot(alpha_, alpha_))) : roughness)),
       albedo_(albedo)
 {}
 
@@ -27,10 +27,10 @@ bool EvenCoat::is_delta() const noexcept
 float EvenCoat::reflected(Vec3 w) const noexcept
 {
     SpecularAlbedo::Roughness row = row_;
-    const float level2 = w.x * w.x + w.y * w.y;
-    if (alpha_.x != alpha_.y && level2 > 1e-6f) {
-        const Vec2 scaled = alpha_ * Vec2(w);
-        row = SpecularAlbedo::at_roughness(std::sqrt(std::sqrt(dot(scaled, scaled) / level2)));
+    if (alpha_.x != alpha_.y) {
+        const Vec2 along = alpha_ * Vec2(w);
+        const float alpha2 = dot(along, along) + 0.5f * w.z * w.z * dot(alpha_, alpha_);
+        row = SpecularAlbedo::at_roughness(std::sqrt(std::sqrt(alpha2)));
     }
     const SpecularAlbedo::Split split = albedo_->directional(std::clamp(w.z, 0.0f, 1.0f), row);
     return weight_ * std::min(1.0f, albedo_->normal_reflectance() * split.f0 + split.f90);
@@ -132,6 +132,18 @@ Rgb Coat::filter(float paths, bool twice) const noexcept
     const Rgb passed{exp_exact(log_color_.r * paths), exp_exact(log_color_.g * paths),
                      exp_exact(log_color_.b * paths)};
     return Rgb(1.0f) + even_.weight() * (passed * (twice ? darkened_ : Rgb(1.0f)) - Rgb(1.0f));
+}
+
+Rgb Coat::color_over(Rgb base) const noexcept
+{
+    const float reflected = even_.average();
+    Rgb below = (1.0f - reflected) * base;
+    if (filters_) {
+        // The cosine-weighted average of `path`, down and up again.
+        const float ior2 = even_.albedo().ior() * even_.albedo().ior();
+        below *= filter(2.0f * ior2 * (1.0f - std::sqrt(1.0f - 1.0f / ior2)), true);
+    }
+    return Rgb(reflected) + below;
 }
 
 Rgb Coat::returned(Rgb base) const noexcept

@@ -26,7 +26,7 @@ public:
 
     [[nodiscard]] bool is_delta() const noexcept;
     /// Returns the reflected fraction of light from a direction. That of an anisotropic coat is
-    /// estimated by the roughness across this direction, within 0.01.
+    /// estimated: by the root mean square of alpha straight down, by that along low directions.
     [[nodiscard]] float reflected(Vec3 w) const noexcept;
     [[nodiscard]] bool exists() const noexcept { return weight_ > 0.0f; }
     /// Returns the average of `reflected`.
@@ -44,7 +44,7 @@ public:
 private:
     float weight_;
     Vec2 alpha_;
-    SpecularAlbedo::Roughness row_;  ///< of the mean alpha
+    SpecularAlbedo::Roughness row_;  ///< of the root mean square of alpha
     const SpecularAlbedo* albedo_;
 };
 
@@ -79,11 +79,7 @@ public:
     [[nodiscard]] bool exists() const noexcept { return even_.exists(); }
     [[nodiscard]] float weight() const noexcept { return even_.weight(); }
     [[nodiscard]] SpecularAlbedo::Roughness row() const noexcept { return even_.row(); }
-    [[nodiscard]] Rgb color_over(Rgb base) const noexcept
-    {
-        const float reflected = even_.average();
-        return Rgb(reflected) + (1.0f - reflected) * base;
-    }
+    [[nodiscard]] Rgb color_over(Rgb base) const noexcept;
     /// Light is scattered by the base, reflected by the coat, scattered again, and leaves or is
     /// reflected again. Less of it where the coat is tilted, because less is lost there on average
     /// over all azimuths.

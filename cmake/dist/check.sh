@@ -155,13 +155,20 @@ check_aarch64_tests() {
   in_root "$work/root" bash /dev/stdin /source "$(compile_jobs)" <"$here/aarch64_tests.sh"
 }
 
-# The source tarball builds with the compiler of Debian 12. It is not optimised, which takes a third of the time.
-check_source() {
-  local root=$work/root
+# builds_in ROOT COMPILER: the source tarball builds there. It is not optimised, which takes a third of the time.
+builds_in() {
+  local root=$1 compiler=$2
   rm -rf "$root/unpacked"
   mkdir "$root/unpacked"
   tar -C "$root/unpacked" --strip-components=1 -xf "dist/bdpt-$version.tar.xz"
-  in_root "$root" bash /dev/stdin /unpacked "$(compile_jobs)" "$version" <"$here/source.sh"
+  in_root "$root" bash /dev/stdin /unpacked "$(compile_jobs)" "$version" "$compiler" <"$here/source.sh"
+}
+
+check_source() {
+  builds_in "$work/root" g++
+  local packages=("${build_packages[@]}" clang)
+  make_root build-13 trixie --variant=essential --include="$(IFS=, && echo "${packages[*]}")"
+  builds_in "$(fresh_root build-13 "$scratch/build-13")" clang++
 }
 
 # A second build of the commit, in another root and folder, makes the same bytes.

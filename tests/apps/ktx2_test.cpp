@@ -82,8 +82,9 @@ bool is_decoding(const std::string& library)
     std::error_code gone;
     for (const auto& process : std::filesystem::directory_iterator("/proc", gone)) {
         std::ifstream stream(process.path() / "cmdline", std::ios::binary);
+        // The text stays empty, without an exception, where the process has just ended.
         std::ostringstream text;
-        text << stream.rdbuf();  // nothing where the process has just ended: no exception
+        text << stream.rdbuf();
         const std::string words = text.str();
         if (contains(words, "bdpt-read-ktx") && contains(words, library + std::string(1, '\0'))) {
             return true;

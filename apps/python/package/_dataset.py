@@ -105,7 +105,8 @@ def dataset(models: Union[Path, Sequence[Path]], views: Optional[int] = None, *,
     if on_error not in ("warn", "raise"):
         raise ValueError(f"on_error={on_error!r}: expected 'warn' or 'raise'")
     given = {"views": views, "distance": distance, "fov-range": fov_range, "poses": poses, "seed": seed,
-             "size": size if isinstance(size, int) else size and "x".join(map(str, size)), **{name.replace("_", "-"): options.pop(name, None) for name in _VIEW},
+             "size": "x".join(map(str, size)) if isinstance(size, Sequence) else size,
+             **{name.replace("_", "-"): options.pop(name, None) for name in _VIEW},
              "aov": aov if isinstance(aov, str) else ",".join(aov),
              "view-range": view_range if view_range is None or isinstance(view_range, str)
              else ",".join(map(_text, view_range))}

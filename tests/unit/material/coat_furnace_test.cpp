@@ -14,8 +14,8 @@
 namespace bdpt::test::coat_furnace_test {
 namespace {
 
-/// The share of light from `wo` that is scattered at all. The points of a Sobol sequence leave an
-/// error of 0.0005.
+/// Returns the share of light from `wo` that is scattered at all, within about 0.0005, by points of
+/// a Sobol sequence.
 double albedo_of(const test::TestedBsdf& bsdf, Vec3 wo)
 {
     constexpr int log_samples = 15;

@@ -25,8 +25,9 @@ public:
     EvenCoat(float weight, float roughness, const SpecularAlbedo* albedo, float anisotropy = 0.0f);
 
     [[nodiscard]] bool is_delta() const noexcept;
-    /// Returns the reflected fraction of light from a direction. That of an anisotropic coat is
-    /// estimated: by the root mean square of alpha straight down, by that along low directions.
+    /// Returns the reflected fraction of light from a direction. For an anisotropic coat this is
+    /// that of an isotropic one with another alpha: at normal incidence the root mean square of
+    /// both, at grazing incidence the alpha along the direction.
     [[nodiscard]] float reflected(Vec3 w) const noexcept;
     [[nodiscard]] bool exists() const noexcept { return weight_ > 0.0f; }
     /// Returns the average of `reflected`.

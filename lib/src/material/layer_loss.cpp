@@ -42,7 +42,7 @@ using AtFibres = LayerLoss::AtFibres;
 
 [[nodiscard]] SpecularAlbedo::Roughness roughness_at(int node, int nodes)
 {
-    return SpecularAlbedo::at_roughness(static_cast<float>(node) / static_cast<float>(nodes - 1));
+    return SpecularAlbedo::Roughness::of_row(static_cast<std::size_t>(node), nodes);
 }
 
 /// Returns the cosine at a node, evenly spaced in sqrt(cosine).
@@ -54,37 +54,67 @@ using AtFibres = LayerLoss::AtFibres;
 
 }  // namespace
 
+/// Albedos of the layer at all nodes of its roughness.
+class LayerLoss::Albedos {
+public:
+    using Row = std::array<float, roughness_nodes>;
+
+    explicit Albedos(const Albedo& layer)
+    {
+        for (int column = 0; column < columns; ++column) {
+            for (int c = 0; c < roughness_nodes; ++c) {
+                rows_[static_cast<std::size_t>(column)][static_cast<std::size_t>(c)] =
+                    layer(cosine_at(column, columns), roughness_at(c, roughness_nodes));
+            }
+        }
+    }
+    [[nodiscard]] Row at(float cosine) const
+    {
+        const NodePosition p = node_position(std::sqrt(cosine) * (columns - 1), columns);
+        const Row& left = rows_[p.node];
+        const Row& right = rows_[p.node + 1];
+        Row result;
+        for (std::size_t c = 0; c < result.size(); ++c) {
+            result[c] = left[c] + p.fraction * (right[c] - left[c]);
+        }
+        return result;
+    }
+
+private:
+    static constexpr int columns = 256;  // evenly spaced in sqrt(cosine)
+    std::array<Row, columns> rows_;
+};
+
 LayerLoss::LayerLoss(const SpecularAlbedo& boundary, const Albedo& layer, const FuzzTable* fibres)
     : fresnel_rise_(boundary.average({}).f90)
 {
-    integrate_boundary(boundary, layer);
-    integrate_below(boundary, layer);
+    const Albedos albedos(layer);
+    integrate_boundary(boundary, albedos);
+    integrate_below(boundary, albedos);
     integrate_averages(boundary);
     if (fibres != nullptr) {
-        integrate_fibres(*fibres, layer);
+        integrate_fibres(*fibres, albedos);
     }
 }
 
-void LayerLoss::integrate_boundary(const SpecularAlbedo& boundary, const Albedo& layer)
+void LayerLoss::integrate_boundary(const SpecularAlbedo& boundary, const Albedos& layer)
 {
     for (int base = 1; base < roughness_nodes; ++base) {  // a mirror loses nothing
         const float roughness = roughness_at(base, roughness_nodes).value();
         const float alpha = roughness * roughness;
         for (int column = 0; column < cosine_nodes; ++column) {
             const float cosine = cosine_at(column, cosine_nodes);
-            std::array<float, roughness_nodes> reflected{};
-            for (int c = 0; c < roughness_nodes; ++c) {
-                reflected[static_cast<std::size_t>(c)] =
-                    layer(cosine, roughness_at(c, roughness_nodes));
-            }
+            const Albedos::Row here = layer.at(cosine);
             const auto add = [&](const ggx::QuadraturePoint& point) {
                 const Vec3 wi = point.facet.reflected();
                 const float leaves = point.share * point.leaves(wi, alpha);
+                if (!(leaves > 0.0f)) {
+                    return;
+                }
                 const float g = boundary.fresnel_course(point.facet.cosine);
-                for (std::size_t c = 0; leaves > 0.0f && c < roughness_nodes; ++c) {
-                    const float there = layer(std::min(1.0f, wi.z),
-                                              roughness_at(static_cast<int>(c), roughness_nodes));
-                    const float lost = leaves * std::max(0.0f, there - reflected[c]);
+                const Albedos::Row there = layer.at(std::min(1.0f, wi.z));
+                for (std::size_t c = 0; c < roughness_nodes; ++c) {
+                    const float lost = leaves * std::max(0.0f, there[c] - here[c]);
                     Directional& node =
                         directional_[row(static_cast<std::size_t>(base), c) * cosine_nodes +
                                      static_cast<std::size_t>(column)];
@@ -92,35 +122,32 @@ void LayerLoss::integrate_boundary(const SpecularAlbedo& boundary, const Albedo&
                     node.f90 += lost * g;
                 }
             };
-            ggx::for_each_visible_normal(cosine, alpha, 16, 8, add);
+            ggx::for_each_visible_normal(cosine, alpha, 40, 16, add);
         }
     }
 }
 
-void LayerLoss::integrate_below(const SpecularAlbedo& boundary, const Albedo& layer)
+void LayerLoss::integrate_below(const SpecularAlbedo& boundary, const Albedos& layer)
 {
     // Midpoints evenly spaced in sqrt(cosine).
     constexpr int points = 128;
-    for (int c = 0; c < roughness_nodes; ++c) {
-        const SpecularAlbedo::Roughness of_layer = roughness_at(c, roughness_nodes);
-        std::array<float, cosine_nodes> reflected{};
-        for (int column = 0; column < cosine_nodes; ++column) {
-            reflected[static_cast<std::size_t>(column)] =
-                layer(cosine_at(column, cosine_nodes), of_layer);
-        }
+    std::array<Albedos::Row, cosine_nodes> here;
+    for (int column = 0; column < cosine_nodes; ++column) {
+        here[static_cast<std::size_t>(column)] = layer.at(cosine_at(column, cosine_nodes));
+    }
+    for (int i = 0; i < points; ++i) {
+        const float x = (static_cast<float>(i) + 0.5f) / points;
+        const float cosine = x * x;
+        const float area = 4.0f * x * cosine / points;  // of cos d cos, over 1/2
+        const Albedos::Row there = layer.at(cosine);
         for (int base = 0; base < roughness_nodes; ++base) {
-            const SpecularAlbedo::Roughness of_base = roughness_at(base, roughness_nodes);
-            Directional* nodes =
-                directional_.data() +
-                row(static_cast<std::size_t>(base), static_cast<std::size_t>(c)) * cosine_nodes;
-            for (int i = 0; i < points; ++i) {
-                const float x = (static_cast<float>(i) + 0.5f) / points;
-                const float cosine = x * x;
-                const float there = layer(cosine, of_layer);
-                const SpecularAlbedo::Split kept = boundary.directional(cosine, of_base);
-                for (int column = 0; column < cosine_nodes; ++column) {
-                    const float here = reflected[static_cast<std::size_t>(column)];
-                    const float lost = 4.0f * x * cosine / points * std::max(0.0f, there - here);
+            const SpecularAlbedo::Split kept =
+                boundary.directional(cosine, roughness_at(base, roughness_nodes));
+            for (std::size_t c = 0; c < roughness_nodes; ++c) {
+                Directional* nodes =
+                    directional_.data() + row(static_cast<std::size_t>(base), c) * cosine_nodes;
+                for (std::size_t column = 0; column < cosine_nodes; ++column) {
+                    const float lost = area * std::max(0.0f, there[c] - here[column][c]);
                     nodes[column].below += lost;
                     nodes[column].below_f0 += lost * kept.f0;
                     nodes[column].below_f90 += lost * kept.f90;
@@ -155,13 +182,13 @@ void LayerLoss::integrate_averages(const SpecularAlbedo& boundary)
     }
 }
 
-void LayerLoss::integrate_fibres(const FuzzTable& fibres, const Albedo& layer)
+void LayerLoss::integrate_fibres(const FuzzTable& fibres, const Albedos& layer)
 {
     constexpr int heights = 24;  // evenly spaced in sqrt(cosine)
     constexpr int azimuths = 12;
     at_fibres_.resize(directional_.size());
     for (int base = 0; base < roughness_nodes; ++base) {
-        const float roughness = roughness_at(base, roughness_nodes).value();
+        const float roughness = FuzzTable::roughness_of(roughness_at(base, roughness_nodes));
         const auto passed = [roughness](float cosine) {
             return 1.0f - FuzzTable::directional(cosine, roughness);
         };
@@ -173,6 +200,7 @@ void LayerLoss::integrate_fibres(const FuzzTable& fibres, const Albedo& layer)
         for (int column = 0; column < cosine_nodes; ++column) {
             const float cos_o = std::max(cosine_at(column, cosine_nodes), 1e-4f);
             const Vec3 wo{std::sqrt(1.0f - cos_o * cos_o), 0.0f, cos_o};
+            const Albedos::Row here = layer.at(cos_o);
             for (int i = 0; i < heights; ++i) {
                 const float x = (static_cast<float>(i) + 0.5f) / heights;
                 const float cos_i = x * x;
@@ -184,14 +212,12 @@ void LayerLoss::integrate_fibres(const FuzzTable& fibres, const Albedo& layer)
                         fibres.value(wo, {sine * turn.cos, sine * turn.sin, cos_i}, roughness);
                 }
                 const float area = 4.0f * x * cos_i / heights;  // of cos d cos, over 1/2
-                for (int c = 0; c < roughness_nodes; ++c) {
-                    const auto of_layer = roughness_at(c, roughness_nodes);
-                    const float lost =
-                        area * std::max(0.0f, layer(cos_i, of_layer) - layer(cos_o, of_layer));
-                    AtFibres& node = at_fibres_[row(static_cast<std::size_t>(base),
-                                                    static_cast<std::size_t>(c)) *
-                                                    cosine_nodes +
-                                                static_cast<std::size_t>(column)];
+                const Albedos::Row there = layer.at(cos_i);
+                for (std::size_t c = 0; c < roughness_nodes; ++c) {
+                    const float lost = area * std::max(0.0f, there[c] - here[c]);
+                    AtFibres& node =
+                        at_fibres_[row(static_cast<std::size_t>(base), c) * cosine_nodes +
+                                   static_cast<std::size_t>(column)];
                     node.reflected += lost * around * pi / azimuths;
                     node.passed += lost * passed(cos_i) / passed_average;
                 }
@@ -205,8 +231,8 @@ Loss LayerLoss::interpolated(const Loss* table, float cosine, Roughness base,
                              Roughness layer) noexcept
 {
     const NodePosition p = node_position(std::sqrt(cosine) * (cosine_nodes - 1), cosine_nodes);
-    const NodePosition b = node_position(base.value() * (roughness_nodes - 1), roughness_nodes);
-    const NodePosition c = node_position(layer.value() * (roughness_nodes - 1), roughness_nodes);
+    const NodePosition b = base.position(roughness_nodes);
+    const NodePosition c = layer.position(roughness_nodes);
     const auto at = [&](std::size_t base_node, std::size_t layer_node) {
         const Loss* nodes = table + row(base_node, layer_node) * cosine_nodes + p.node;
         return mix_losses(nodes[0], nodes[1], p.fraction);
@@ -228,8 +254,8 @@ AtFibres LayerLoss::at_fibres(float cosine, Roughness fibres, Roughness layer) c
 
 Average LayerLoss::average(Roughness base, Roughness layer) const noexcept
 {
-    const NodePosition b = node_position(base.value() * (roughness_nodes - 1), roughness_nodes);
-    const NodePosition c = node_position(layer.value() * (roughness_nodes - 1), roughness_nodes);
+    const NodePosition b = base.position(roughness_nodes);
+    const NodePosition c = layer.position(roughness_nodes);
     const auto at = [&](std::size_t base_node) {
         return mix_losses(average_[row(base_node, c.node)], average_[row(base_node, c.node + 1)],
                           c.fraction);

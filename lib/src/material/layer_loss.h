@@ -14,7 +14,7 @@ class FuzzTable;
 /// Loss of a white surface below a layer that transmits the fraction min(T(wo), T(wi)) of the light
 /// it scatters, where T(w) = 1 - E(w) and E is the layer's albedo: the integral of max(0, E(wi) -
 /// E(wo)) f(wo, wi) cos(wi) over wi. For a full layer; it is proportional to the covered fraction
-/// of the surface. About 120 kB; refer to it, do not copy it.
+/// of the surface. About 200 kB; refer to it, do not copy it.
 class LayerLoss {
 public:
     using Roughness = SpecularAlbedo::Roughness;
@@ -67,8 +67,10 @@ public:
     [[nodiscard]] float fresnel_rise() const noexcept { return fresnel_rise_; }
 
 private:
+    class Albedos;
+
     static constexpr int cosine_nodes = 24;
-    static constexpr int roughness_nodes = 16;
+    static constexpr int roughness_nodes = 20;
 
     [[nodiscard]] static constexpr std::size_t row(std::size_t base, std::size_t layer)
     {
@@ -77,14 +79,13 @@ private:
     template <typename Loss>
     [[nodiscard]] static Loss interpolated(const Loss* table, float cosine, Roughness base,
                                            Roughness layer) noexcept;
-    void integrate_boundary(const SpecularAlbedo& boundary, const Albedo& layer);
-    void integrate_below(const SpecularAlbedo& boundary, const Albedo& layer);
+    void integrate_boundary(const SpecularAlbedo& boundary, const Albedos& layer);
+    void integrate_below(const SpecularAlbedo& boundary, const Albedos& layer);
     void integrate_averages(const SpecularAlbedo& boundary);
-    void integrate_fibres(const FuzzTable& fibres, const Albedo& layer);
+    void integrate_fibres(const FuzzTable& fibres, const Albedos& layer);
 
     float fresnel_rise_;
-    /// Rows of evenly spaced roughness of base and layer; within them nodes evenly spaced in
-    /// sqrt(cosine).
+    /// Rows of roughness of base and layer; within them nodes evenly spaced in sqrt(cosine).
     std::array<Directional, roughness_nodes * roughness_nodes * cosine_nodes> directional_{};
     std::array<Average, roughness_nodes * roughness_nodes> average_{};
     std::vector<AtFibres> at_fibres_;  ///< as `directional_`; empty without fibres

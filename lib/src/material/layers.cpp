@@ -69,7 +69,7 @@ LayerTables::LayerTables(std::span<const MaterialDesc> materials)
         fuzz = std::make_unique<const FuzzTable>();
         fuzz_loss = std::make_unique<const LayerLoss>(
             SpecularAlbedo(1.5f), [](float cosine, SpecularAlbedo::Roughness roughness) {
-                return FuzzTable::directional(cosine, roughness.value());
+                return FuzzTable::directional(cosine, FuzzTable::roughness_of(roughness));
             });
     }
     for (const MaterialDesc& desc : materials) {

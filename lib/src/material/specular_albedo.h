@@ -40,25 +40,37 @@ public:
     /// Returns the loss of refraction at the boundary of a transparent body.
     [[nodiscard]] const RefractionLoss& refraction_loss() const noexcept { return loss_; }
 
-    /// Position of a roughness in the tables.
+    /// Position of a roughness in tables, evenly spaced in its root: the albedo changes fast where
+    /// surfaces are smooth and light grazes them.
     struct Roughness {
-        float row = 0.0f;
+        float root = 0.0f;  ///< of the perceptual roughness, in [0, 1]
 
         /// Returns the perceptual roughness, in [0, 1].
-        [[nodiscard]] float value() const { return row / (roughness_nodes - 1); }
+        [[nodiscard]] float value() const { return root * root; }
+        /// Returns the position between the rows of a table.
+        [[nodiscard]] NodePosition position(int rows) const
+        {
+            return node_position(root * static_cast<float>(rows - 1), rows);
+        }
+        /// Returns the roughness of a row.
+        [[nodiscard]] static Roughness of_row(std::size_t row, int rows)
+        {
+            return {static_cast<float>(row) / static_cast<float>(rows - 1)};
+        }
     };
 
     /// Returns the position of a perceptual roughness in [0, 1].
     [[nodiscard]] static Roughness at_roughness(float roughness)
     {
-        return {scaled(roughness, roughness_nodes)};
+        return {std::sqrt(std::clamp(roughness, 0.0f, 1.0f))};
     }
 
     /// Returns the albedo for light from a direction with this cosine in [0, 1].
     [[nodiscard]] Split directional(float cosine, Roughness roughness) const noexcept
     {
-        const NodePosition p = node_position(scaled(std::sqrt(cosine), cosine_nodes), cosine_nodes);
-        const NodePosition r = node_position(roughness.row, roughness_nodes);
+        const float root = std::clamp(std::sqrt(cosine), 0.0f, 1.0f);
+        const NodePosition p = node_position(root * (cosine_nodes - 1), cosine_nodes);
+        const NodePosition r = roughness.position(roughness_nodes);
         require(r.node);
         const Split* lower = table_.data() + r.node * cosine_nodes + p.node;
         const Split* upper = lower + cosine_nodes;
@@ -69,7 +81,7 @@ public:
     /// Returns the cosine-weighted average of `directional` over the hemisphere.
     [[nodiscard]] Split average(Roughness roughness) const noexcept
     {
-        const NodePosition r = node_position(roughness.row, roughness_nodes);
+        const NodePosition r = roughness.position(roughness_nodes);
         require(r.node);
         const Split* row = average_.data() + r.node;
         return mix(row[0], row[1], r.fraction);
@@ -79,10 +91,6 @@ private:
     static constexpr int cosine_nodes = 64;
     static constexpr int roughness_nodes = 32;
 
-    [[nodiscard]] static float scaled(float value, int nodes)
-    {
-        return std::clamp(value, 0.0f, 1.0f) * static_cast<float>(nodes - 1);
-    }
     [[nodiscard]] static Split mix(Split a, Split b, float t)
     {
         return {a.f0 + t * (b.f0 - a.f0), a.f90 + t * (b.f90 - a.f90)};
@@ -99,7 +107,7 @@ private:
     float ior_;
     float r0_;
     float inv_range_;  ///< 1 / (1 - r0)
-    // Rows of evenly spaced roughness; within them nodes evenly spaced in sqrt(cosine).
+    // Within rows nodes are evenly spaced in sqrt(cosine).
     LazyRows<roughness_nodes> rows_;
     mutable std::array<Split, roughness_nodes * cosine_nodes> table_;
     mutable std::array<Split, roughness_nodes> average_;

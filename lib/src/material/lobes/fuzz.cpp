@@ -113,8 +113,7 @@ void FuzzTable::make_row(std::size_t row) const noexcept
     constexpr int iterations = 60;
     constexpr float min_cosine = 1e-4f;
     using Row = std::array<float, cosine_nodes>;
-    const float share = static_cast<float>(row) / (roughness_nodes - 1);
-    const float roughness = min_roughness + (1.0f - min_roughness) * share * share;
+    const float roughness = roughness_of(SpecularAlbedo::Roughness::of_row(row, roughness_nodes));
     Row albedo{};
     std::array<Row, cosine_nodes> integral{};  // coefficients of s at the nodes
     for (std::size_t column = 0; column < cosine_nodes; ++column) {
@@ -152,6 +151,9 @@ void FuzzTable::make_row(std::size_t row) const noexcept
         }
         scale = next;
     }
+    constexpr float margin =
+        0.9985f;  // so that fibres reflect no more than they keep from the base
+    std::transform(scale.begin(), scale.end(), scale.begin(), [](float s) { return margin * s; });
     std::copy(scale.begin(), scale.end(),
               scale_.begin() + static_cast<std::ptrdiff_t>(row * cosine_nodes));
 }
@@ -169,13 +171,18 @@ float FuzzTable::scale(NodePosition row, float cosine) const noexcept
 FuzzTable::Value FuzzTable::eval(Vec3 wo, Vec3 wi, float roughness) const noexcept
 {
     const float used = fuzz_roughness(roughness);
-    const float share = std::sqrt((used - min_roughness) / (1.0f - min_roughness));
-    const NodePosition row = node_position(share * (roughness_nodes - 1), roughness_nodes);
+    const NodePosition row = FuzzTable::row(used).position(roughness_nodes);
     rows_.require(row.node, [this](std::size_t made) { make_row(made); });
     const Vec3 o = with_unit_height(wo);
     const Vec3 i = with_unit_height(wi);
     const BothFuzzLobes lobes(o, i, used);
     return {lobes.mean * scale(row, o.z) * scale(row, i.z), lobes.pdf_fwd, lobes.pdf_rev};
+}
+
+SpecularAlbedo::Roughness FuzzTable::row(float roughness) noexcept
+{
+    return SpecularAlbedo::at_roughness((fuzz_roughness(roughness) - min_roughness) /
+                                        (1.0f - min_roughness));
 }
 
 float FuzzTable::directional(float cosine, float roughness) noexcept

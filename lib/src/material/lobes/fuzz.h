@@ -32,6 +32,15 @@ public:
     /// Returns the fraction that white fibres reflect of light with this cosine in [0, 1].
     [[nodiscard]] static float directional(float cosine, float roughness) noexcept;
 
+    /// Returns the position of a roughness in tables of layers of fibres, of which no rows are
+    /// below the minimum.
+    [[nodiscard]] static SpecularAlbedo::Roughness row(float roughness) noexcept;
+    /// Returns the roughness of a row.
+    [[nodiscard]] static float roughness_of(SpecularAlbedo::Roughness row) noexcept
+    {
+        return min_roughness + (1.0f - min_roughness) * row.value();
+    }
+
     /// f, and the densities of the transformed cosines of both directions [1/sr].
     struct Value {
         float f = 0.0f;
@@ -50,8 +59,7 @@ private:
     /// Returns the factor of a direction.
     [[nodiscard]] float scale(NodePosition row, float cosine) const noexcept;
 
-    // Rows of roughness, evenly spaced in the root of the excess over the minimum; within them
-    // nodes evenly spaced in sqrt(cosine).
+    // Within rows nodes are evenly spaced in sqrt(cosine).
     LazyRows<roughness_nodes> rows_;
     mutable std::array<float, roughness_nodes * cosine_nodes> scale_;
 };
@@ -80,7 +88,7 @@ public:
     [[nodiscard]] float weight() const noexcept { return weight_; }
     [[nodiscard]] SpecularAlbedo::Roughness row() const noexcept
     {
-        return SpecularAlbedo::at_roughness(roughness_);
+        return FuzzTable::row(roughness_);
     }
     [[nodiscard]] Rgb color_over(Rgb base) const noexcept;
     void set_base(const CoveredBase&) noexcept {}

@@ -150,6 +150,18 @@ check_aarch64() {
   in_root "$root" /bdpt/bin/bdpt compare /out/arm-1.exr /out/x86.exr --threshold relmse=0.001
 }
 
+check_aarch64_wheels() {
+  local place suite python root
+  for place in bookworm:3.11 trixie:3.13; do
+    IFS=: read -r suite python <<<"$place"
+    root=$(check_root debian-12-qemu bookworm qemu-user)
+    cp -r "$work/packages" "$here/wheel.py" "$root/"
+    cp dist/bdpt-*aarch64.whl "$root/packages/"
+    add_arm64_python "$root" "$suite" "$python"
+    in_root "$root" "/opt/python-arm64-$python/venv/bin/python" /wheel.py "$version" "/opt/python-arm64-$python/run"
+  done
+}
+
 # The unit tests of the core, built for aarch64 in the folder of the archive.
 check_aarch64_tests() {
   in_root "$work/root" bash /dev/stdin /source "$(compile_jobs)" <"$here/aarch64_tests.sh"
@@ -210,6 +222,7 @@ check_all() {
   part "check of Debian's policy" check_policy
   part "check of machines" check_machines
   part "check of aarch64" check_aarch64
+  part "check of wheels for aarch64" check_aarch64_wheels
   part "check of aarch64 by unit tests" check_aarch64_tests
   part "check of the source tarball" check_source
   part "check that a second build is equal" check_reproducible

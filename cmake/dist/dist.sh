@@ -36,6 +36,10 @@ python_packages() {
   local pip=("$work/python/bin/pip" download -q --disable-pip-version-check --only-binary :all: -d "$work/packages")
   "${pip[@]}" --python-version 3.11 -r cmake/dist/requirements.txt
   "${pip[@]}" --python-version 3.13 numpy
+  local version
+  for version in 3.11 3.13; do
+    "${pip[@]}" --no-deps --platform manylinux2014_aarch64 --platform manylinux_2_28_aarch64 --python-version $version numpy
+  done
 }
 
 build_root() {
@@ -44,11 +48,39 @@ build_root() {
   make_root build bookworm --variant=essential --include="$(IFS=, && echo "${packages[*]}")"
 }
 
-# The libraries of a Debian for arm64, which are only extracted.
+# arm64_root NAME SUITE PACKAGES...: packages of a Debian for arm64, which are only extracted.
 arm64_root() {
-  local packages=(libc6-dev libstdc++-12-dev catch2 "${library_packages[@]}")
-  make_root arm64 bookworm --variant=extract --architectures=arm64 --include="$(IFS=, && echo "${packages[*]}")" \
+  local name=$1 suite=$2
+  shift 2
+  make_root "$name" "$suite" --variant=extract --architectures=arm64 --include="$(IFS=, && echo "$*")" \
     --extract-hook=cmake/dist/hooks/finish_sysroot.sh
+}
+
+# add_arm64_python ROOT SUITE VERSION: a Python for arm64 as /opt/python-arm64-VERSION/venv/bin/python, which runs under
+# qemu, as do programs by /opt/python-arm64-VERSION/run. What they start are programs of the root; they find libraries in
+# /sysroot, too.
+add_arm64_python() {
+  local root=$1 suite=$2 version=$3
+  local name=python-arm64-$version
+  local place=/opt/$name
+  local folder=$root$place
+  arm64_root "$name" "$suite" "python$version-dev" libstdc++6
+  fresh_root "$name" "$folder" >/dev/null
+  cp "$folder/usr/include/aarch64-linux-gnu/python$version/pyconfig.h" "$folder/usr/include/python$version/pyconfig.h"
+  mkdir -p "$folder/venv/bin" "$folder/venv/lib/python$version/site-packages"
+  printf 'home = %s/usr/bin\ninclude-system-site-packages = false\n' "$place" >"$folder/venv/pyvenv.cfg"
+  local folders=/usr/lib/aarch64-linux-gnu
+  folders=$place$folders:$place/lib/aarch64-linux-gnu:/sysroot$folders:/sysroot/lib/aarch64-linux-gnu
+  # shellcheck disable=SC2016
+  printf '#!/bin/sh\nexec qemu-aarch64 %s --library-path %s "$@"\n' \
+    "$(cd "$folder" && find . -path '*lib/aarch64-linux-gnu/ld-linux-aarch64.so.1' -printf "$place/%P")" "$folders" \
+    >"$folder/run"
+  # shellcheck disable=SC2016
+  printf '#!/bin/sh\nexec %s/run --argv0 "$0" %s/usr/bin/python%s "$@"\n' "$place" "$place" "$version" \
+    >"$folder/venv/bin/python"
+  chmod +x "$folder/run" "$folder/venv/bin/python"
+  local pip=("$work"/packages/pip-*.whl)
+  in_root "$root" "$place/venv/bin/python" "/packages/${pip[0]##*/}/pip" install -q --no-index --find-links /packages pip
 }
 
 # A newer Python than that of Debian 12, for wheels that all later ones can use. It has the glibc that it needs.
@@ -105,14 +137,26 @@ linux() {
 wheels() {
   add_newer_python "$work/root"
   run_inside wheels /venv/bin/python /opt/python/usr/bin/python3.13
-  cp "$work"/root/out/*.whl dist
+  cp "$work"/root/out/*x86_64.whl dist
 }
 
 aarch64() {
-  arm64_root
+  arm64_root arm64 bookworm libc6-dev libstdc++-12-dev catch2 "${library_packages[@]}"
   fresh_root arm64 "$work/root/sysroot" >/dev/null
   run_inside aarch64
   cp "$work"/root/out/*aarch64.tar.xz dist
+}
+
+aarch64_wheels() {
+  local version pythons=()
+  add_arm64_python "$work/root" bookworm 3.11
+  add_arm64_python "$work/root" trixie 3.13
+  for version in 3.11 3.13; do
+    pythons+=("/opt/python-arm64-$version/venv/bin/python")
+    in_root "$work/root" "${pythons[-1]}" -m pip install -q --no-index --find-links /packages nanobind scikit-build-core
+  done
+  run_inside wheels "${pythons[@]}"
+  cp "$work"/root/out/*manylinux*aarch64.whl dist
 }
 
 # A container image, without a daemon: a small Debian, and the archive in /opt/bdpt.
@@ -171,6 +215,7 @@ make_dist() {
   part "archive and packages" linux
   part "wheels" wheels
   part "archive for aarch64" aarch64
+  part "wheels for aarch64" aarch64_wheels
   part "container image" image
   part "bill of materials" bill_of_materials
   (cd dist && sha256sum -- * >SHA256SUMS)

@@ -68,16 +68,33 @@ def add_ktx(bill, text):
                          licenseDeclared="Apache-2.0")
 
 
+def packages_of_archive(file):
+    """The Debian packages (NAME, VERSION) of the libraries in an archive, by the names of the libraries up to a dot."""
+    with tarfile.open(file) as tar:
+        (entry,) = (entry for entry in tar.getmembers() if entry.name.endswith("/share/doc/bdpt/libraries.txt"))
+        text = tar.extractfile(entry).read().decode()
+    return {library: package for library, *package in re.findall(r"^([^\s.]+)\.\S*: (\S+) (\S+)$", text, flags=re.M)}
+
+
+def packages_in_wheel(wheel, file):
+    """The Debian packages whose libraries are in a wheel. auditwheel has noted them in CycloneDX, but for other
+    processors, whose libraries are those of the archive."""
+    libraries = [name for name in wheel.namelist() if name.startswith("bdpt.libs/") and ".so" in name]
+    if file.name.endswith("aarch64.whl"):
+        (archive,) = file.parent.glob("*-linux-aarch64.tar.xz")
+        packages = packages_of_archive(archive)
+        return [(*packages[re.fullmatch(r"bdpt\.libs/([^.]+)-[0-9a-f]{8}\.\S+", name)[1]], "arm64")
+                for name in libraries]
+    noted = [name for name in wheel.namelist() if name.endswith("/sboms/auditwheel.cdx.json")]
+    assert bool(libraries) == bool(noted), (file, libraries, noted)
+    return [(part["name"], part["version"], "amd64") for name in noted
+            for part in json.loads(wheel.read(name))["components"] if part["purl"].startswith("pkg:deb/")]
+
+
 def read_wheel(bill, owner, file):
-    """The libraries in a wheel, whose packages auditwheel has noted in CycloneDX."""
     with zipfile.ZipFile(file) as wheel:
-        libraries = {name for name in wheel.namelist() if name.startswith("bdpt.libs/")}
-        noted = [name for name in wheel.namelist() if name.endswith("/sboms/auditwheel.cdx.json")]
-        assert bool(libraries) == bool(noted), (file, libraries, noted)
-        for name in noted:
-            for part in json.loads(wheel.read(name))["components"]:
-                if part["purl"].startswith("pkg:deb/"):
-                    bill.relate(owner, "CONTAINS", bill.add_debian(part["name"], part["version"], "amd64"))
+        for package in packages_in_wheel(wheel, file):
+            bill.relate(owner, "CONTAINS", bill.add_debian(*package))
         for name in wheel.namelist():
             if name.endswith("/ktx/README.txt"):
                 bill.relate(owner, "CONTAINS", add_ktx(bill, wheel.read(name).decode()))

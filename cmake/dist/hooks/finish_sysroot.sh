@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Finishes a root of libraries for another processor, which will be used as /sysroot: finish_sysroot.sh ROOT
+# Finishes a root for another processor. That with libraries will be used as /sysroot: finish_sysroot.sh ROOT
 source "$(dirname "${BASH_SOURCE[0]}")/record_packages.sh"
 record_packages "$@"
 root=$1
@@ -7,4 +7,4 @@ find "$root" -type l -lname '/*' ! -path "$root/dev/*" | while read -r link; do
   ln -sfr "$root$(readlink "$link")" "$link"
 done
 # Draco's package names its files by their absolute paths.
-sed -i 's|"/usr/|"/sysroot/usr/|g; s|;/usr/|;/sysroot/usr/|g' "$root"/usr/lib/*/cmake/draco/*.cmake
+find "$root/usr/lib" -path '*/cmake/draco/*.cmake' -exec sed -i 's|"/usr/|"/sysroot/usr/|g; s|;/usr/|;/sysroot/usr/|g' {} +

@@ -1,4 +1,5 @@
 #include "material/layer_loss.h"
+#include "material/lobes/fuzz.h"
 
 #include "bsdf_cases.h"
 #include "catch.hpp"
@@ -87,6 +88,25 @@ TEST_CASE("a white surface below any coat is invisible in a white furnace", "[lo
             CHECK(sum > 0.995);
             CHECK(sum < 1.001);
         }
+    }
+}
+
+TEST_CASE("layers on black without a boundary reflect what they do alone")
+{
+    const float roughness = GENERATE(0.3f, 1.0f);
+    const SpecularAlbedo coat(1.5f);
+    const Rgb black{0.0f};
+    const test::TestedBsdf coated(
+        test::BsdfCase{"coat", {black, 0, 1, 0}, 1.5f, test::coated(1, roughness)});
+    const test::TestedBsdf fuzzy(
+        test::BsdfCase{"fibres", {black, 0, 1, 0}, 1.5f, test::fuzzy(1, Rgb{1.0f}, roughness, {})});
+    for (const float cosine : {1.0f, 0.7f, 0.15f}) {
+        CAPTURE(roughness, cosine);
+        const auto [f0, f90] = coat.directional(cosine, SpecularAlbedo::at_roughness(roughness));
+        CHECK(albedo_of(coated, at_cosine(cosine)) ==
+              Approx(coat.normal_reflectance() * f0 + f90).epsilon(0.02));
+        CHECK(albedo_of(fuzzy, at_cosine(cosine)) ==
+              Approx(FuzzTable::directional(cosine, roughness)).epsilon(0.02));
     }
 }
 

@@ -272,6 +272,9 @@ std::optional<BsdfSample> BasicMetallicRoughness<Film, Roughness, Base>::direct(
     } else if (u_lobe >= choice && u_again < from.refraction_choice) {
         sampled = repeated_refraction().sample(u_again / from.refraction_choice, u);
     } else if (u_lobe >= choice) {
+        if (base_weight_ == 0.0f) {
+            return std::nullopt;  // black: `eval` has no density of it
+        }
         sampled = base_.sample(wo, (u_again - from.refraction_choice) / base_choice(from), u, mode);
     } else if (roughness_.is_rough()) {
         sampled = GgxBoundary(boundary_, roughness_.alpha()).sample(wo, u_lobe / choice, u, mode);

@@ -15,7 +15,7 @@ run_file() {
   log=$logs/${1//\//-}
   [[ $1 != io/* ]] || binary=tests/unit/io/bdpt_io_tests
   qemu-aarch64 -L /sysroot "build/aarch64/$binary" --filenames-as-tags \
-    "[#$name]~[long]~an allocation that fails is told*~the temporary file is in the same folder*" >"$log" 2>&1 ||
+    "[#$name]~[long]~\"an allocation that fails is told*\"~\"the temporary file is in the same folder*\"" >"$log" 2>&1 ||
     { touch "$logs/failed" && cat "$log"; }
   echo "$1: $((SECONDS - start)) s: $(tail -n 2 "$log" | tr -d '\n')"
 }

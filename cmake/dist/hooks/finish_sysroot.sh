@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Finishes a root for another processor. That with libraries will be used as /sysroot: finish_sysroot.sh ROOT
+# Finishes a root for another processor: finish_sysroot.sh ROOT. The one that has Draco will be used as /sysroot.
 source "$(dirname "${BASH_SOURCE[0]}")/record_packages.sh"
 record_packages "$@"
 root=$1

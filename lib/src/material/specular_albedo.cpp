@@ -61,7 +61,8 @@ Split SpecularAlbedo::integrate(float cosine, float roughness) const
         sum.f0 += leaves * (1.0f - g);
         sum.f90 += leaves * g;
     });
-    // Between nodes it is too small, where masking begins, and a layer of it would make light.
+    // Between nodes the albedo would be too small, where masking begins, and what is below the
+    // boundary would get light that the boundary reflects.
     constexpr float margin = 1.0016f;
     const float scale = std::min(margin, 1.0f / (sum.f0 + sum.f90));
     return {scale * sum.f0, scale * sum.f90};

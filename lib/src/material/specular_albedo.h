@@ -12,8 +12,9 @@
 namespace bdpt {
 
 /// Albedo of single scattering by a rough dielectric boundary, for one refractive index: tables
-/// over cosine and roughness, in constant time once their rows exist. With it the diffuse light
-/// below the boundary is exactly the transmitted light. About 40 kB.
+/// over cosine and roughness, in constant time once their rows exist. They are rounded up by at
+/// most 0.16 %, so that the diffuse light below the boundary is at most the transmitted light.
+/// About 40 kB.
 class SpecularAlbedo {
 public:
     /// The coefficients of F0 and F90 in an albedo E = F0 f0 + F90 f90.

@@ -151,8 +151,8 @@ void FuzzTable::make_row(std::size_t row) const noexcept
         }
         scale = next;
     }
-    constexpr float margin =
-        0.9985f;  // so that fibres reflect no more than they keep from the base
+    // What interpolation adds must not make fibres reflect more than they keep from the base.
+    constexpr float margin = 0.9985f;
     std::transform(scale.begin(), scale.end(), scale.begin(), [](float s) { return margin * s; });
     std::copy(scale.begin(), scale.end(),
               scale_.begin() + static_cast<std::ptrdiff_t>(row * cosine_nodes));

@@ -74,7 +74,8 @@ public:
     void restore(Rgb albedo, float average) noexcept
     {
         constexpr float min_average = 1e-5f;  // a layer of negligible weight loses nothing
-        constexpr float margin = 0.985f;      // losses of tables are exact within 0.015
+        // The tables of losses are exact within 0.015; what they have too much would be made light.
+        constexpr float margin = 0.985f;
         if (average > min_average * weight_) {
             albedo_ = margin * albedo;
             per_coupling_ = inv_pi / average;

@@ -63,7 +63,7 @@ Split SpecularAlbedo::integrate(float cosine, float roughness) const
     });
     // Between nodes the albedo would be too small, where masking begins, and what is below the
     // boundary would get light that the boundary reflects.
-    constexpr float margin = 1.0016f;
+    constexpr float margin = 1.0024f;
     const float scale = std::min(margin, 1.0f / (sum.f0 + sum.f90));
     return {scale * sum.f0, scale * sum.f90};
 }

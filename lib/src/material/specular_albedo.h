@@ -13,7 +13,7 @@ namespace bdpt {
 
 /// Albedo of single scattering by a rough dielectric boundary, for one refractive index: tables
 /// over cosine and roughness, in constant time once their rows exist. They are rounded up by at
-/// most 0.16 %, so that the diffuse light below the boundary is at most the transmitted light.
+/// most 0.24 %, so that the diffuse light below the boundary is at most the transmitted light.
 /// About 40 kB.
 class SpecularAlbedo {
 public:

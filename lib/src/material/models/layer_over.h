@@ -204,6 +204,7 @@ public:
         CoveredBase base = below_.covered_base();
         if (layer_.exists()) {
             base.color = layer_.color_over(base.color);
+            base.layer = layer_.weight();
         }
         return base;
     }

@@ -33,6 +33,8 @@ public:
     }
     /// Marks subsequent contributions as merged, until `begin_joins`.
     void begin_merges() { merged_ = true; }
+    [[nodiscard]] int x() const { return x_; }
+    [[nodiscard]] int y() const { return y_; }
     /// Tests whether the film or an observer needs that pixel.
     [[nodiscard]] bool holds_pixel() const { return holds(x_, y_); }
     /// Adds a contribution to that pixel; the strategy takes `count` samples per camera path.

@@ -122,7 +122,7 @@ TEST_CASE("auto chooses for a crop as for an image of its own", "[auto]")
         return static_cast<double>(result.stats.rays.camera + result.stats.rays.light +
                                    result.stats.rays.shadow);
     };
-    CHECK(rays(crop) < 1.2 * rays(alone));
+    CHECK(rays(crop) < 1.1 * rays(alone));
 }
 
 TEST_CASE("auto traces light paths where they pay", "[auto]")

@@ -93,8 +93,16 @@ RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange s
                                                  const Films& films) const
 {
     Scratch scratch(*this, films);
-    for (int y = tile.y_begin; y < tile.y_end; ++y) {
-        for (int x = tile.x_begin; x < tile.x_end; ++x) {
+    const auto is_outside = [&](const PixelRect& region) {
+        return tile.x_end <= region.x0 || tile.x_begin >= region.x1 || tile.y_end <= region.y0 ||
+               tile.y_begin >= region.y1;
+    };
+    const bool only_splats =
+        own_light_paths() == 0 && films.film != nullptr && is_outside(films.film->region());
+    const int stride = only_splats ? scratch.joiner.lens_stride() : 1;
+    const auto first = [stride](int begin) { return (begin + stride - 1) / stride * stride; };
+    for (int y = first(tile.y_begin); y < tile.y_end; y += stride) {
+        for (int x = first(tile.x_begin); x < tile.x_end; x += stride) {
             schedule_.for_each(x, y, samples, [&](const ScheduledSample& scheduled) {
                 add_sample(x, y, scheduled, scratch);
             });
@@ -112,9 +120,10 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
     // Own light paths of pixels outside of a crop can splat into it, and so can lights.
     const bool wanted = sink.holds_pixel();
     if (!wanted && own_light_paths() == 0 &&
-        !scratch.joiner.connects_light_to_lens(Sampler(options_.sampling.sampler,
-                                                       options_.sampling.seed, x, y, index,
-                                                       log_samples(options_.sampling, x, y)))) {
+        !scratch.joiner.connects_light_to_lens(
+            Sampler(options_.sampling.sampler, options_.sampling.seed, x, y, index,
+                    log_samples(options_.sampling, x, y)),
+            x, y)) {
         sink.end_sample();
         return;
     }

@@ -13,6 +13,33 @@ bool PathJoiner::is_background(const SampleContext& sample, const PathVertex& x0
            x0.light == sample.world.lights().environment();
 }
 
+PathJoiner::PathJoiner(const RenderOptions& options, const StrategySet& strategies,
+                       PathWeigher& weigher, ContributionSink& sink)
+    : options_(options),
+      strategies_(strategies),
+      weigher_(weigher),
+      sink_(sink),
+      chooser_(options),
+      lens_chance_(strategies.count(1, 1))
+{
+    // A crop has few light paths for the pixels of the whole image: most of these need no look.
+    constexpr float max_chance = 1.0f / 64.0f;
+    const auto pixels_in = [](int side, int stride) { return (side + stride - 1) / stride; };
+    const int width = options.film.width;
+    const int height = options.film.height;
+    const float all = lens_chance_ * static_cast<float>(width) * static_cast<float>(height);
+    const int longest = std::max(width, height);
+    for (int stride = 2; all > 0.0f && stride < longest; stride *= 2) {
+        const float chance = all / static_cast<float>(pixels_in(width, stride)) /
+                             static_cast<float>(pixels_in(height, stride));
+        if (chance > max_chance) {
+            break;
+        }
+        lens_stride_ = stride;
+        lens_chance_ = chance;
+    }
+}
+
 void PathJoiner::join_camera_path(SampleContext& sample, Subpath& path)
 {
     weigher_.begin_camera_path(path.all());
@@ -27,19 +54,20 @@ void PathJoiner::join_camera_path(SampleContext& sample, Subpath& path)
             join_to_lights(sample, camera);
         }
     }
-    if (sample.camera.is_perspective() && connects_light_to_lens(sample.sampler)) {
+    if (sample.camera.is_perspective() &&
+        connects_light_to_lens(sample.sampler, sink_.x(), sink_.y())) {
         if (const auto found = connect_light_to_lens(sample, weigher_)) {
             sink_.splat(sample, {.s = 1, .t = 1}, *found, strategies_.count(1, 1), 1);
         }
     }
 }
 
-bool PathJoiner::connects_light_to_lens(const Sampler& sampler) const
+bool PathJoiner::connects_light_to_lens(const Sampler& sampler, int x, int y) const
 {
-    const float count = strategies_.count(1, 1);
-    return count == 1.0f ||
-           (count > 0.0f &&
-            sampler.ordered_1d(SampleUse::next_event, Sampler::choice_of_visible_light) < count);
+    return lens_chance_ == 1.0f ||
+           (lens_chance_ > 0.0f && x % lens_stride_ == 0 && y % lens_stride_ == 0 &&
+            sampler.ordered_1d(SampleUse::next_event, Sampler::choice_of_visible_light) <
+                lens_chance_);
 }
 
 void PathJoiner::join_to_lights(SampleContext& sample, std::span<const PathVertex> camera)

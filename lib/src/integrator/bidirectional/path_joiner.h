@@ -14,13 +14,7 @@ class PathJoiner {
 public:
     /// Keeps references to all arguments, which must outlive this.
     PathJoiner(const RenderOptions& options, const StrategySet& strategies, PathWeigher& weigher,
-               ContributionSink& sink)
-        : options_(options),
-          strategies_(strategies),
-          weigher_(weigher),
-          sink_(sink),
-          chooser_(options)
-    {}
+               ContributionSink& sink);
 
     /// Handles s <= 1: the camera path hits lights, and is connected to new points on lights. Must
     /// precede `join_paths` with the same path.
@@ -34,9 +28,11 @@ public:
     /// Handles s >= 2, t >= 2 for all light paths of the choice by connections that are chosen.
     void join_chosen(const SampleContext& sample, const LightPathCache& cache,
                      const LightPathCache::Choice& choice, const Subpath& camera);
-    /// Decides at random whether the camera path of a sample connects a point on a light to the
-    /// lens.
-    [[nodiscard]] bool connects_light_to_lens(const Sampler& sampler) const;
+    /// Decides at random whether the camera path of a sample of pixel (x, y) connects a point on a
+    /// light to the lens.
+    [[nodiscard]] bool connects_light_to_lens(const Sampler& sampler, int x, int y) const;
+    /// Returns the distance, a power of two, of the columns and rows of the pixels that ever do.
+    [[nodiscard]] int lens_stride() const { return lens_stride_; }
 
 private:
     void join_to_lights(SampleContext& sample, std::span<const PathVertex> camera);
@@ -48,6 +44,8 @@ private:
     PathWeigher& weigher_;
     ContributionSink& sink_;
     ConnectionChooser chooser_;
+    int lens_stride_ = 1;
+    float lens_chance_;  ///< of the samples of these pixels
 };
 
 }  // namespace bdpt

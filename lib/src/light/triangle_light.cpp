@@ -57,14 +57,12 @@ inline float TriangleLight::spread(Vec2 barycentrics) const
     return emission_.spread ? emission_.spread->pdf(triangle_to_square(barycentrics)) : 1.0f;
 }
 
-[[gnu::always_inline]] inline TriangleLight::Point TriangleLight::point(Vec2 u,
-                                                                        const Facing& facing,
-                                                                        float time) const
+[[gnu::always_inline]] inline TriangleLight::Point TriangleLight::point_at(Vec2 barycentrics,
+                                                                           float spread,
+                                                                           const Facing& facing,
+                                                                           float time) const
 {
-    const Vec2 barycentrics =
-        square_to_triangle(emission_.spread ? emission_.spread->sample(u).point : u);
     const BoundedPoint at = mesh_->point(triangle_, barycentrics, time);
-    const float spread = this->spread(barycentrics);
     const Rgb radiance =
         even_radiance_
             ? *even_radiance_
@@ -74,6 +72,37 @@ inline float TriangleLight::spread(Vec2 barycentrics) const
             .pdf = {spread * facing.inverse_area},
             .inverse_pdf = emission_.spread ? facing.area / spread : facing.area,
             .radiance = radiance};
+}
+
+[[gnu::always_inline]] inline TriangleLight::Point TriangleLight::point(Vec2 u,
+                                                                        const Facing& facing,
+                                                                        float time) const
+{
+    const Vec2 barycentrics =
+        square_to_triangle(emission_.spread ? emission_.spread->sample(u).point : u);
+    return point_at(barycentrics, spread(barycentrics), facing, time);
+}
+
+inline std::optional<SphericalTriangle> TriangleLight::seen_from(Vec3 p, const Facing& facing,
+                                                                 float time) const
+{
+    // Smaller ones look alike from all their points.
+    constexpr float min_solid_angle = 0.03f;
+    if (!even_radiance_) {
+        return std::nullopt;
+    }
+    auto corners = mesh_->corners(triangle_, time);
+    for (Vec3& corner : corners) {
+        corner -= p;
+    }
+    const Vec3 center = (corners[0] + corners[1] + corners[2]) / 3.0f;
+    const float distance2 = dot(center, center);
+    const float height = std::abs(dot(facing.ng, center));
+    if (!(facing.area * height > min_solid_angle * distance2 * std::sqrt(distance2))) {
+        return std::nullopt;
+    }
+    const SphericalTriangle seen(corners);
+    return seen.solid_angle() > min_solid_angle ? std::optional(seen) : std::nullopt;
 }
 
 std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position, Vec2 u_direction,
@@ -114,7 +143,9 @@ std::optional<IncidentSample> TriangleLight::sample_incident(const LightSampleCo
     if (!(facing.area > 0.0f)) {
         return sampled;
     }
-    const Point from = point(u, facing, time);
+    const std::optional<SphericalTriangle> seen = seen_from(receiver.p, facing, time);
+    const Point from = seen ? point_at(seen->barycentrics(seen->sample(u)), 1.0f, facing, time)
+                            : point(u, facing, time);
     const Vec3 to_light = from.end.p - receiver.p;
     const float distance_squared = dot(to_light, to_light);
     const float distance = std::sqrt(distance_squared);
@@ -135,9 +166,15 @@ std::optional<IncidentSample> TriangleLight::sample_incident(const LightSampleCo
     sampled->barycentrics = from.barycentrics;
     sampled->wi = wi;
     sampled->distance = distance;
-    sampled->weight = from.radiance * (geometry * from.inverse_pdf);
-    sampled->pdf = from.pdf;
-    sampled->pdf_solid_angle = {from.pdf.value * area_per_solid_angle};
+    if (seen) {
+        sampled->weight = from.radiance * seen->solid_angle();
+        sampled->pdf_solid_angle = {1.0f / seen->solid_angle()};
+        sampled->pdf = {sampled->pdf_solid_angle.value * geometry};
+    } else {
+        sampled->weight = from.radiance * (geometry * from.inverse_pdf);
+        sampled->pdf = from.pdf;
+        sampled->pdf_solid_angle = {from.pdf.value * area_per_solid_angle};
+    }
     return sampled;
 }
 
@@ -149,6 +186,20 @@ AreaPdf TriangleLight::pdf_position(Vec2 barycentrics, const Facing& at) const
 AreaPdf TriangleLight::pdf_position(const LightPoint& x0) const
 {
     return pdf_position(x0.barycentrics, facing(x0.time));
+}
+
+AreaPdf TriangleLight::pdf_incident(const LightSampleContext& receiver, const LightPoint& x0,
+                                    EnvironmentSampling /*sampling*/) const
+{
+    const Facing facing = this->facing(x0.time);
+    const std::optional<SphericalTriangle> seen = seen_from(receiver.p, facing, x0.time);
+    if (!seen) {
+        return pdf_position(x0.barycentrics, facing);
+    }
+    const Vec3 to_light = x0.p - receiver.p;
+    const float distance2 = dot(to_light, to_light);
+    const float cosine = std::abs(dot(facing.ng, to_light)) / std::sqrt(distance2);
+    return to_area({1.0f / seen->solid_angle()}, cosine, distance2);
 }
 
 SolidAnglePdf TriangleLight::pdf_direction(Vec3 ng, Vec3 direction, float /*time*/) const

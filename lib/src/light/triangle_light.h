@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/placed_mesh.h"
+#include "geometry/spherical_triangle.h"
 #include "light/light_model.h"
 #include "light/light_samples.h"
 #include "light/tree/light_bounds.h"
@@ -12,7 +13,8 @@
 namespace bdpt {
 
 /// One emissive triangle: a Lambertian emitter on its front or on both sides. Points are sampled by
-/// the texture's luminance, both for light paths and for next-event estimation.
+/// the texture's luminance, both for light paths and for next-event estimation; the latter samples
+/// an even triangle that looks large by its solid angle.
 class TriangleLight {
 public:
     static constexpr bool is_delta = false;
@@ -30,13 +32,9 @@ public:
                                                                 float time) const;
 
     [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0) const;
-    /// Returns the density of `sample_incident`, which samples the same points for every receiver.
     [[nodiscard]] AreaPdf pdf_incident(
-        const LightSampleContext& /*receiver*/, const LightPoint& x0,
-        EnvironmentSampling /*sampling*/ = EnvironmentSampling::plain) const
-    {
-        return pdf_position(x0);
-    }
+        const LightSampleContext& receiver, const LightPoint& x0,
+        EnvironmentSampling sampling = EnvironmentSampling::plain) const;
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time) const;
     /// Returns the emitted luminous flux [lm]; the mean at and between the steps of a motion.
     [[nodiscard]] Rgb power() const;
@@ -66,8 +64,15 @@ private:
     [[nodiscard]] AreaPdf pdf_position(Vec2 barycentrics, const Facing& at) const;
     /// Returns the density relative to the uniform one.
     [[nodiscard]] float spread(Vec2 barycentrics) const;
-    /// Samples a point; `facing` is that at the time, and has an area.
+    /// Samples a point by area; `facing` is that at the time, and has an area.
     [[nodiscard]] Point point(Vec2 u, const Facing& facing, float time) const;
+    /// Returns the point with these barycentric coordinates, sampled with this density relative to
+    /// the uniform one.
+    [[nodiscard]] Point point_at(Vec2 barycentrics, float spread, const Facing& facing,
+                                 float time) const;
+    /// Returns the triangle as seen from p if it looks large there; nullopt: sampled by area.
+    [[nodiscard]] std::optional<SphericalTriangle> seen_from(Vec3 p, const Facing& facing,
+                                                             float time) const;
 
     const PlacedMesh* mesh_;
     const Material* material_;

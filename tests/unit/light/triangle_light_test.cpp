@@ -6,6 +6,7 @@
 #include "math/warp.h"
 #include "scene/world.h"
 #include "scene_builder.h"
+#include "statistics.h"
 
 #include <array>
 #include <cmath>
@@ -110,6 +111,51 @@ TEST_CASE("textured emitter: points have the density that is claimed", "[light]"
             INFO("triangle " << id << ", chi^2 " << result.statistic << " of " << result.degrees);
             CHECK(result.p_value > 1e-4);
             CHECK(result.min_detectable(1e-4) < 0.05);
+        }
+    }
+}
+
+TEST_CASE("even emitter: next-event estimation has the density that is claimed", "[light]")
+{
+    test::SceneBuilder builder;
+    builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, test::emitter(Rgb(3.0f)));
+    const World world(std::move(builder.desc));
+    test::Random random(24);
+    // Close to it, where it is sampled by solid angle, far away, and in between.
+    for (const float height : {0.02f, 0.3f, 2.0f, 9.0f, 30.0f}) {
+        const LightSampleContext receiver{.p = {0.4f, height, -0.2f}};
+        for (const std::uint32_t id : {0U, 1U}) {
+            const TriangleLight& light = triangle(world, id);
+            test::Moments by_next_event;
+            test::Moments by_area;
+            for (int i = 0; i < 20000; ++i) {
+                const auto incident = light.sample_incident(receiver, random.next_2d(),
+                                                            EnvironmentSampling::plain, 0.0f);
+                REQUIRE(incident.has_value());
+                const LightPoint x0{.p = incident->end.p,
+                                    .ng = incident->end.ng,
+                                    .barycentrics = incident->barycentrics};
+                const float pdf = light.pdf_incident(receiver, x0).value;
+                REQUIRE(incident->pdf.value == Approx(pdf).epsilon(1e-3));
+                REQUIRE(incident->weight.r * incident->pdf_solid_angle.value ==
+                        Approx(3.0f).epsilon(1e-3));
+                by_next_event.add(static_cast<double>(incident->weight.r));
+                // The same radiance, from points that light paths would start at.
+                const auto emitted =
+                    light.sample_emission(random.next_2d(), random.next_2d(), 0.0f);
+                REQUIRE(emitted.has_value());
+                const Vec3 way = emitted->end.p - receiver.p;
+                const float distance2 = dot(way, way);
+                by_area.add(static_cast<double>(3.0f * area * std::abs(way.y) /
+                                                (distance2 * std::sqrt(distance2))));
+            }
+            CAPTURE(height, id, by_next_event.mean(), by_area.mean());
+            CHECK(std::abs(by_next_event.mean() - by_area.mean()) <
+                  4.5 * std::hypot(by_next_event.standard_error(), by_area.standard_error()));
+            if (height < 1.0f) {
+                // By solid angle all points bring the same radiance.
+                CHECK(by_next_event.standard_error() < 1e-4 * by_next_event.mean());
+            }
         }
     }
 }

@@ -99,7 +99,7 @@ RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange s
     };
     const bool only_splats =
         own_light_paths() == 0 && films.film != nullptr && is_outside(films.film->region());
-    const int stride = only_splats ? scratch.joiner.lens_stride() : 1;
+    const int stride = only_splats ? scratch.joiner.looks_at_lights().stride() : 1;
     const auto first = [stride](int begin) { return (begin + stride - 1) / stride * stride; };
     for (int y = first(tile.y_begin); y < tile.y_end; y += stride) {
         for (int x = first(tile.x_begin); x < tile.x_end; x += stride) {

@@ -13,33 +13,6 @@ bool PathJoiner::is_background(const SampleContext& sample, const PathVertex& x0
            x0.light == sample.world.lights().environment();
 }
 
-PathJoiner::PathJoiner(const RenderOptions& options, const StrategySet& strategies,
-                       PathWeigher& weigher, ContributionSink& sink)
-    : options_(options),
-      strategies_(strategies),
-      weigher_(weigher),
-      sink_(sink),
-      chooser_(options),
-      lens_chance_(strategies.count(1, 1))
-{
-    // A crop has few light paths for the pixels of the whole image: most of these need no look.
-    constexpr float max_chance = 1.0f / 64.0f;
-    const auto pixels_in = [](int side, int stride) { return (side + stride - 1) / stride; };
-    const int width = options.film.width;
-    const int height = options.film.height;
-    const float all = lens_chance_ * static_cast<float>(width) * static_cast<float>(height);
-    const int longest = std::max(width, height);
-    for (int stride = 2; all > 0.0f && stride < longest; stride *= 2) {
-        const float chance = all / static_cast<float>(pixels_in(width, stride)) /
-                             static_cast<float>(pixels_in(height, stride));
-        if (chance > max_chance) {
-            break;
-        }
-        lens_stride_ = stride;
-        lens_chance_ = chance;
-    }
-}
-
 void PathJoiner::join_camera_path(SampleContext& sample, Subpath& path)
 {
     weigher_.begin_camera_path(path.all());
@@ -64,10 +37,10 @@ void PathJoiner::join_camera_path(SampleContext& sample, Subpath& path)
 
 bool PathJoiner::connects_light_to_lens(const Sampler& sampler, int x, int y) const
 {
-    return lens_chance_ == 1.0f ||
-           (lens_chance_ > 0.0f && x % lens_stride_ == 0 && y % lens_stride_ == 0 &&
-            sampler.ordered_1d(SampleUse::next_event, Sampler::choice_of_visible_light) <
-                lens_chance_);
+    const float chance = looks_at_lights_.chance();
+    return chance == 1.0f ||
+           (chance > 0.0f && looks_at_lights_.contains(x, y) &&
+            sampler.ordered_1d(SampleUse::next_event, Sampler::choice_of_visible_light) < chance);
 }
 
 void PathJoiner::join_to_lights(SampleContext& sample, std::span<const PathVertex> camera)

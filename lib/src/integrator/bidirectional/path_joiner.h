@@ -2,6 +2,7 @@
 
 #include "integrator/bidirectional/connection_chooser.h"
 #include "integrator/bidirectional/light_path_cache.h"
+#include "integrator/bidirectional/sparse_pixels.h"
 #include "integrator/contribution_sink.h"
 #include "path/subpath.h"
 
@@ -14,7 +15,14 @@ class PathJoiner {
 public:
     /// Keeps references to all arguments, which must outlive this.
     PathJoiner(const RenderOptions& options, const StrategySet& strategies, PathWeigher& weigher,
-               ContributionSink& sink);
+               ContributionSink& sink)
+        : options_(options),
+          strategies_(strategies),
+          weigher_(weigher),
+          sink_(sink),
+          chooser_(options),
+          looks_at_lights_(strategies.count(1, 1), options.film.width, options.film.height)
+    {}
 
     /// Handles s <= 1: the camera path hits lights, and is connected to new points on lights. Must
     /// precede `join_paths` with the same path.
@@ -31,8 +39,8 @@ public:
     /// Decides at random whether the camera path of a sample of pixel (x, y) connects a point on a
     /// light to the lens.
     [[nodiscard]] bool connects_light_to_lens(const Sampler& sampler, int x, int y) const;
-    /// Returns the distance, a power of two, of the columns and rows of the pixels that ever do.
-    [[nodiscard]] int lens_stride() const { return lens_stride_; }
+    /// Returns the pixels that ever do.
+    [[nodiscard]] const SparsePixels& looks_at_lights() const { return looks_at_lights_; }
 
 private:
     void join_to_lights(SampleContext& sample, std::span<const PathVertex> camera);
@@ -44,8 +52,7 @@ private:
     PathWeigher& weigher_;
     ContributionSink& sink_;
     ConnectionChooser chooser_;
-    int lens_stride_ = 1;
-    float lens_chance_;  ///< of the samples of these pixels
+    SparsePixels looks_at_lights_;
 };
 
 }  // namespace bdpt

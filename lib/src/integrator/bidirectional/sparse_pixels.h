@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+
+namespace bdpt {
+
+/// Pixels on a grid, whose samples do by chance what only few samples of the image do: those of
+/// other pixels need no look.
+class SparsePixels {
+public:
+    /// `share` is the fraction of all samples of an image of this size; all pixels are on the grid
+    /// unless it is small.
+    SparsePixels(float share, int width, int height) : chance_(share)
+    {
+        constexpr float max_chance = 1.0f / 64.0f;
+        const float all = share * static_cast<float>(width) * static_cast<float>(height);
+        const int longest = std::max(width, height);
+        for (int stride = 2; all > 0.0f && stride < longest; stride *= 2) {
+            const float chance = all / static_cast<float>(count(width, stride)) /
+                                 static_cast<float>(count(height, stride));
+            if (chance > max_chance) {
+                break;
+            }
+            stride_ = stride;
+            chance_ = chance;
+        }
+    }
+
+    /// Returns the distance of the columns and rows of these pixels.
+    [[nodiscard]] int stride() const { return stride_; }
+    [[nodiscard]] bool contains(int x, int y) const { return x % stride_ == 0 && y % stride_ == 0; }
+    /// Returns the chance of each of their samples.
+    [[nodiscard]] float chance() const { return chance_; }
+
+private:
+    [[nodiscard]] static int count(int side, int stride) { return (side + stride - 1) / stride; }
+
+    int stride_ = 1;
+    float chance_;
+};
+
+}  // namespace bdpt

@@ -86,7 +86,7 @@ inline float TriangleLight::spread(Vec2 barycentrics) const
 inline std::optional<SphericalTriangle> TriangleLight::seen_from(Vec3 p, const Facing& facing,
                                                                  float time) const
 {
-    // Smaller ones look alike from all their points.
+    // The points of a smaller one bring nearly the same light.
     constexpr float min_solid_angle = 0.03f;
     if (!even_radiance_) {
         return std::nullopt;

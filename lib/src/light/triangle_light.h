@@ -14,7 +14,7 @@ namespace bdpt {
 
 /// One emissive triangle: a Lambertian emitter on its front or on both sides. Points are sampled by
 /// the texture's luminance, both for light paths and for next-event estimation; the latter samples
-/// an even triangle that looks large by its solid angle.
+/// by solid angle if the radiance is constant and the triangle looks large.
 class TriangleLight {
 public:
     static constexpr bool is_delta = false;

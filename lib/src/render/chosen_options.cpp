@@ -132,7 +132,8 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     const auto taking = [&](const Candidate& candidate) {
         RenderOptions taken = with_candidate(options, candidate);
         if (taken.integrator == IntegratorKind::bdpt) {
-            // As many light paths, and looks at lights, as an image of the crop alone has.
+            // As many light paths, and points on lights that are connected to the lens, as an image
+            // of the crop alone has.
             taken.bidirectional.light_paths *= shown.share;
             taken.bidirectional.visible_light_samples *= shown.share;
         }

@@ -135,7 +135,7 @@ TEST_CASE("a white surface below fibres, and any coat above or below them, loses
                 for (const float cosine : {1.0f, 0.7f, 0.4f, 0.15f, -0.6f}) {
                     CAPTURE(fuzz, coat, on_coat, bsdf_case.name, cosine);
                     const double sum = albedo_of(bsdf, at_cosine(cosine));
-                    CHECK(sum > 0.9945);
+                    CHECK(sum > (coat < 0.0f ? 0.995 : 0.9945));
                     CHECK(sum < 1.001);
                 }
             }

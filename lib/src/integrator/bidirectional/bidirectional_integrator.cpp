@@ -93,13 +93,14 @@ RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange s
                                                  const Films& films) const
 {
     Scratch scratch(*this, films);
+    // Of a tile outside of the crop, only these pixels can contribute to it.
     const auto is_outside = [&](const PixelRect& region) {
         return tile.x_end <= region.x0 || tile.x_begin >= region.x1 || tile.y_end <= region.y0 ||
                tile.y_begin >= region.y1;
     };
     const bool only_splats =
         own_light_paths() == 0 && films.film != nullptr && is_outside(films.film->region());
-    const int stride = only_splats ? scratch.joiner.looks_at_lights().stride() : 1;
+    const int stride = only_splats ? scratch.joiner.light_to_lens_pixels().stride() : 1;
     const auto first = [stride](int begin) { return (begin + stride - 1) / stride * stride; };
     for (int y = first(tile.y_begin); y < tile.y_end; y += stride) {
         for (int x = first(tile.x_begin); x < tile.x_end; x += stride) {

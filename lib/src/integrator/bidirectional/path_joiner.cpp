@@ -37,9 +37,9 @@ void PathJoiner::join_camera_path(SampleContext& sample, Subpath& path)
 
 bool PathJoiner::connects_light_to_lens(const Sampler& sampler, int x, int y) const
 {
-    const float chance = looks_at_lights_.chance();
+    const float chance = light_to_lens_pixels_.chance();
     return chance == 1.0f ||
-           (chance > 0.0f && looks_at_lights_.contains(x, y) &&
+           (chance > 0.0f && light_to_lens_pixels_.contains(x, y) &&
             sampler.ordered_1d(SampleUse::next_event, Sampler::choice_of_visible_light) < chance);
 }
 

@@ -21,7 +21,7 @@ public:
           weigher_(weigher),
           sink_(sink),
           chooser_(options),
-          looks_at_lights_(strategies.count(1, 1), options.film.width, options.film.height)
+          light_to_lens_pixels_(strategies.count(1, 1), options.film.width, options.film.height)
     {}
 
     /// Handles s <= 1: the camera path hits lights, and is connected to new points on lights. Must
@@ -39,8 +39,8 @@ public:
     /// Decides at random whether the camera path of a sample of pixel (x, y) connects a point on a
     /// light to the lens.
     [[nodiscard]] bool connects_light_to_lens(const Sampler& sampler, int x, int y) const;
-    /// Returns the pixels that ever do.
-    [[nodiscard]] const SparsePixels& looks_at_lights() const { return looks_at_lights_; }
+    /// Returns the pixels whose samples ever connect a light to the lens.
+    [[nodiscard]] const SparsePixels& light_to_lens_pixels() const { return light_to_lens_pixels_; }
 
 private:
     void join_to_lights(SampleContext& sample, std::span<const PathVertex> camera);
@@ -52,7 +52,7 @@ private:
     PathWeigher& weigher_;
     ContributionSink& sink_;
     ConnectionChooser chooser_;
-    SparsePixels looks_at_lights_;
+    SparsePixels light_to_lens_pixels_;
 };
 
 }  // namespace bdpt

@@ -4,12 +4,12 @@
 
 namespace bdpt {
 
-/// Pixels on a grid, whose samples do by chance what only few samples of the image do: those of
-/// other pixels need no look.
+/// Selects few of an image's samples at random: those of pixels on a grid, each with the same
+/// chance. Samples of other pixels are skipped without a random number.
 class SparsePixels {
 public:
-    /// `share` is the fraction of all samples of an image of this size; all pixels are on the grid
-    /// unless it is small.
+    /// `share` is the selected fraction of the samples of an image of this size; all pixels are on
+    /// the grid unless it is below 1/256.
     SparsePixels(float share, int width, int height) : chance_(share)
     {
         constexpr float max_chance = 1.0f / 64.0f;
@@ -29,7 +29,7 @@ public:
     /// Returns the distance of the columns and rows of these pixels.
     [[nodiscard]] int stride() const { return stride_; }
     [[nodiscard]] bool contains(int x, int y) const { return x % stride_ == 0 && y % stride_ == 0; }
-    /// Returns the chance of each of their samples.
+    /// Returns the chance that a sample of these pixels is selected.
     [[nodiscard]] float chance() const { return chance_; }
 
 private:

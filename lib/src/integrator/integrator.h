@@ -26,6 +26,12 @@ struct Tile {
     int y_end = 0;
 };
 
+/// Half-open range of chunks of work.
+struct ChunkRange {
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+};
+
 /// Destinations of an integrator's contributions.
 struct Films {
     Film* film;  ///< null: nothing is stored, and observers receive the paths of all pixels
@@ -44,9 +50,15 @@ public:
     {
         return std::numeric_limits<std::int64_t>::max();
     }
-    /// Called on one thread before anything else of a pass of `samples`. Returns the number of
-    /// chunks of work that all tiles of the pass share.
-    [[nodiscard]] virtual std::int64_t begin_pass(SampleRange /*samples*/) { return 0; }
+    /// Returns the number of batches of a pass. Each begins, computes its chunks and then its
+    /// tiles, before the next one begins.
+    [[nodiscard]] virtual std::int64_t batches() const { return 1; }
+    /// Called on one thread before anything else of a batch of the pass of `samples`. Returns the
+    /// chunks of work that all tiles of the batch share.
+    [[nodiscard]] virtual ChunkRange begin_batch(SampleRange /*samples*/, std::int64_t /*batch*/)
+    {
+        return {};
+    }
     /// Computes one of these chunks; all are done before any tile, by any threads. It may store
     /// data that tiles need, and add contributions to `films` that belong to no tile. Returns the
     /// amount of work.
@@ -55,11 +67,16 @@ public:
     {
         return {};
     }
-    /// Called on one thread between the last chunk of a pass and its tiles.
+    /// Called on one thread between the last chunk of a batch and its tiles.
     virtual void end_chunks() {}
+    /// Returns the side of square tiles [pixels] that is wanted, or a smaller one: pixels of a tile
+    /// must belong to one batch.
+    [[nodiscard]] virtual int tile_side(int wanted) const { return wanted; }
+    /// Returns the batch of a tile.
+    [[nodiscard]] virtual std::int64_t batch(const Tile& /*tile*/) const { return 0; }
     /// Returns the group of a tile: those of one group use the same data, so that they are best
-    /// rendered one after the other.
-    [[nodiscard]] virtual std::uint32_t group(const Tile& /*tile*/) const { return 0; }
+    /// rendered one after the other. Groups of later batches are greater.
+    [[nodiscard]] virtual std::int64_t group(const Tile& /*tile*/) const { return 0; }
     /// Adds to `films` the samples of all pixels of `tile` that are in the film's region, and the
     /// splats of the light paths of all of its pixels. Tiles of an integrator without splats lie
     /// inside of the region. Returns the amount of work.

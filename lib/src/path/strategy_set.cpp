@@ -6,6 +6,23 @@
 
 namespace bdpt {
 
+namespace {
+
+/// A batch keeps many threads busy, and its pixels share no errors: it has at least this many
+/// pixels, light paths, and bundles (as many as a block of `PixelGroups` has pixels).
+std::int64_t batches_of(double pixels, int bundle, std::int64_t bundles)
+{
+    constexpr double least_pixels = 1 << 18;
+    constexpr double least_paths = 1 << 16;
+    constexpr double least_bundles = 1 << 8;
+    const auto count = static_cast<double>(bundles);
+    const double most =
+        std::min({pixels / least_pixels, count * bundle / least_paths, count / least_bundles});
+    return most < 1.0 ? 1 : std::int64_t{1} << std::ilogb(most);
+}
+
+}  // namespace
+
 LightPathCounts::LightPathCounts(const RenderOptions& options)
     : per_camera_path(options.bidirectional.light_paths)
 {
@@ -22,6 +39,7 @@ LightPathCounts::LightPathCounts(const RenderOptions& options)
         bundle = std::max(1, static_cast<int>(std::ceil(connections)));
         bundles = std::max<std::int64_t>(1, std::llround(per_camera_path * pixels / bundle));
         per_camera_path = static_cast<double>(bundles) * bundle / pixels;
+        batches = kept() && !merged ? batches_of(pixels, bundle, bundles) : 1;
     }
 }
 

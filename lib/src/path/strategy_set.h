@@ -31,6 +31,9 @@ struct LightPathCounts {
     /// a camera path can be connected to all of them.
     int bundle = 1;
     std::int64_t bundles = 0;  ///< number of bundles in the set
+    /// Number of parts of the set, a power of two: each is traced and used by its pixels before the
+    /// next one, so that only one is in memory. A merged set is kept whole.
+    std::int64_t batches = 1;
 };
 
 /// The strategies (s, t) that a render uses, and the number of samples that each takes per camera

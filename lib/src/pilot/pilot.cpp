@@ -135,9 +135,10 @@ bool fits(const RenderOptions& options, const RenderStats& pilot)
 void add_sample(std::int64_t index, Heuristic heuristic, BidirectionalIntegrator& integrator,
                 PilotContributions& contributions, const std::stop_token& abandon)
 {
-    const std::int64_t parts = integrator.begin_pass({.begin = index, .end = index + 1});
-    contributions.parts.resize(static_cast<std::size_t>(parts));
-    tbb::parallel_for(std::int64_t{0}, parts, [&](std::int64_t part) {
+    // Light paths that are merged form one batch.
+    const ChunkRange chunks = integrator.begin_batch({.begin = index, .end = index + 1}, 0);
+    contributions.parts.resize(static_cast<std::size_t>(chunks.end));
+    tbb::parallel_for(chunks.begin, chunks.end, [&](std::int64_t part) {
         if (abandon.stop_requested()) {
             return;
         }

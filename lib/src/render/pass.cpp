@@ -48,17 +48,18 @@ RenderStats render_tile(const Work& work, const RenderOptions& options, const Ti
     return stats;
 }
 
-/// Renders the integrator's chunks, which all tiles share.
-void render_parts(const Work& work, SampleRange samples, RenderResult& result,
-                  tbb::combinable<RenderStats>& stats_of_threads)
+/// Renders the chunks of a batch, which its tiles share.
+void render_chunks(const Work& work, SampleRange samples, std::int64_t batch, RenderResult& result,
+                   tbb::combinable<RenderStats>& stats_of_threads)
 {
-    tbb::parallel_for(std::int64_t{0}, work.integrator.begin_pass(samples), [&](std::int64_t part) {
+    const ChunkRange chunks = work.integrator.begin_batch(samples, batch);
+    tbb::parallel_for(chunks.begin, chunks.end, [&](std::int64_t chunk) {
         if (work.abandon.stop_requested()) {
             return;
         }
         const FlushDenormals flush;
         stats_of_threads.local() += work.integrator.render_chunk(
-            part, samples,
+            chunk, samples,
             {.film = &result.film, .strategies = result.strategies, .on_path = work.on_path});
     });
     if (!work.abandon.stop_requested()) {
@@ -85,30 +86,39 @@ std::vector<Tile> tiles_of(const PixelRect& region, int side, const Integrator& 
 void render_at_once(const Work& work, const RenderOptions& options, SampleRange samples,
                     RenderResult& result)
 {
-    tbb::combinable<RenderStats> stats_of_threads;
-    render_parts(work, samples, result, stats_of_threads);
-    if (work.abandon.stop_requested()) {
-        return;
-    }
     // Each pixel of the whole image has its light path, and any of them can reach a crop.
     const PixelRect region =
         info(options.integrator).traces_light_paths ? whole_image(options) : result.film.region();
-    const std::vector<Tile> tiles = tiles_of(region, options.system.tile_size, work.integrator);
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, tiles.size()),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-            if (work.abandon.stop_requested()) {
-                return;
-            }
-            const FlushDenormals flush;
-            const Films films{
-                .film = &result.film, .strategies = result.strategies, .on_path = work.on_path};
-            for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                stats_of_threads.local() +=
-                    render_tile(work, options, tiles[i], samples, films, result);
-            }
-        },
-        tbb::simple_partitioner{});
+    const std::vector<Tile> tiles =
+        tiles_of(region, work.integrator.tile_side(options.system.tile_size), work.integrator);
+    tbb::combinable<RenderStats> stats_of_threads;
+    std::size_t begin = 0;
+    for (std::int64_t batch = 0; batch < work.integrator.batches(); ++batch) {
+        render_chunks(work, samples, batch, result, stats_of_threads);
+        std::size_t end = begin;
+        while (end < tiles.size() && work.integrator.batch(tiles[end]) == batch) {
+            ++end;
+        }
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(begin, end),
+            [&](const tbb::blocked_range<std::size_t>& range) {
+                if (work.abandon.stop_requested()) {
+                    return;
+                }
+                const FlushDenormals flush;
+                const Films films{
+                    .film = &result.film, .strategies = result.strategies, .on_path = work.on_path};
+                for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                    stats_of_threads.local() +=
+                        render_tile(work, options, tiles[i], samples, films, result);
+                }
+            },
+            tbb::simple_partitioner{});
+        if (work.abandon.stop_requested()) {
+            return;
+        }
+        begin = end;
+    }
     stats_of_threads.combine_each([&](const RenderStats& stats) { result.stats += stats; });
 }
 

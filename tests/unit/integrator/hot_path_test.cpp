@@ -182,9 +182,9 @@ void check(const World& world, const CameraDesc& desc, const RenderOptions& opti
     const Films films{.film = &film, .strategies = strategies, .on_path = nobody};
     std::uint64_t rays = 0;
     // What tiles share; here the samples of all indices do.
-    const std::int64_t parts = integrator->begin_pass({.begin = 0, .end = 1});
-    for (std::int64_t part = 0; part < parts; ++part) {
-        static_cast<void>(integrator->render_chunk(part, {.begin = 0, .end = 1}, films));
+    const ChunkRange chunks = integrator->begin_batch({.begin = 0, .end = 1}, 0);
+    for (std::int64_t chunk = chunks.begin; chunk < chunks.end; ++chunk) {
+        static_cast<void>(integrator->render_chunk(chunk, {.begin = 0, .end = 1}, films));
     }
     integrator->end_chunks();
     check_costs_nothing_a_sample([&](std::int64_t samples) {

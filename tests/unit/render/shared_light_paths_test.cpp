@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -254,18 +255,100 @@ TEST_CASE("tiles are rendered group by group", "[light-paths]")
     o.sampling.samples = {.begin = 0, .end = 1};
     o.system.threads = 1;
     const LightPathCache cache(LightPathCounts(o), o);
-    std::vector<std::uint32_t> groups;
+    std::vector<std::int64_t> parts;
     RenderControl control;
     control.on_path = [&](const PathContribution& path) {
         if (path.strategy.t >= 2) {
-            groups.push_back(cache.groups().group(static_cast<int>(path.raster.x),
-                                                  static_cast<int>(path.raster.y)));
+            parts.push_back(
+                cache.part(static_cast<int>(path.raster.x), static_cast<int>(path.raster.y)));
         }
     };
     static_cast<void>(render(room(), room_camera(), o, control));
-    REQUIRE(groups.size() > 1000);
-    CHECK(std::ranges::is_sorted(groups));
-    CHECK(groups.back() == 3);
+    REQUIRE(parts.size() > 1000);
+    CHECK(std::ranges::is_sorted(parts));
+    CHECK(parts.back() == 3);
+}
+
+TEST_CASE("a batch has the light paths of its pixels, in the memory of earlier ones",
+          "[light-paths]")
+{
+    RenderOptions o = options(1.0, 0.5);
+    o.film.width = 256;
+    o.film.height = 256;
+    LightPathCounts counts(o);
+    REQUIRE(counts.batches == 1);
+    counts.bundles -= GENERATE(0, 1, 77);
+    counts.batches = GENERATE(1, 2, 8);
+    CAPTURE(counts.bundles, counts.batches);
+    LightPathCache cache(counts, o);
+    CHECK(cache.first_chunk(counts.batches) == cache.chunks());
+    for (std::int64_t batch = 0; batch < counts.batches; ++batch) {
+        for (std::int64_t chunk = cache.first_chunk(batch); chunk < cache.first_chunk(batch + 1);
+             ++chunk) {
+            cache.begin_chunk(chunk);
+            const std::int64_t first = chunk * LightPathCache::chunk_bundles;
+            for (std::int64_t bundle = first;
+                 bundle < std::min(first + LightPathCache::chunk_bundles, counts.bundles);
+                 ++bundle) {
+                cache.add_bundle(chunk, {});
+                PathVertex vertex;
+                vertex.end.p.x = static_cast<float>(bundle);
+                cache.add_path(chunk, std::span(&vertex, 1));
+            }
+            cache.end_chunk(chunk);
+        }
+        int wrong = 0;
+        int pixels = 0;
+        for (int y = 0; y < 256; ++y) {
+            for (int x = 0; x < 256; ++x) {
+                if (cache.batch(x, y) == batch) {
+                    const auto choice = cache.choose(x, y, {.index = 3, .sub_index = 0x9e3779b9U});
+                    const auto path = cache.path(choice, 0);
+                    ++pixels;
+                    wrong += path.front().end.p.x == static_cast<float>(choice.bundle) ? 0 : 1;
+                }
+            }
+        }
+        CHECK(pixels == 256 * 256 / counts.batches);
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("a large image has batches of light paths, with tiles of any size", "[light-paths]")
+{
+    const Scene scene = room();
+    RenderOptions o = options(0.25, 1.0);
+    o.film.width = 1024;
+    o.film.height = 512;
+    o.transport.max_depth = 2;
+    o.sampling.samples = {.begin = 0, .end = 1};
+    const LightPathCounts counts(o);
+    REQUIRE(counts.batches == 2);
+    const RenderResult image = image_of(scene, o);
+    CHECK(image.stats.paths.light == static_cast<std::uint64_t>(counts.bundles * counts.bundle));
+    o.system.tile_size = 24;
+    o.film.crop = PixelRect{.x0 = 301, .y0 = 203, .x1 = 717, .y1 = 319};
+    RenderResult crop = image_of(scene, o);
+    int different = 0;
+    const Image whole_pixels = image.film.develop();
+    const Image crop_pixels = crop.film.develop();
+    for (int y = 203; y < 319; ++y) {
+        for (int x = 301; x < 717; ++x) {
+            const auto of_whole = static_cast<std::size_t>(y * 1024 + x);
+            const auto of_crop = static_cast<std::size_t>((y - 203) * 416 + x - 301);
+            different += whole_pixels.pixels[of_whole] == crop_pixels.pixels[of_crop] ? 0 : 1;
+        }
+    }
+    CHECK(different == 0);
+
+    // Twice the pixels need no more memory.
+    RenderOptions larger = o;
+    larger.film.crop.reset();
+    larger.film.width = 2048;
+    CHECK(LightPathCounts(larger).batches == 4);
+    CHECK(light_path_bytes(larger) == light_path_bytes(o));
+    larger.integrator = IntegratorKind::vcm;  // merges with all light paths
+    CHECK(light_path_bytes(larger) > 4 * light_path_bytes(o));
 }
 
 TEST_CASE("chosen connections cost as many shadow rays as asked for", "[light-paths]")

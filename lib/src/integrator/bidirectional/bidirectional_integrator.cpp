@@ -5,6 +5,7 @@
 #include "path/merge.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace bdpt {
 
@@ -71,10 +72,16 @@ BidirectionalIntegrator::Scratch::Scratch(const BidirectionalIntegrator& integra
     }
 }
 
-std::int64_t BidirectionalIntegrator::begin_pass(SampleRange samples)
+ChunkRange BidirectionalIntegrator::begin_batch(SampleRange samples, std::int64_t batch)
 {
     merging_ = Merging(options_, cache_.counts(), world_.bounding_sphere(), samples.begin);
-    return cache_.counts().shared ? cache_.chunks() * (samples.end - samples.begin) : 0;
+    if (!cache_.counts().shared) {
+        return {};
+    }
+    if (!cache_.counts().kept()) {
+        return {.begin = 0, .end = cache_.chunks() * (samples.end - samples.begin)};
+    }
+    return {.begin = cache_.first_chunk(batch), .end = cache_.first_chunk(batch + 1)};
 }
 
 void BidirectionalIntegrator::end_chunks()
@@ -84,9 +91,14 @@ void BidirectionalIntegrator::end_chunks()
     }
 }
 
-std::uint32_t BidirectionalIntegrator::group(const Tile& tile) const
+int BidirectionalIntegrator::tile_side(int wanted) const
 {
-    return cache_.groups().group(tile.x_begin, tile.y_begin);
+    if (cache_.counts().batches == 1) {
+        return wanted;
+    }
+    // Divides the side of a block.
+    return static_cast<int>(
+        std::bit_floor(static_cast<unsigned>(std::min(wanted, PixelGroups::block_side))));
 }
 
 RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange samples,

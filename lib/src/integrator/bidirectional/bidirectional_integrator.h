@@ -20,11 +20,20 @@ public:
     BidirectionalIntegrator(const World& world, const MovingCamera& camera,
                             const RenderOptions& options, const LearnedLight* learned = nullptr);
     [[nodiscard]] std::int64_t max_samples_in_pass() const override;
-    [[nodiscard]] std::int64_t begin_pass(SampleRange samples) override;
+    [[nodiscard]] std::int64_t batches() const override { return cache_.counts().batches; }
+    [[nodiscard]] ChunkRange begin_batch(SampleRange samples, std::int64_t batch) override;
     [[nodiscard]] RenderStats render_chunk(std::int64_t part, SampleRange samples,
                                            const Films& films) override;
     void end_chunks() override;
-    [[nodiscard]] std::uint32_t group(const Tile& tile) const override;
+    [[nodiscard]] int tile_side(int wanted) const override;
+    [[nodiscard]] std::int64_t batch(const Tile& tile) const override
+    {
+        return cache_.batch(tile.x_begin, tile.y_begin);
+    }
+    [[nodiscard]] std::int64_t group(const Tile& tile) const override
+    {
+        return cache_.part(tile.x_begin, tile.y_begin);
+    }
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
 

@@ -7,6 +7,7 @@
 #include "path/strategy_set.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -69,11 +70,16 @@ LightPathCache::LightPathCache(const LightPathCounts& counts, const RenderOption
     : counts_(counts),
       groups_(std::int64_t{options.film.width} * options.film.height, counts.bundles),
       kind_(options.sampling.sampler),
-      seed_(options.sampling.seed)
+      seed_(options.sampling.seed),
+      group_seed_(static_cast<std::uint32_t>(split_mix(seed_ + golden_ratio_64)))
 {
-    if (counts.shared) {
-        chunks_.reserve(static_cast<std::size_t>(chunks()));
-        for (std::int64_t chunk = 0; chunk < chunks(); ++chunk) {
+    if (counts.kept()) {
+        // A batch may begin and end within chunks.
+        const std::int64_t of_batch =
+            counts.batches == 1 ? chunks() : chunks() / counts.batches + 3;
+        const std::size_t size = std::bit_ceil(static_cast<std::size_t>(of_batch));
+        chunks_.reserve(size);
+        for (std::size_t chunk = 0; chunk < size; ++chunk) {
             chunks_.emplace_back(*pool_);
         }
     }
@@ -98,8 +104,8 @@ std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, double mean_v
         sizeof(PathVertex) + sizeof(Bsdf) +
         (counts.rays > 0.0 ? sizeof(LightVertexBlock) / LightVertexBlock::size : 0) +
         (counts.merged ? LightVertexGrid::bytes_of_vertex : 0);
-    const double bytes = static_cast<double>(counts.bundles) * counts.bundle * mean_vertices *
-                         static_cast<double>(vertex);
+    const double bytes = static_cast<double>(counts.bundles / counts.batches) * counts.bundle *
+                         mean_vertices * static_cast<double>(vertex);
     constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
     return bytes < 0x1p63 ? static_cast<std::uint64_t>(bytes) : most;
 }
@@ -113,7 +119,7 @@ Sampler LightPathCache::sampler(std::int64_t index, std::int64_t bundle, int whi
 
 void LightPathCache::begin_chunk(std::int64_t chunk)
 {
-    Chunk& filled = chunks_[static_cast<std::size_t>(chunk)];
+    Chunk& filled = chunk_at(chunk);
     filled.moments.clear();
     filled.path_ends.clear();
     filled.vertices.clear();
@@ -124,7 +130,7 @@ void LightPathCache::begin_chunk(std::int64_t chunk)
 
 void LightPathCache::add_bundle(std::int64_t chunk, const TimeAndWavelength& moment)
 {
-    Chunk& filled = chunks_[static_cast<std::size_t>(chunk)];
+    Chunk& filled = chunk_at(chunk);
     filled.moments.push_back(moment);
     if (counts_.rays > 0.0) {
         filled.bundle_begins.push_back(filled.blocks.size());
@@ -134,7 +140,7 @@ void LightPathCache::add_bundle(std::int64_t chunk, const TimeAndWavelength& mom
 
 void LightPathCache::add_path(std::int64_t chunk, std::span<const PathVertex> path)
 {
-    Chunk& filled = chunks_[static_cast<std::size_t>(chunk)];
+    Chunk& filled = chunk_at(chunk);
     if (counts_.rays > 0.0) {
         add_to_blocks(filled, path);
     }
@@ -172,7 +178,7 @@ void LightPathCache::add_to_blocks(Chunk& chunk, std::span<const PathVertex> pat
 
 void LightPathCache::end_chunk(std::int64_t chunk)
 {
-    Chunk& filled = chunks_[static_cast<std::size_t>(chunk)];
+    Chunk& filled = chunk_at(chunk);
     const Bsdf* next = filled.bsdfs.data();
     for (PathVertex& vertex : filled.vertices) {
         if (vertex.bsdf != nullptr) {
@@ -183,8 +189,7 @@ void LightPathCache::end_chunk(std::int64_t chunk)
 
 LightPathCache::Choice LightPathCache::choose(int x, int y, const ScheduledSample& sample) const
 {
-    const auto seed = static_cast<std::uint32_t>(split_mix(seed_ + golden_ratio_64));
-    const std::uint32_t u = groups_.place(x, y, seed, sample.sub_index);
+    const std::uint32_t u = groups_.place(x, y, group_seed_, sample.sub_index);
     const std::uint64_t place = std::uint64_t{u} * static_cast<std::uint64_t>(counts_.bundles);
     Choice choice{.bundle = static_cast<std::int64_t>(place >> 32U)};
     // The remaining fraction is uniform over the pixels of one bundle; from one sample to the next

@@ -72,13 +72,27 @@ public:
     /// Returns a bound that the mean number of vertices of light paths hardly exceeds: Russian
     /// roulette ends most paths soon after it begins. Without roulette, the maximum.
     [[nodiscard]] static int usual_vertices(const RenderOptions& options);
-    /// Returns the memory of the cache [bytes] for that mean number of vertices per light path.
+    /// Returns the memory of the cache, which holds one batch, [bytes] for that mean number of
+    /// vertices per light path.
     [[nodiscard]] static std::uint64_t bytes(const LightPathCounts& counts, double mean_vertices);
 
     [[nodiscard]] const LightPathCounts& counts() const { return counts_; }
     [[nodiscard]] std::int64_t chunks() const
     {
         return (counts_.bundles + chunk_bundles - 1) / chunk_bundles;
+    }
+    /// Returns the number of the first chunk to be filled for the batch; after the last batch the
+    /// number of chunks. The chunk before it may have bundles of the batch, too, and stays.
+    [[nodiscard]] std::int64_t first_chunk(std::int64_t batch) const
+    {
+        return batch == 0 ? 0
+                          : std::min(chunks(),
+                                     counts_.bundles * batch / counts_.batches / chunk_bundles + 1);
+    }
+    /// Returns the batch that has the light paths of the pixel.
+    [[nodiscard]] std::int64_t batch(int x, int y) const
+    {
+        return groups_.part(x, y, group_seed_, counts_.batches);
     }
     /// Returns the random numbers of light path `which` of a bundle of sample `index`: those of a
     /// bundle, over all indices, form one sequence, as a camera path is connected to several of
@@ -99,6 +113,11 @@ public:
     /// pixel's own; samples within a round use different bundles.
     [[nodiscard]] Choice choose(int x, int y, const ScheduledSample& sample) const;
     [[nodiscard]] const PixelGroups& groups() const { return groups_; }
+    /// Returns the part of the light paths that has those of the pixel; there are `groups`.
+    [[nodiscard]] std::int64_t part(int x, int y) const
+    {
+        return groups_.part(x, y, group_seed_, groups_.groups());
+    }
     /// Prefetches the light paths of the choice, or their blocks where connections are chosen: they
     /// are scattered over more memory than a processor's cache holds.
     void prefetch(const Choice& choice) const;
@@ -115,7 +134,7 @@ public:
     void for_each_path(std::int64_t first, std::int64_t last, const Visit& visit) const
     {
         for (std::int64_t number = first; number < last; ++number) {
-            const Chunk& chunk = chunks_[static_cast<std::size_t>(number)];
+            const Chunk& chunk = chunk_at(number);
             std::size_t begin = 0;
             for (const PathEnd& end : chunk.path_ends) {
                 visit(std::span(chunk.vertices).subspan(begin, end.vertices - begin));
@@ -174,7 +193,16 @@ private:
     void add_to_blocks(Chunk& chunk, std::span<const PathVertex> path);
     [[nodiscard]] const Chunk& find_chunk(std::int64_t bundle) const
     {
-        return chunks_[static_cast<std::size_t>(bundle / chunk_bundles)];
+        return chunk_at(bundle / chunk_bundles);
+    }
+    /// A chunk takes the memory of one that no batch needs any more.
+    [[nodiscard]] const Chunk& chunk_at(std::int64_t number) const
+    {
+        return chunks_[static_cast<std::size_t>(number) & (chunks_.size() - 1)];
+    }
+    [[nodiscard]] Chunk& chunk_at(std::int64_t number)
+    {
+        return chunks_[static_cast<std::size_t>(number) & (chunks_.size() - 1)];
     }
     [[nodiscard]] static std::size_t index_in_chunk(std::int64_t bundle)
     {
@@ -191,8 +219,9 @@ private:
     PixelGroups groups_;
     SamplerKind kind_;
     std::uint64_t seed_;
+    std::uint32_t group_seed_;
     std::unique_ptr<HugePagePool> pool_ = std::make_unique<HugePagePool>();
-    std::vector<Chunk> chunks_;
+    std::vector<Chunk> chunks_;  // a power of two: those of a batch, and more
 };
 
 }  // namespace bdpt

@@ -33,6 +33,13 @@ public:
         return z_order(x, y) >> bits_in_block & (groups() - 1U);
     }
 
+    /// Returns which of `parts` equal parts of the bundles has those of the pixel, whatever its
+    /// offset; `parts` is a power of two, at most `groups`.
+    [[nodiscard]] std::int64_t part(int x, int y, std::uint32_t seed, std::int64_t parts) const
+    {
+        return std::int64_t{place(x, y, seed, 0)} * parts >> 32U;
+    }
+
     /// Returns the place of the pixel's bundle among all of them, as a fraction of their number:
     /// the radical inverse of the pixel's index, with an Owen scramble by `seed`. The index is that
     /// along the Z curve, with the group in its lowest bits. Samples of a pixel have different

@@ -7,7 +7,7 @@
 
 namespace bdpt {
 
-static_assert(std::is_trivially_copyable_v<Bsdf> && sizeof(Bsdf) <= 160);
+static_assert(std::is_trivially_copyable_v<Bsdf> && sizeof(Bsdf) <= 208);
 
 // Shading normals scale importance, but not radiance, by the adjoint factor: the ratio of the
 // cosine ratios of both directions [Veach 1997, sec. 5.3]; it is exactly 1 if the normals are
@@ -31,9 +31,13 @@ void Bsdf::raise_wo() noexcept
         return;
     }
     local_wo_ = raise(local_wo_, visit([](const auto& model) { return normal_of(model); }), side);
-    if (auto* seen = std::get_if<SeenFrom<MetallicRoughness>>(&model_)) {
-        seen->move_to(local_wo_);
-    }
+    std::visit(
+        [this](auto& model) {
+            if constexpr (requires { model.move_to(local_wo_); }) {
+                model.move_to(local_wo_);
+            }
+        },
+        model_);
     ratio_o_ = raised;
 }
 

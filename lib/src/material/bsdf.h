@@ -39,7 +39,8 @@ public:
     /// without it, on the side of `ng`; both are unit and less than a right angle apart.
     template <ScatteringModel Model>
     Bsdf(Vec3 ng, Vec3 ns, const Frame& facet, Vec3 wo, const Model& model) noexcept
-        : Bsdf(ng, facet, Seen{facet.to_local(wo), dot(wo, ng)}, mapped(model, facet.to_local(ns)))
+        : Bsdf(ng, facet, Seen{facet.to_local(wo), dot(wo, ng)},
+               mapped(model, facet.to_local(ns), facet.to_local(wo)))
     {}
 
     /// Evaluates the BSDF; `mode` is that of the walk that arrived from wo.

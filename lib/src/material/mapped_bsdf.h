@@ -6,12 +6,52 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 namespace bdpt {
 
-/// A scattering model or a lobe on the facet of a normal map. `Model` has `eval` and `sample`; its
-/// directions, and those here, are local to the facet.
+/// What a model computes of one direction alone, once for all pairs with it; empty for models
+/// without such values.
+template <typename Model>
+struct SideOf {
+    struct Type {};
+    [[nodiscard]] static Type of(const Model&, Vec3) noexcept { return {}; }
+    [[nodiscard]] static BsdfEval eval(const Model& model, Type, Type, Vec3 wo, Vec3 wi,
+                                       TransportMode mode) noexcept
+    {
+        return model.eval(wo, wi, mode);
+    }
+    [[nodiscard]] static std::optional<BsdfSample> direct(const Model& model, Type, Vec3 wo,
+                                                          float u_lobe, Vec2 u,
+                                                          TransportMode mode) noexcept
+    {
+        return model.sample(wo, u_lobe, u, mode);
+    }
+};
+template <typename Model>
+requires requires
+{
+    typename Model::Side;
+}
+struct SideOf<Model> {
+    using Type = typename Model::Side;
+    [[nodiscard]] static Type of(const Model& model, Vec3 w) noexcept { return model.side(w); }
+    [[nodiscard]] static BsdfEval eval(const Model& model, const Type& from, const Type& to,
+                                       Vec3 wo, Vec3 wi, TransportMode mode) noexcept
+    {
+        return model.eval(from, to, wo, wi, mode);
+    }
+    [[nodiscard]] static std::optional<BsdfSample> direct(const Model& model, const Type& from,
+                                                          Vec3 wo, float u_lobe, Vec2 u,
+                                                          TransportMode mode) noexcept
+    {
+        return model.direct(from, wo, u_lobe, u, mode);
+    }
+};
+
+/// A scattering model or a lobe on the facet of a normal map. `Model` has `eval` and `sample`, or
+/// `side`, `eval` for sides, and `direct`; its directions, and those here, are local to the facet.
 ///
 /// Visibility is modelled in physical roles, eye and light, so that walks from both ends agree: the
 /// eye sees the facet directly, or by way of the upright facet; light that would come through the
@@ -29,15 +69,23 @@ public:
         : facet_(facet), model_(model), color_(color)
     {}
 
-    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
+    /// What the model computes of the two ways from the eye to the facet.
+    using Sides = std::array<typename SideOf<Model>::Type, 2>;
+    [[nodiscard]] Sides eye_sides(Vec3 eye) const noexcept { return sides(eye_ways(eye)); }
+
+    // `seen` is `eye_sides` of wo, if it is known; else null. Walks from the light do not use it.
+
+    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode,
+                                const Sides* seen = nullptr) const noexcept;
     /// `u_lobe` and `u` are uniform in [0, 1).
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
-                                                   TransportMode mode) const noexcept
+                                                   TransportMode mode,
+                                                   const Sides* seen = nullptr) const noexcept
     {
         if (facet_.height(wo) == 0.0f) {
             return std::nullopt;
         }
-        return mode == TransportMode::radiance ? sample_light(wo, u_lobe, u)
+        return mode == TransportMode::radiance ? sample_light(wo, u_lobe, u, seen)
                                                : sample_eye(wo, u_lobe, u);
     }
 
@@ -49,13 +97,33 @@ private:
             0.0f;  ///< for the eye: fraction of its view; for light: the solid angle at the facet
         float choice = 0.0f;  ///< probability for samples whose walk comes from the light
     };
-    /// Returns the direct way first; a share of 0 means that there is no such way.
+    /// The direct way is first; a share of 0 means that there is no such way.
     using Ways = std::array<Way, 2>;
+    using Side = SideOf<Model>;
 
     [[nodiscard]] Ways eye_ways(Vec3 eye) const noexcept;
     [[nodiscard]] Ways light_ways(Vec3 light) const noexcept;
-    [[nodiscard]] std::optional<BsdfSample> sample_light(Vec3 eye, float u_lobe,
-                                                         Vec2 u) const noexcept;
+    [[nodiscard]] Sides sides(const Ways& ways) const noexcept
+    {
+        Sides result{};
+        for (std::size_t i = 0; i < ways.size(); ++i) {
+            if (ways[i].share != 0.0f) {
+                result[i] = Side::of(model_, ways[i].w);
+            }
+        }
+        return result;
+    }
+    /// Evaluates the sum over all pairs of ways, for walks from the eye.
+    [[nodiscard]] BsdfEval eval(const Ways& eyes, const Sides& eye_sides, const Ways& lights,
+                                const Sides& light_sides) const noexcept;
+    /// Returns it for a walk from the light.
+    [[nodiscard]] BsdfEval from_light(const BsdfEval& value, Vec3 eye, Vec3 light) const noexcept
+    {
+        return {value.f_cos * std::abs(facet_.height(eye) / facet_.height(light)), value.pdf_rev,
+                value.pdf_fwd};
+    }
+    [[nodiscard]] std::optional<BsdfSample> sample_light(Vec3 eye, float u_lobe, Vec2 u,
+                                                         const Sides* seen) const noexcept;
     [[nodiscard]] std::optional<BsdfSample> sample_eye(Vec3 light, float u_lobe,
                                                        Vec2 u) const noexcept;
 
@@ -111,7 +179,31 @@ typename MappedBsdf<Model>::Ways MappedBsdf<Model>::light_ways(Vec3 light) const
 }
 
 template <typename Model>
-BsdfEval MappedBsdf<Model>::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+BsdfEval MappedBsdf<Model>::eval(const Ways& eyes, const Sides& eye_sides, const Ways& lights,
+                                 const Sides& light_sides) const noexcept
+{
+    BsdfEval sum;
+    for (std::size_t e = 0; e < eyes.size(); ++e) {
+        for (std::size_t l = 0; l < lights.size(); ++l) {
+            const Way& from = eyes[e];
+            const Way& to = lights[l];
+            if (from.share == 0.0f || to.share == 0.0f || grazes(from.w) || grazes(to.w)) {
+                continue;
+            }
+            const BsdfEval at_facet = Side::eval(model_, eye_sides[e], light_sides[l], from.w, to.w,
+                                                 TransportMode::radiance);
+            const float share = from.share * to.share;
+            sum.f_cos += share * (l == 1 ? color_ : Rgb(1.0f)) * at_facet.f_cos;
+            sum.pdf_fwd.value += share * at_facet.pdf_fwd.value;
+            sum.pdf_rev.value += from.choice * to.choice * at_facet.pdf_rev.value;
+        }
+    }
+    return sum;
+}
+
+template <typename Model>
+BsdfEval MappedBsdf<Model>::eval(Vec3 wo, Vec3 wi, TransportMode mode,
+                                 const Sides* seen) const noexcept
 {
     const bool from_eye = mode == TransportMode::radiance;
     const Vec3 eye = from_eye ? wo : wi;
@@ -119,27 +211,13 @@ BsdfEval MappedBsdf<Model>::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noe
     if (facet_.height(eye) == 0.0f || facet_.height(light) == 0.0f) {
         return {};
     }
-    Rgb f_cos(0.0f);
-    SolidAnglePdf of_light;
-    SolidAnglePdf of_eye;
     const Ways eyes = eye_ways(eye);
     const Ways lights = light_ways(light);
-    for (const Way& from : eyes) {
-        for (const Way& to : lights) {
-            if (from.share == 0.0f || to.share == 0.0f) {
-                continue;
-            }
-            const BsdfEval at_facet = model_.eval(from.w, to.w, TransportMode::radiance);
-            const float share = from.share * to.share;
-            f_cos += share * (&to == &lights[1] ? color_ : Rgb(1.0f)) * at_facet.f_cos;
-            of_light.value += share * at_facet.pdf_fwd.value;
-            of_eye.value += from.choice * to.choice * at_facet.pdf_rev.value;
-        }
+    if (from_eye && seen != nullptr) {
+        return eval(eyes, *seen, lights, sides(lights));
     }
-    if (from_eye) {
-        return {f_cos, of_light, of_eye};
-    }
-    return {f_cos * std::abs(facet_.height(eye) / facet_.height(light)), of_eye, of_light};
+    const BsdfEval value = eval(eyes, sides(eyes), lights, sides(lights));
+    return from_eye ? value : from_light(value, eye, light);
 }
 
 // Densities of delta lobes omit a Dirac factor, so only their ratio matters: that of the
@@ -147,12 +225,19 @@ BsdfEval MappedBsdf<Model>::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noe
 // at the facet.
 
 template <typename Model>
-std::optional<BsdfSample> MappedBsdf<Model>::sample_light(Vec3 eye, float u_lobe,
-                                                          Vec2 u) const noexcept
+std::optional<BsdfSample> MappedBsdf<Model>::sample_light(Vec3 eye, float u_lobe, Vec2 u,
+                                                          const Sides* seen) const noexcept
 {
-    const Choice mirror = choose(u_lobe, facet_.mirrored_share(eye));
-    const Vec3 from = mirror.taken ? facet_.mirrored(eye) : eye;
-    std::optional<BsdfSample> sampled = model_.sample(from, mirror.u, u, TransportMode::radiance);
+    const Ways eyes = eye_ways(eye);
+    const Sides eye_sides = seen != nullptr ? *seen : sides(eyes);
+    const Choice mirror = choose(u_lobe, eyes[1].share);
+    const std::size_t taken = mirror.taken ? 1 : 0;
+    const Way& from = eyes[taken];
+    if (grazes(from.w)) {
+        return std::nullopt;
+    }
+    std::optional<BsdfSample> sampled =
+        Side::direct(model_, eye_sides[taken], from.w, mirror.u, u, TransportMode::radiance);
     if (!sampled) {
         return std::nullopt;
     }
@@ -161,15 +246,15 @@ std::optional<BsdfSample> MappedBsdf<Model>::sample_light(Vec3 eye, float u_lobe
     if (facet_.height(light) == 0.0f) {
         return std::nullopt;
     }
+    const Ways lights = light_ways(light);
     if (!sampled->delta) {
-        return smooth_sample(light, eval(eye, light, TransportMode::radiance));
+        return smooth_sample(light, eval(eyes, eye_sides, lights, sides(lights)));
     }
-    const Way from_eye = eye_ways(eye)[mirror.taken ? 1 : 0];
-    const Way to_light = light_ways(light)[is_raised ? 1 : 0];
+    const Way& to_light = lights[is_raised ? 1 : 0];
     sampled->wi = light;
     sampled->weight *= is_raised ? color_ : Rgb(1.0f);
-    sampled->pdf_fwd.value *= from_eye.share * to_light.share;
-    sampled->pdf_rev.value *= from_eye.choice * to_light.choice;
+    sampled->pdf_fwd.value *= from.share * to_light.share;
+    sampled->pdf_rev.value *= from.choice * to_light.choice;
     return sampled;
 }
 
@@ -181,21 +266,31 @@ std::optional<BsdfSample> MappedBsdf<Model>::sample_eye(Vec3 light, float u_lobe
     if (lights[0].share + lights[1].share == 0.0f) {
         return std::nullopt;  // behind the facet
     }
+    const Sides light_sides = sides(lights);
     const Choice lower = choose(u_lobe, lights[1].choice);
-    const Way& from = lights[lower.taken ? 1 : 0];
+    const std::size_t taken = lower.taken ? 1 : 0;
+    const Way& from = lights[taken];
+    if (grazes(from.w)) {
+        return std::nullopt;
+    }
     const Choice mirror = choose(lower.u, facet_.mirror_choice());
     std::optional<BsdfSample> sampled =
-        model_.sample(from.w, mirror.u, u, TransportMode::importance);
+        Side::direct(model_, light_sides[taken], from.w, mirror.u, u, TransportMode::importance);
     if (!sampled || !facet_.faces(sampled->wi)) {
         return std::nullopt;  // no eye direction sees the facet
     }
     const Vec3 other = facet_.mirrored(sampled->wi);
     const bool is_mirrored = mirror.taken && facet_.mirrored_share(other) > 0.0f;
     const Vec3 eye = is_mirrored ? other : sampled->wi;
+    const Ways eyes = eye_ways(eye);
     if (!sampled->delta) {
-        return smooth_sample(eye, eval(light, eye, TransportMode::importance));
+        if (facet_.height(eye) == 0.0f) {
+            return std::nullopt;
+        }
+        return smooth_sample(eye,
+                             from_light(eval(eyes, sides(eyes), lights, light_sides), eye, light));
     }
-    const Way way = eye_ways(eye)[is_mirrored ? 1 : 0];
+    const Way& way = eyes[is_mirrored ? 1 : 0];
     const float cosines = facet_.height(eye) * from.w.z / (facet_.height(light) * way.w.z);
     sampled->weight *= way.share * from.share / (way.choice * from.choice) * std::abs(cosines);
     sampled->weight *= lower.taken ? color_ : Rgb(1.0f);

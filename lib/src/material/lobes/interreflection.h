@@ -30,6 +30,8 @@ namespace bdpt {
 /// of 1 both lobes together reflect all light.
 class Interreflection {
 public:
+    /// No lobe.
+    Interreflection() = default;
     /// `f0` is the reflectance of the metal at normal incidence, `average` the cosine-weighted
     /// average of the light that white microfacets reflect at once, in [0, 1], `share` the metallic
     /// fraction of the surface.
@@ -55,8 +57,8 @@ public:
 private:
     static constexpr float min_missing = 1e-6f;
 
-    Rgb albedo_;
-    float per_coupling_;
+    Rgb albedo_{0.0f};
+    float per_coupling_ = 0.0f;
 };
 
 /// Multiple scattering among the microfacets of a transparent body's rough boundary: diffuse light

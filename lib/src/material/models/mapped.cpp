@@ -1,8 +1,5 @@
 #include "material/models/mapped.h"
 
-#include "material/mapped_bsdf.h"
-#include "material/models/layered.h"
-
 namespace bdpt {
 namespace {
 
@@ -17,19 +14,44 @@ template <typename Model>
     return {TiltedFacet(ns), model.parameters()};
 }
 
+/// Tests whether a model keeps what depends on wo alone.
+template <typename Model>
+concept KeepsSides = requires(const SeenOnFacet<Model>& seen)
+{
+    seen.sides;
+};
+
 }  // namespace
 
 template <ScatteringModel Model>
 BsdfEval Mapped<Model>::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
 {
-    return on_facet(ns_.value(), model_).eval(wo, wi, mode);
+    const auto on = on_facet(ns_.value(), model_);
+    if constexpr (KeepsSides<Model>) {
+        return on.eval(wo, wi, mode, &seen_.sides);
+    } else {
+        return on.eval(wo, wi, mode);
+    }
 }
 
 template <ScatteringModel Model>
 std::optional<BsdfSample> Mapped<Model>::sample(Vec3 wo, float u_lobe, Vec2 u,
                                                 TransportMode mode) const noexcept
 {
-    return on_facet(ns_.value(), model_).sample(wo, u_lobe, u, mode);
+    const auto on = on_facet(ns_.value(), model_);
+    if constexpr (KeepsSides<Model>) {
+        return on.sample(wo, u_lobe, u, mode, &seen_.sides);
+    } else {
+        return on.sample(wo, u_lobe, u, mode);
+    }
+}
+
+template <ScatteringModel Model>
+void Mapped<Model>::move_to([[maybe_unused]] Vec3 wo) noexcept
+{
+    if constexpr (KeepsSides<Model>) {
+        seen_.sides = on_facet(ns_.value(), model_).eye_sides(wo);
+    }
 }
 
 template class Mapped<Lambertian>;

@@ -57,6 +57,9 @@ BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
     const float diffuse = dielectric * (1.0f - transmission);
     boundary_.interreflects =
         max_component(boundary_.f0) > min_f0 && diffuse > 0.0f && roughness_.is_rough();
+    if (interreflects()) {
+        interreflection_ = make_interreflection();
+    }
     base_weight_ = base_.set_up(boundary_.base_color, diffuse,
                                 diffuse > 0.0f ? reaches_base() : 1.0f, parameters);
     const float base_max = max_component(boundary_.base_color);
@@ -118,11 +121,12 @@ auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept
     const float lost_share = repeats ? lost(z) : 0.0f;
     const float again = boundary_.transmission * lost_share;
     const float missing = interreflects() ? unreflected(z) : 0.0f;
-    const float interreflected = interreflects() ? interreflection().weight() * missing : 0.0f;
+    const float interreflected = interreflection_.weight() * missing;
     if (inside) {
         return {.boundary_choice = 1.0f - again - interreflected,
                 .interreflection_choice = interreflected,
-                .refraction_choice = again};
+                .refraction_choice = again,
+                .unreflected = missing};
     }
     const float cosine = std::abs(z);
     const float bare = roughness_.directional([&](SpecularAlbedo::Roughness row) {
@@ -146,7 +150,8 @@ auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept
     return {.boundary_choice = sum > 0.0f ? specular / sum : 0.0f,
             .base_transmitted = base_weight_ > 0.0f ? rest : 0.0f,
             .interreflection_choice = sum > 0.0f ? interreflected / sum : 0.0f,
-            .refraction_choice = sum > 0.0f ? again / sum : 0.0f};
+            .refraction_choice = sum > 0.0f ? again / sum : 0.0f,
+            .unreflected = missing};
 }
 
 template <typename Film, typename Roughness, typename Base>
@@ -203,7 +208,7 @@ RepeatedRefraction BasicMetallicRoughness<Film, Roughness, Base>::repeated_refra
 }
 
 template <typename Film, typename Roughness, typename Base>
-Interreflection BasicMetallicRoughness<Film, Roughness, Base>::interreflection() const noexcept
+Interreflection BasicMetallicRoughness<Film, Roughness, Base>::make_interreflection() const noexcept
 {
     Interreflection sum(boundary_.base_color, 1.0f - average_unreflected(), boundary_.metallic);
     if (boundary_.interreflects) {
@@ -242,9 +247,8 @@ BsdfEval BasicMetallicRoughness<Film, Roughness, Base>::eval(const Side& from, c
                      from.boundary_choice, to.boundary_choice);
     }
     if (interreflects()) {
-        add(sum,
-            chosen(interreflection().lobe(unreflected(wo.z), unreflected(wi.z)).eval(wo, wi, mode),
-                   from.interreflection_choice, to.interreflection_choice));
+        add(sum, chosen(interreflection_.lobe(from.unreflected, to.unreflected).eval(wo, wi, mode),
+                        from.interreflection_choice, to.interreflection_choice));
     }
     if (refracts_repeatedly()) {
         add(sum, chosen(repeated_refraction().eval(wo, wi, lost(wo.z), lost(wi.z), mode),

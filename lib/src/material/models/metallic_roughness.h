@@ -180,9 +180,12 @@ public:
         float base_transmitted = 0.0f;        ///< fraction of light that reaches the base, 1 - E
         float interreflection_choice = 0.0f;  ///< probability of the lobe of interreflection
         float refraction_choice = 0.0f;       ///< probability of the lobe of repeated refraction
+        /// Fraction of light that white microfacets do not reflect at once, if they interreflect.
+        float unreflected = 0.0f;
     };
     /// Returns the values of a direction with this z.
     [[nodiscard]] Side side(float z) const noexcept;
+    [[nodiscard]] Side side(Vec3 w) const noexcept { return side(w.z); }
 
     /// Returns the properties that a layer above needs.
     [[nodiscard]] CoveredBase covered() const noexcept;
@@ -236,7 +239,7 @@ private:
     /// Returns the fraction of light that an opaque dielectric reflects later, of that which white
     /// microfacets do not reflect at once. It reaches no base. Only where it interreflects.
     [[nodiscard]] Rgb reflected_later() const noexcept;
-    [[nodiscard]] Interreflection interreflection() const noexcept;
+    [[nodiscard]] Interreflection make_interreflection() const noexcept;
     /// Tests whether light is transmitted after scattering by several microfacets.
     [[nodiscard]] bool refracts_repeatedly() const noexcept
     {
@@ -255,6 +258,7 @@ private:
     Boundary<Film> boundary_;
     Roughness roughness_;
     Base base_;
+    Interreflection interreflection_;  ///< none unless `interreflects`
     // Largest components of albedos, for choosing among the lobes.
     float base_weight_ = 0.0f;
     float transmission_weight_ = 0.0f;

@@ -49,14 +49,14 @@ template <ScatteringModel Model>
 }
 
 // Converts models to their form on the facet of a normal map, where `ns` is the local normal of the
-// surface without it.
+// surface without it, seen from a local wo.
 
 template <ScatteringModel Model>
-[[nodiscard]] Mapped<Model> mapped(const Model& model, Vec3 ns) noexcept
+[[nodiscard]] Mapped<Model> mapped(const Model& model, Vec3 ns, Vec3 wo) noexcept
 {
-    return {model, ns};
+    return {model, ns, wo};
 }
-[[nodiscard]] inline Black mapped(const Black& model, Vec3) noexcept
+[[nodiscard]] inline Black mapped(const Black& model, Vec3, Vec3) noexcept
 {
     return model;
 }

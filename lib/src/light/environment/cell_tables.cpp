@@ -113,6 +113,7 @@ struct Steps {
     struct Place {
         std::uint32_t index = 0;
         float offset = 0.0f;  ///< fraction of the number, in [0, 1)
+        float width = 0.0f;   ///< the number, of `total`
     };
 
     /// Appends the sums of `weights`, whose sum is positive. Each positive weight gets one unit,
@@ -175,9 +176,10 @@ struct Steps {
             first = is_before ? middle : first;
             beyond = is_before ? beyond : middle;
         }
-        const float offset =
-            (at - static_cast<float>(steps[first])) / static_cast<float>(width(row, count, first));
-        return {first, std::min(offset, below_one)};
+        const auto size = static_cast<float>(width(row, count, first));
+        return {.index = first,
+                .offset = std::min((at - static_cast<float>(steps[first])) / size, below_one),
+                .width = size};
     }
 };
 
@@ -185,6 +187,12 @@ struct Steps {
 constexpr std::uint32_t parts_of_row = 511 * 128;
 using CellSteps = Steps<std::uint16_t, parts_of_row>;
 using RowSteps = Steps<std::uint32_t, 0x1000000>;
+
+/// Returns the probability of a cell of this width in a row of this width.
+float probability_of(float row, float cell)
+{
+    return row * 0x1p-24f * (cell / static_cast<float>(parts_of_row));
+}
 
 }  // namespace
 
@@ -234,7 +242,10 @@ CellTables::Cell CellTables::sample(std::size_t grid, Vec2 u) const noexcept
     const Grid& of = grids_[grid];
     const auto row = RowSteps::find(rows_.data() + of.rows, of.row_count, u.y);
     const auto column = CellSteps::find(steps_of_row(of, row.index), of.columns, u.x);
-    return {.column = column.index, .row = row.index, .offset = {column.offset, row.offset}};
+    return {.column = column.index,
+            .row = row.index,
+            .offset = {column.offset, row.offset},
+            .probability = probability_of(row.width, column.width)};
 }
 
 float CellTables::probability(std::size_t grid, std::uint32_t column,
@@ -248,7 +259,7 @@ float CellTables::probability(std::size_t grid, std::uint32_t column,
     }
     const auto of_cell =
         static_cast<float>(CellSteps::width(steps_of_row(of, row), of.columns, column));
-    return of_row * 0x1p-24f * (of_cell / static_cast<float>(parts_of_row));
+    return probability_of(of_row, of_cell);
 }
 
 std::size_t CellTables::bytes() const noexcept

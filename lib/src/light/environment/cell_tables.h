@@ -59,6 +59,7 @@ public:
         std::uint32_t column = 0;
         std::uint32_t row = 0;
         Vec2 offset{0.0f};  ///< position relative to the cell's corner, in [0, 1)^2 of its size
+        float probability = 0.0f;  ///< of the cell
     };
 
     /// Reserves memory for grids with that total number of cells, so that adding them copies none.

@@ -207,8 +207,14 @@ EnvironmentTiles::EnvironmentTiles(const EnvironmentWeights& weights)
             add_tile(tile, bright[i], dim[i], rows.total());
         }
     }
-    all_.sum_up();
-    bright_.sum_up();
+    for (Worth* shares : {&all_, &bright_}) {
+        alignas(16) Worth::Pairs pairs{};
+        std::copy_n(shares->of.begin(), pairs.size(), pairs.begin());
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            pairs[i] += shares->of[i + pairs.size()];
+        }
+        shares->sum_up(pairs);
+    }
 }
 
 void EnvironmentTiles::add_shape(std::size_t tile, Range columns, Range rows)
@@ -247,19 +253,15 @@ void EnvironmentTiles::add_tile(std::size_t tile, std::span<const float> bright,
                count_parts(count_columns(tile)));
 }
 
-void EnvironmentTiles::Worth::sum_up() noexcept
+void EnvironmentTiles::Worth::sum_up(Pairs& pairs) noexcept
 {
     static_assert(tile_columns == 16 && max_rows == 8);
-    alignas(16) std::array<float, 64> sums;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        sums[i] = of[i] + of[i + sums.size()];
-    }
-    fold<32>(sums.data());
-    fold<16>(sums.data());
-    fold<8>(sums.data());
-    std::copy_n(sums.begin(), max_rows, row_sums.begin());
-    fold<4>(sums.data());
-    sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
+    fold<32>(pairs.data());
+    fold<16>(pairs.data());
+    fold<8>(pairs.data());
+    std::copy_n(pairs.begin(), max_rows, row_sums.begin());
+    fold<4>(pairs.data());
+    sum = (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]);
 }
 
 double EnvironmentTiles::solid_angle(std::size_t tile) const noexcept
@@ -279,21 +281,32 @@ EnvironmentTiles::Worth EnvironmentTiles::worth(const Worth& shares,
                                                 const TileFactors* factors) const noexcept
 {
     Worth result;
-    if (normal) {
-        for (std::size_t tile = 0; tile < result.of.size(); ++tile) {
-            const float height = normal->x * axis_x_[tile] + normal->y * axis_y_[tile] +
-                                 normal->z * axis_z_[tile] + reach_[tile];
-            result.of[tile] = (height > 0.0f ? height : 0.0f) * shares.of[tile];
+    alignas(16) Worth::Pairs pairs;
+    // One pass over the tiles, in vectors.
+    const auto fill = [&](const auto& worth_of) {
+        for (std::size_t tile = 0; tile < pairs.size(); ++tile) {
+            const float first = worth_of(tile);
+            const float second = worth_of(tile + pairs.size());
+            result.of[tile] = first;
+            result.of[tile + pairs.size()] = second;
+            pairs[tile] = first + second;
         }
+    };
+    const auto seen_share = [&, n = normal.value_or(Vec3(0.0f))](std::size_t tile) {
+        const float height =
+            n.x * axis_x_[tile] + n.y * axis_y_[tile] + n.z * axis_z_[tile] + reach_[tile];
+        return (height > 0.0f ? height : 0.0f) * shares.of[tile];
+    };
+    if (normal && factors != nullptr) {
+        fill([&](std::size_t tile) { return seen_share(tile) * factors->of[tile]; });
+    } else if (normal) {
+        fill(seen_share);
+    } else if (factors != nullptr) {
+        fill([&](std::size_t tile) { return shares.of[tile] * factors->of[tile]; });
     } else {
-        result.of = shares.of;
+        return shares;
     }
-    if (factors != nullptr) {
-        for (std::size_t tile = 0; tile < result.of.size(); ++tile) {
-            result.of[tile] *= factors->of[tile];
-        }
-    }
-    result.sum_up();
+    result.sum_up(pairs);
     return result;
 }
 
@@ -308,9 +321,8 @@ float EnvironmentTiles::cell_pdf(std::size_t tile, std::uint32_t column, std::ui
     const std::uint32_t columns = count_columns(tile);
     const std::uint32_t rows = count_rows(tile);
     const std::size_t grid = grid_of_tile_[tile];
-    const float bright = cells_.probability(grid, column, row) *
-                         (static_cast<float>(columns) * static_cast<float>(rows));
-    if (sampling != EnvironmentSampling::plain || !(bright_in_tile_[tile] < 1.0f)) {
+    const float bright = bright_pdf(tile, cells_.probability(grid, column, row));
+    if (!samples_dim(tile, sampling)) {
         return bright;
     }
     const std::uint32_t i = find_part(column, count_parts(columns), columns);
@@ -334,7 +346,10 @@ std::optional<EnvironmentTiles::Sample> EnvironmentTiles::sample(
         pick<max_rows>(&worth.of[row.index], tile_columns, worth.row_sums[row.index], u.x);
     const std::size_t tile = column.index * max_rows + row.index;
     const CellTables::Cell cell = sample_cell(tile, {column.u, row.u}, sampling);
-    const float pdf = density(tile, worth, cell_pdf(tile, cell.column, cell.row, sampling));
+    const float in_tile = samples_dim(tile, sampling)
+                              ? cell_pdf(tile, cell.column, cell.row, sampling)
+                              : bright_pdf(tile, cell.probability);
+    const float pdf = density(tile, worth, in_tile);
     if (!(pdf > 0.0f)) {
         return std::nullopt;
     }
@@ -349,7 +364,7 @@ CellTables::Cell EnvironmentTiles::sample_cell(std::size_t tile, Vec2 u,
 {
     const std::size_t grid = grid_of_tile_[tile];
     const float bright = bright_in_tile_[tile];
-    if (sampling != EnvironmentSampling::plain || !(bright < 1.0f)) {
+    if (!samples_dim(tile, sampling)) {
         return cells_.sample(grid, u);
     }
     if (u.y < bright) {

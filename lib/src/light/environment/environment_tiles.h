@@ -65,8 +65,9 @@ public:
         std::array<float, max_rows> row_sums;
         float sum;
 
-        /// Computes the sums.
-        void sum_up() noexcept;
+        using Pairs = std::array<float, tile_count / 2>;
+        /// Computes the sums. `pairs` has those of tiles i and i + tile_count / 2.
+        void sum_up(Pairs& pairs) noexcept;
     };
 
     /// Builds the distribution; if all weights are zero it cannot be sampled.
@@ -115,6 +116,17 @@ private:
                                     EnvironmentSampling sampling) const noexcept;
     [[nodiscard]] CellTables::Cell sample_cell(std::size_t tile, Vec2 u,
                                                EnvironmentSampling sampling) const noexcept;
+    /// Tests whether samples in the tile may be of its dim weight.
+    [[nodiscard]] bool samples_dim(std::size_t tile, EnvironmentSampling sampling) const noexcept
+    {
+        return sampling == EnvironmentSampling::plain && bright_in_tile_[tile] < 1.0f;
+    }
+    /// Returns the density of a bright cell of this probability in the tile's own unit square.
+    [[nodiscard]] float bright_pdf(std::size_t tile, float probability) const noexcept
+    {
+        return probability *
+               (static_cast<float>(count_columns(tile)) * static_cast<float>(count_rows(tile)));
+    }
     [[nodiscard]] float density(std::size_t tile, const Worth& worth,
                                 float cell_pdf) const noexcept;
     /// Returns the density in the tile's own unit square.

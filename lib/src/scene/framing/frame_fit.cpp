@@ -9,7 +9,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace bdpt {
 namespace {
@@ -56,58 +58,71 @@ private:
     std::array<float, 4> reach_{};
 };
 
-/// Adds the vertices of the triangles of `placed`, at all steps of its motion.
-void add_triangles(const PlacedMesh& placed, Supports& supports)
+/// The points and spheres that bound a scene.
+struct Outline {
+    std::vector<Vec3> points{};
+    std::vector<Vec4> spheres{};  ///< center and radius
+};
+
+/// Adds each vertex of the triangles of `placed` once, at all steps of its motion.
+void add_vertices(const PlacedMesh& placed, Outline& outline)
 {
+    std::vector<bool> used(placed.mesh().positions.size());
     for (const UVec3& triangle : placed.mesh().triangles) {
-        for (std::size_t step = 0; step <= placed.steps(); ++step) {
-            for (int corner = 0; corner < 3; ++corner) {
-                supports.add(placed.world_point_at(step, triangle[corner]));
-            }
+        for (int corner = 0; corner < 3; ++corner) {
+            used[triangle[corner]] = true;
+        }
+    }
+    for (std::uint32_t vertex = 0; vertex < used.size(); ++vertex) {
+        for (std::size_t step = 0; used[vertex] && step <= placed.steps(); ++step) {
+            outline.points.push_back(placed.world_point_at(step, vertex));
         }
     }
 }
 
 /// Adds the corners of the mesh's bounding box instead, in constant time.
-void add_box(const PlacedMesh& placed, const MeshBox& box, Supports& supports)
+void add_box(const PlacedMesh& placed, const MeshBox& box, Outline& outline)
 {
     for (std::size_t step = 0; step <= placed.steps(); ++step) {
         const Placement placement(placed.transform_at(step));
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3 sign((corner & 1) != 0 ? 1.0f : -1.0f, (corner & 2) != 0 ? 1.0f : -1.0f,
                             (corner & 4) != 0 ? 1.0f : -1.0f);
-            supports.add(placement.point(box.center + sign * box.half));
+            outline.points.push_back(placement.point(box.center + sign * box.half));
         }
     }
 }
 
-void add_all(const SceneGeometry& geometry, Supports& supports)
+Outline outline_of(const SceneGeometry& geometry)
 {
     // Beyond this many triangles, rigid meshes are fitted by their boxes.
     constexpr std::size_t max_triangles = 4'000'000;
     const bool by_box = geometry.counts.instanced_triangles > max_triangles;
+    Outline outline;
     for (std::size_t i = 0; i < geometry.placed.size(); ++i) {
         const PlacedMesh& placed = geometry.placed[i];
         const auto mesh = static_cast<std::size_t>(geometry.instances[i].mesh);
         if (by_box && !placed.deforms() && geometry.boxes[mesh]) {
-            add_box(placed, *geometry.boxes[mesh], supports);
+            add_box(placed, *geometry.boxes[mesh], outline);
         } else {
-            add_triangles(placed, supports);
+            add_vertices(placed, outline);
         }
     }
     for (const Sphere& sphere : geometry.spheres) {
-        supports.add(sphere.center, sphere.radius);
+        outline.spheres.emplace_back(sphere.center, sphere.radius);
         for (const Vec3 center : sphere.motion) {
-            supports.add(center, sphere.radius);
+            outline.spheres.emplace_back(center, sphere.radius);
         }
     }
     for (const VolumeDesc& volume : geometry.volumes) {
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3 sides((corner & 1) != 0 ? 1.0f : 0.0f, (corner & 2) != 0 ? 1.0f : 0.0f,
                              (corner & 4) != 0 ? 1.0f : 0.0f);
-            supports.add(Vec3(volume.world_from_grid * Vec4(sides * Vec3(volume.size), 1.0f)));
+            outline.points.emplace_back(volume.world_from_grid *
+                                        Vec4(sides * Vec3(volume.size), 1.0f));
         }
     }
+    return outline;
 }
 
 /// Sides of the frustum, or of a box if both slopes are 0, that touch the scene.
@@ -120,7 +135,7 @@ struct Sides {
 class Fit {
 public:
     Fit(const SceneGeometry& geometry, const Mat3& axes, bool whole_turn)
-        : geometry_(geometry),
+        : outline_(outline_of(geometry)),
           axes_(axes),
           middle_(0.5f * (geometry.bounds.min + geometry.bounds.max)),
           whole_turn_(whole_turn)
@@ -138,7 +153,12 @@ public:
             middle_,
             {axes_[0] + aslant_x, -axes_[0] + aslant_x, axes_[1] + aslant_y, -axes_[1] + aslant_y},
             whole_turn_);
-        add_all(geometry_, supports);
+        for (const Vec3 point : outline_.points) {
+            supports.add(point);
+        }
+        for (const Vec4& sphere : outline_.spheres) {
+            supports.add(Vec3(sphere), sphere.w);
+        }
         if (!std::isfinite(supports[0])) {
             supports.add(middle_);  // for an empty scene
         }
@@ -169,7 +189,7 @@ public:
     }
 
 private:
-    const SceneGeometry& geometry_;
+    Outline outline_;
     Mat3 axes_;
     Vec3 middle_;
     bool whole_turn_;

@@ -197,8 +197,8 @@ struct BidirectionalOptions {
     /// vcm: if above 0, a camera vertex merges with at most this many light vertices: where more
     /// are near, some are chosen at random, and stand for all.
     int max_merges = 0;
-    /// Maximum memory of the shared light paths of one sample index [bytes], estimated from their
-    /// usual length.
+    /// Maximum memory of the shared light paths [bytes], estimated from their usual length. Those
+    /// of large images are traced in batches, and vcm keeps all of a sample index.
     std::uint64_t light_path_memory = 4'000'000'000;
     /// Maximum subpath lengths in edges; strategies with longer subpaths are excluded.
     int max_camera_depth = std::numeric_limits<int>::max();

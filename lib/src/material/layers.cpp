@@ -3,6 +3,7 @@
 #include "math/rgb.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace bdpt {
 namespace {
@@ -99,6 +100,12 @@ bool LayerTables::are_enough_for(std::span<const MaterialDesc> materials) const
         return coat_desc.factor == 0.0f || coat(coat_desc.ior) != nullptr;
     });
     return coated && (fuzz || !need_fuzz(materials));
+}
+
+std::uint64_t LayeredConstants::new_id() noexcept
+{
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
 }
 
 }  // namespace bdpt

@@ -8,6 +8,7 @@
 
 #include <bdpt/scene_desc.h>
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -56,6 +57,10 @@ struct LayeredConstants {
     const CoatTables* coat = nullptr;  ///< set if there is a coat
     bool fuzz_covers_coat = false;
     const LayerTables* tables = nullptr;
+    std::uint64_t id = new_id();  ///< of no others, but for copies
+
+private:
+    [[nodiscard]] static std::uint64_t new_id() noexcept;
 };
 
 /// A surface of several layers at one point: `GltfParameters`, coat, fibres above or below it, film
@@ -101,6 +106,7 @@ struct LayeredParameters {
         transmission = Unit16(base.transmission);
         body = base.body;
     }
+    [[nodiscard]] bool operator==(const LayeredParameters&) const = default;
     [[nodiscard]] GltfParameters base() const
     {
         return {base_color,

@@ -20,6 +20,7 @@ public:
         : bits_(static_cast<std::uint16_t>(std::clamp(value, 0.0f, 1.0f) * 65535.0f + 0.5f))
     {}
     [[nodiscard]] float value() const { return static_cast<float>(bits_) * (1.0f / 65535.0f); }
+    [[nodiscard]] bool operator==(const Unit16&) const = default;
 
 private:
     std::uint16_t bits_ = 0;
@@ -34,6 +35,7 @@ public:
         : bits_(static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f))
     {}
     [[nodiscard]] float value() const { return static_cast<float>(bits_) * (1.0f / 255.0f); }
+    [[nodiscard]] bool operator==(const Unit8&) const = default;
 
 private:
     std::uint8_t bits_ = 0;
@@ -45,6 +47,7 @@ public:
     Color16() = default;
     explicit Color16(Rgb color) : r_(color.r), g_(color.g), b_(color.b) {}
     [[nodiscard]] Rgb value() const { return {r_.value(), g_.value(), b_.value()}; }
+    [[nodiscard]] bool operator==(const Color16&) const = default;
 
 private:
     Unit16 r_;
@@ -61,6 +64,7 @@ public:
     [[nodiscard]] T* get() const { return std::bit_cast<T*>(bits_); }
     [[nodiscard]] T& operator*() const { return *get(); }
     [[nodiscard]] T* operator->() const { return get(); }
+    [[nodiscard]] bool operator==(const PackedPointer&) const = default;
 
 private:
     using Bits = std::array<std::uint32_t, sizeof(T*) / sizeof(std::uint32_t)>;
@@ -77,6 +81,7 @@ public:
         return normalize(
             Vec3{static_cast<float>(x_), static_cast<float>(y_), static_cast<float>(z_)});
     }
+    [[nodiscard]] bool operator==(const Direction16&) const = default;
 
 private:
     [[nodiscard]] static std::int16_t signed16(float value)

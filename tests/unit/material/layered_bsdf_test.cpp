@@ -2,6 +2,7 @@
 
 #include "bsdf_cases.h"
 #include "catch.hpp"
+#include "material/models/recent_models.h"
 #include "math/rgb.h"
 #include "statistics.h"
 
@@ -98,6 +99,28 @@ TEST_CASE("what comes through diffusely has the values worked out by hand")
     CHECK(through.f_cos.b == Approx(0.25f * 0.3f * 0.8f * 0.31831f).epsilon(1e-3));
     const BsdfEval back = bsdf.eval(up, -down, TransportMode::radiance);
     CHECK(back.f_cos.g == Approx(0.75f * 0.5f * 0.8f * 0.31831f).epsilon(1e-3));
+}
+
+TEST_CASE("a thread keeps the layered models that it made last")
+{
+    const LayeredConstants constants;
+    const LayeredConstants of_other_scene;
+    RecentModels<int> recent;
+    int made = 0;
+    const auto model = [&](const LayeredConstants& of, float roughness, Vec3 macro) {
+        const LayeredParameters parameters({.roughness = roughness}, of);
+        return recent.get(parameters, Direction16(macro), [&] { return ++made; });
+    };
+    const Vec3 even(0.0f, 0.0f, 1.0f);
+    CHECK(model(constants, 0.5f, even) == 1);
+    CHECK(model(constants, 0.5f, even) == 1);
+    CHECK(model(constants, 0.6f, even) == 2);
+    CHECK(model(constants, 0.5f, {0.6f, 0.0f, 0.8f}) == 3);
+    CHECK(model(of_other_scene, 0.5f, even) == 4);
+    CHECK(model(constants, 0.5f, even) == 1);
+    CHECK(model(constants, 0.7f, even) == 5);  // in place of the oldest
+    CHECK(model(constants, 0.6f, even) == 2);
+    CHECK(model(constants, 0.5f, even) == 6);
 }
 
 }  // namespace bdpt::test::layered_bsdf_test

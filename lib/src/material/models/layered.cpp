@@ -1,5 +1,6 @@
 #include "material/models/layered.h"
 
+#include "material/models/recent_models.h"
 #include "math/elementary.h"
 #include "math/rgb.h"
 
@@ -128,20 +129,30 @@ LayeredFacet::LayeredFacet(const TiltedFacet& facet, const Frame& surface,
                 fuzz_loss(parameters), is_solid(parameters), surface)
 {}
 
+namespace {
+
+[[nodiscard]] const LayeredBsdf& model_of(const LayeredParameters& parameters)
+{
+    static thread_local constinit RecentModels<LayeredBsdf> recent;
+    return recent.get(parameters, {}, [&] { return LayeredBsdf(parameters); });
+}
+
+}  // namespace
+
 BsdfEval Layered::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
 {
-    return LayeredBsdf(parameters_).eval(wo, wi, mode);
+    return model_of(parameters_).eval(wo, wi, mode);
 }
 
 std::optional<BsdfSample> Layered::sample(Vec3 wo, float u_lobe, Vec2 u,
                                           TransportMode mode) const noexcept
 {
-    return LayeredBsdf(parameters_).sample(wo, u_lobe, u, mode);
+    return model_of(parameters_).sample(wo, u_lobe, u, mode);
 }
 
 bool Layered::has_smooth_lobe() const noexcept
 {
-    return LayeredBsdf(parameters_).has_smooth_lobe();
+    return model_of(parameters_).has_smooth_lobe();
 }
 
 }  // namespace bdpt

@@ -106,8 +106,8 @@ private:
                  const LayeredParameters& parameters);
 };
 
-/// A surface with layers, stored as its parameters: `LayeredBsdf` is constructed at each call, so
-/// that layers, which are rare, do not enlarge all path vertices.
+/// A surface with layers, stored as its parameters, so that layers, which are rare, do not enlarge
+/// all path vertices: each thread keeps the `LayeredBsdf`s that it made last.
 class Layered {
 public:
     explicit Layered(const LayeredParameters& parameters) : parameters_(parameters) {}

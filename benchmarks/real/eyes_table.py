@@ -49,6 +49,13 @@ def measure_point(way, scene, spp, folder, arguments, load):
     return min(seconds), flips
 
 
+def measure_load(way, scene, folder, arguments):
+    """Returns the least CPU time in which the program of a way loads the scene and renders a pixel."""
+    program = way.partition(":")[0] + ":" if ":" in way else ""
+    return min(real_scenes.render(program + "--integrator mis", scene, folder / "start.exr", arguments, "--spp", "1",
+                                  "--crop", "0,0,1,1") for _ in range(2))
+
+
 def at_time(points, time):
     """Interpolates FLIP between the points around `time`, or beyond the last two."""
     before, after = next(((a, b) for a, b in zip(points, points[1:]) if b[0] >= time), points[-2:])
@@ -62,11 +69,11 @@ def measure(scene, arguments):
         folder = pathlib.Path(place)
         real_scenes.render(arguments.way[0], scene, folder / "reference.exr", arguments, "--seed", "1000", "--spp",
                            str(arguments.reference))
-        load = min(real_scenes.render("--integrator mis", scene, folder / "start.exr", arguments, "--spp", "1",
-                                      "--crop", "0,0,1,1") for _ in range(2))
-        time, first = measure_point(arguments.way[0], scene, arguments.spp, folder, arguments, load)
+        time, first = measure_point(arguments.way[0], scene, arguments.spp, folder, arguments,
+                                    measure_load(arguments.way[0], scene, folder, arguments))
         flips = [first]
         for way in arguments.way[1:]:
+            load = measure_load(way, scene, folder, arguments)
             points = []
             spp = 8
             while len(points) < 2 or (points[-1][0] < time and spp <= MOST):

@@ -258,7 +258,7 @@ TEST_CASE("rates make no step of noise that an eye sees: objects", "[evenness][l
 
 TEST_CASE("rates make no step of noise that an eye sees: 64 samples", "[evenness][long]")
 {
-    check_case({"cornell-box", 128, 8}, 64);
+    check_case(GENERATE(Case{"cornell-box", 128, 8}, Case{"alpha", 128, 8}), 64);
 }
 
 }  // namespace bdpt::eval::evenness_test

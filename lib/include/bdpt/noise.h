@@ -27,11 +27,11 @@ namespace bdpt {
 /// its pixels' luminance over its mean luminance or, in dark tiles, over 1 % of the image's mean
 /// luminance. It is estimated from the difference of the film's halves [Dammertz et al. 2010, "A
 /// Hierarchical Automatic Stopping Condition for Monte Carlo Global Illumination"], splats
-/// included. Tiles whose halves are bit-identical do not count: empty background would hide the
-/// rest. Where `aovs` have `Aov::alpha`, the image is judged before a background as bright as what
-/// is opaque on average: on its own, a silhouette in a black tile would be noisier than it looks. A
-/// few tiles with fireflies do not affect the result, and neither does light that no sample has
-/// found yet.
+/// included. Tiles with an error below 0.01 % do not count unless all are so clean: a smooth sky or
+/// an empty background would hide the rest. Where `aovs` have `Aov::alpha`, the image is judged
+/// before a background as bright as what is opaque on average: on its own, a silhouette in a black
+/// tile would be noisier than it looks. A few tiles with fireflies do not affect the result, and
+/// neither does light that no sample has found yet.
 ///
 /// The estimate is valid for halves of equally many samples, which render() ensures whenever it
 /// measures the noise. Infinite if there are fewer than two samples, or if the image is black.

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int tile_side = 16;            // approximately [pixels]
 constexpr double share_of_tiles = 0.95;  // fraction of tiles at or below the noise
+constexpr double clean = 1e-4;           // errors below count only where all are
 constexpr double dark = 0.01;            // relative to the image's mean luminance
 constexpr std::int64_t first_look = 16;
 constexpr std::int64_t max_samples = std::int64_t{1} << 31;
@@ -122,11 +123,12 @@ double estimate_noise(const Film& film, const AovFilm& aovs)
     if (errors.empty()) {
         return 0.0;
     }
-    const auto rank =
-        static_cast<std::ptrdiff_t>(std::ceil(share_of_tiles * static_cast<double>(errors.size())));
-    const auto quantile = errors.begin() + (rank - 1);
-    std::nth_element(errors.begin(), quantile, errors.end());
-    return *quantile;
+    std::sort(errors.begin(), errors.end());
+    const double least = errors.back() < clean ? 0.0 : clean;
+    const auto first = std::lower_bound(errors.begin(), errors.end(), least);
+    const auto rank = static_cast<std::ptrdiff_t>(
+        std::ceil(share_of_tiles * static_cast<double>(errors.end() - first)));
+    return first[rank - 1];
 }
 
 std::int64_t next_noise_look(std::int64_t samples)

@@ -244,21 +244,29 @@ void check_case(const Case& of, std::int64_t samples)
 
 TEST_CASE("rates make no step of noise that an eye sees: boxes and leaves", "[evenness][long]")
 {
+    const std::int64_t samples = GENERATE(16, 64);
+    CAPTURE(samples);
     check_case(GENERATE(Case{"cornell-box", 128, 8}, Case{"alpha", 128, 8}, Case{"motion", 192, 8}),
-               16);
+               samples);
 }
 
 TEST_CASE("rates make no step of noise that an eye sees: objects", "[evenness][long]")
 {
+    const std::int64_t samples = GENERATE(16, 64);
+    CAPTURE(samples);
     check_case(GENERATE(Case{"fourteen-specular", 128, 8}, Case{"nine-spheres-dof", 192, 8},
-                        Case{"instances", 300, 8, visible_with_few},
-                        Case{"shading-normals", 192, 8, visible_with_few}),
-               16);
+                        Case{"material-layers", 192, 8}),
+               samples);
 }
 
-TEST_CASE("rates make no step of noise that an eye sees: 64 samples", "[evenness][long]")
+TEST_CASE("rates make no step of noise that an eye sees: where points gain most",
+          "[evenness][long]")
 {
-    check_case(GENERATE(Case{"cornell-box", 128, 8}, Case{"alpha", 128, 8}), 64);
+    const std::int64_t samples = GENERATE(16, 64);
+    CAPTURE(samples);
+    check_case(GENERATE(Case{"shading-normals", 192, 8, visible_with_few},
+                        Case{"instances", 192, 8, visible_with_few}),
+               samples);
 }
 
 }  // namespace bdpt::eval::evenness_test

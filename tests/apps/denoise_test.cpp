@@ -177,6 +177,44 @@ TEST_CASE("pictures are denoised by default, images of light never")
     CHECK(read_channels(folder.path("absent.exr")) == raw);
 }
 
+TEST_CASE("a large denoised picture alone has fewer samples unless their number is asked for")
+{
+    const DenoiseFolder folder;
+    const std::string png = folder.path("a.png");
+    const auto samples = [&](const char* size, const Words& more, const char* library) {
+        Words words{"render",       folder.path("cube.gltf"),
+                    "-o",           png,
+                    "--integrator", "pt",
+                    "--size",       size,
+                    "--crop",       "0,0,8,8",
+                    "--json",       "--quiet"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome =
+            run({.arguments = words, .environment = {{"BDPT_DENOISER", library}}});
+        CAPTURE(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return nlohmann::json::parse(outcome.out)["samples"].get<int>();
+    };
+    CHECK(samples("1920x1080", {}, BDPT_FAKE_OIDN) == 8);
+    CHECK(samples("1280x720", {}, BDPT_FAKE_OIDN) == 8);
+    CHECK(samples("800x600", {}, BDPT_FAKE_OIDN) == 16);
+    CHECK(samples("640x360", {"--denoise", "-o", folder.path("a.webp")}, BDPT_FAKE_OIDN) == 32);
+    CHECK(samples("480x270", {}, BDPT_FAKE_OIDN) == 64);
+    const auto large = [&](const Words& more) { return samples("1280x720", more, BDPT_FAKE_OIDN); };
+    CHECK(samples("1280x720", {}, "") == 64);
+    CHECK(large({"--denoise=false"}) == 64);
+    CHECK(large({"-o", folder.path("a.exr")}) == 64);
+    CHECK(large({"--spp", "64"}) == 64);
+    CHECK(large({"--samples", "0:24"}) == 24);
+    CHECK(large({"--noise", "99%"}) != 8);
+    CHECK(large({"--part", folder.path("a.part.exr")}) == 64);
+    // The samples are those of a render that is asked for as many.
+    REQUIRE(large({"--spp", "8"}) == 8);
+    const PngFile asked = read_png(png);
+    REQUIRE(large({}) == 8);
+    CHECK(read_png(png).values == asked.values);
+}
+
 TEST_CASE("what is denoised by default is said")
 {
     const DenoiseFolder folder;

@@ -244,6 +244,10 @@ struct Denoiser::Library {
         Filter filter(oidn, device, layer.width, layer.height);
         filter.set(name, layer.values.data());
         filter.set("output", output.data());
+        if (has_quality_fast) {
+            // As good for the image that they guide, in a third of the time.
+            filter.set("quality", OidnFunctions::quality_fast);
+        }
         filter.run(control.stop);
         return output;
     }

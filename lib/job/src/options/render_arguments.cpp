@@ -28,8 +28,10 @@ void add_how(OptionList& options, RenderRequest& request)
     RenderOptions& render = arguments.options;
     options.section("How to render", of_render);
     constexpr std::int64_t max_samples = std::int64_t{1} << 31;
-    options.add("--spp", "N", "Samples per pixel. Default: 64", request.spp,
-                whole_number(1, max_samples));
+    options.add(
+        "--spp", "N",
+        "Samples per pixel. Default: 64; 8 to 64, by its size, for a denoised picture alone",
+        request.spp, whole_number(1, max_samples));
     add_size_option(options, request,
                     "Image size. Default: the largest with the camera's aspect ratio within "
                     "1280x720");
@@ -184,6 +186,13 @@ bool may_adapt(const RenderRequest& request, const RenderArguments& arguments)
     return request.adaptive == Adaptivity::automatic && !takes_rates(request) &&
            arguments.options.integrator == IntegratorKind::automatic &&
            SampleRates::fit(arguments.samples);
+}
+
+/// Tests whether nothing says how long to render one image, or needs more of it than a picture.
+bool may_take_few(const RenderRequest& request, const RenderArguments& arguments)
+{
+    return !request.spp && !request.samples && !request.seconds && !arguments.goal.noise &&
+           !takes_rates(request) && !arguments.part && !arguments.sequence;
 }
 
 /// Returns the number of samples of the whole render, as far as it is known.
@@ -358,6 +367,7 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
         }
     }
     result.strategies = checked(request.strategies, result.options, options);
+    result.may_take_few = may_take_few(request, result) && !result.strategies;
     std::vector<std::filesystem::path> written = result.outputs;
     written.push_back(result.stats.value_or(""));
     check_pipes(std::array{result.file, std::filesystem::path(result.environment.value_or(""))},

@@ -97,6 +97,33 @@ void check_files_of_plan(const RenderArguments& asked, const Plan& plan)
 
 }  // namespace
 
+namespace {
+
+/// Returns the number of samples per pixel that a denoised picture has if none is asked for: about
+/// a minute of two processors brings it in a room, and it is clean to the eye. Depends on the size
+/// of the whole image, so that a crop has its pixels.
+std::int64_t samples_of_denoised_picture(const Size& size)
+{
+    constexpr std::int64_t least = 8;
+    constexpr std::int64_t most_of_image = 12'000'000;
+    const std::int64_t pixels = std::int64_t{size.width} * size.height;
+    std::int64_t samples = SampleRange{}.end;
+    while (samples > least && samples * pixels > most_of_image) {
+        samples /= 2;
+    }
+    return samples;
+}
+
+RenderArguments with_samples(RenderArguments image, std::int64_t samples)
+{
+    image.goal.samples = samples;
+    image.samples = {.begin = 0, .end = samples};
+    image.options.sampling.planned_samples = samples;
+    return image;
+}
+
+}  // namespace
+
 RenderArguments with_image_cache(RenderArguments arguments)
 {
     if (arguments.sequence && arguments.sequence->frames && arguments.sequence->orbit == 0) {
@@ -228,6 +255,10 @@ JobResult run_render(const RenderArguments& typed, const std::vector<std::string
                 .camera = stage->camera, .size = stage->size, .is_framed = stage->is_framed};
         }
         image = completed_for_screens(std::move(image), asked, *stage, denoiser, shared, console);
+        if (denoiser && image.may_take_few &&
+            std::all_of(image.outputs.begin(), image.outputs.end(), is_for_screens)) {
+            image = with_samples(std::move(image), samples_of_denoised_picture(stage->size));
+        }
         Viewpoint seen = sequence_viewpoint(*stage, *first, image);
         if (view.turn && image.sequence->motion == TurntableMotion::object) {
             if (!still) {

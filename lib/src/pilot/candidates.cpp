@@ -35,6 +35,7 @@ double sample_cost(const Candidate& candidate, const RenderStats& pilot, double 
     const RayCounts& rays = pilot.rays;
     const double segments = per(rays.camera, pilot.paths.camera);
     const double next_event =
+        candidate.light_samples *
         per(rays.shadow - rays.shadow_to_lens - rays.shadow_interior, pilot.paths.camera);
     if (candidate.light_paths == 0.0) {
         return cost_path(cost_model.path_tracing, segments, next_event);

@@ -8,15 +8,15 @@
 namespace bdpt {
 namespace {
 
-/// N of each group (own, splats, connections) and candidate, to some power.
-using Factors = std::array<PerCandidate<double>, 3>;
+/// N of each group (own, lights, splats, connections) and candidate, to some power.
+using Factors = std::array<PerCandidate<double>, 4>;
 
 constexpr Factors numbers(int power)
 {
     Factors factors{};
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const std::array<double, 3> samples{1.0, candidates[k].light_paths,
-                                            candidates[k].connections};
+        const std::array<double, 4> samples{1.0, candidates[k].light_samples,
+                                            candidates[k].light_paths, candidates[k].connections};
         for (std::size_t group = 0; group < samples.size(); ++group) {
             factors[group][k] = 1.0;
             for (int i = 0; i < power; ++i) {
@@ -35,7 +35,7 @@ constexpr Factors third = numbers(3);
 
 PathShares::Group PathShares::find_group(int s, int t)
 {
-    return s <= 1 ? own : t <= 1 ? splats : connections;
+    return s == 0 || (s == 1 && t == 1) ? own : s == 1 ? lights : t <= 1 ? splats : connections;
 }
 
 PathShares::Kind PathShares::find_kind(const PathContribution& path)
@@ -49,7 +49,7 @@ PathShares::PathShares(const PathContribution& path, Heuristic heuristic, double
       kind_(find_kind(path)),
       squares_(heuristic == Heuristic::power)
 {
-    const PerGroup samples{1.0, light_paths, pilot_connections};
+    const PerGroup samples{1.0, 1.0, light_paths, pilot_connections};
     const float found = path.shares[static_cast<std::size_t>(path.strategy.s)];
     used_share_ = static_cast<double>(found) / samples[used_];
     mean_ = luminance(path.unweighted) * (path.merged ? path.chance * path.weight : found);
@@ -84,7 +84,8 @@ PerCandidate<double> PathShares::numbers() const
 {
     PerCandidate<double> result;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        result[k] = shares_[own] + first[splats][k] * shares_[splats] +
+        result[k] = shares_[own] + first[lights][k] * shares_[lights] +
+                    first[splats][k] * shares_[splats] +
                     first[connections][k] * shares_[connections];
     }
     return result;
@@ -95,7 +96,8 @@ PerCandidate<double> PathShares::sums() const
     const Factors& raised = squares_ ? second : first;
     PerCandidate<double> result;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        result[k] = raised_[own] + raised[splats][k] * raised_[splats] +
+        result[k] = raised_[own] + raised[lights][k] * raised_[lights] +
+                    raised[splats][k] * raised_[splats] +
                     raised[connections][k] * raised_[connections];
     }
     return result;
@@ -115,11 +117,13 @@ PerCandidate<double> PathShares::weights() const
 
 PerCandidate<double> PathShares::own_values() const
 {
-    const double value =
-        raised_[own] > 0.0 ? static_cast<double>(mean_) * moments_[own] / raised_[own] : 0.0;
+    const PerCandidate<double>& of_mean = (squares_ ? second : first)[lights];
+    const PerCandidate<double>& of_square = (squares_ ? third : first)[lights];
     PerCandidate<double> result = sums();
-    for (double& sum : result) {
-        sum = sum > 0.0 ? value / sum : 0.0;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double mean = result[k] * (raised_[own] + of_mean[k] * raised_[lights]);
+        const double square = moments_[own] + of_square[k] * moments_[lights];
+        result[k] = mean > 0.0 ? static_cast<double>(mean_) * square / mean : 0.0;
     }
     return result;
 }
@@ -128,14 +132,16 @@ PathShares::SecondMoments PathShares::second_moments() const
 {
     const Factors& factors = squares_ ? third : first;
     const double square = static_cast<double>(mean_) * static_cast<double>(mean_);
-    const double of_own = square * moments_[own];
+    const double of_hits = square * moments_[own];
+    const double of_lights = square * moments_[lights];
     const double of_splats = square * moments_[splats];
     const double of_connections = square * moments_[connections];
     const PerCandidate<double> all = sums();
     SecondMoments result;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const double scale = 1.0 / (all[k] > 0.0 ? all[k] * all[k] : 1.0);
-        result.own[k] = all[k] > 0.0 ? scale * of_own : std::numeric_limits<double>::infinity();
+        result.own[k] = all[k] > 0.0 ? scale * (of_hits + factors[lights][k] * of_lights)
+                                     : std::numeric_limits<double>::infinity();
         result.splats[k] = scale * factors[splats][k] * of_splats;
         result.connections[k] = scale * factors[connections][k] * of_connections;
         // Chosen with a chance below 1, a contribution is divided by it.
@@ -155,6 +161,7 @@ void CandidateMoments::add(const PathContribution& path, const PathShares& share
         const double weighted = weights[k] * unweighted;
         if (path.strategy.s <= 1) {
             own_[k].add(weighted);
+            lights_[k] += path.strategy.s == 1 ? weighted : 0.0;
         } else {
             connected_[static_cast<std::size_t>(path.light_path)][k].add(
                 weighted * PathShares::pilot_connections);
@@ -192,14 +199,22 @@ void VarianceOfSamples::add(const CandidateMoments& sample)
         const double value = sample.value(k);
         sums_[k] += value;
         squares_[k] += value * value;
+        const double lights = sample.light_samples(k);
+        lights_[k] += lights;
+        squares_of_lights_[k] += lights * lights;
     }
 }
 
 double VarianceOfSamples::variance(std::size_t k, int samples) const
 {
     // Products of different samples: an unbiased estimate of the mean's square.
-    return cross_[k] / samples -
-           (sums_[k] * sums_[k] - squares_[k]) / (static_cast<double>(samples) * (samples - 1));
+    const double pairs = static_cast<double>(samples) * (samples - 1);
+    const double mean_square = (sums_[k] * sums_[k] - squares_[k]) / pairs;
+    // Products of different light samples of a vertex, of which the pilot has one, as if they were
+    // independent; points of one vertex are so well distributed that no more is left.
+    const double of_lights = (1.0 - 1.0 / candidates[k].light_samples) *
+                             (lights_[k] * lights_[k] - squares_of_lights_[k]) / pairs;
+    return cross_[k] / samples + of_lights - mean_square;
 }
 
 }  // namespace bdpt

@@ -13,8 +13,8 @@ namespace bdpt {
 
 /// A path that a pilot found, reweighted for any numbers of light paths and connections. With a_s =
 /// p_s over the density with which the pilot finds such paths, merges included, a candidate has N_s
-/// a_s; N_s is 1 for s <= 1, or its number of light paths or of connections. Luminance represents
-/// all channels.
+/// a_s; N_s is 1 for s = 0, or its number of light samples relative to the pilot's, of light paths
+/// or of connections. Luminance represents all channels.
 class PathShares {
 public:
     /// Number of light paths to which a camera path of the pilot is connected.
@@ -37,11 +37,12 @@ public:
     [[nodiscard]] Kind kind() const { return kind_; }
     /// Returns the path's contribution to the mean of its pixel [nit].
     [[nodiscard]] double mean() const { return static_cast<double>(mean_); }
-    /// Returns how often one light path per camera path, and one connection, finds such paths,
+    /// Returns how often one light path per camera path, one light sample, and one connection, find
+    /// such paths,
     /// relative to the pilot; 0 if no candidate can.
     [[nodiscard]] double found_by_one() const
     {
-        return shares_[own] + shares_[splats] + shares_[connections];
+        return shares_[own] + shares_[lights] + shares_[splats] + shares_[connections];
     }
     /// Returns how often each candidate finds such paths, relative to the pilot. Each time they
     /// bring the mean over this number, with balance weights.
@@ -69,8 +70,9 @@ public:
     [[nodiscard]] bool choice_is_known() const { return choice_share_ > 0.0; }
 
 private:
-    /// Strategies with the same number of samples: s <= 1; s >= 2 and t <= 1; s, t >= 2.
-    enum Group : std::size_t { own, splats, connections, groups };
+    /// Strategies with the same number of samples: s = 0 and s = t = 1; s = 1 and t >= 2; s >= 2
+    /// and t <= 1; s, t >= 2.
+    enum Group : std::size_t { own, lights, splats, connections, groups };
     using PerGroup = std::array<double, groups>;
 
     [[nodiscard]] static Group find_group(int s, int t);
@@ -103,6 +105,8 @@ public:
 
     /// Returns the value of the candidate's sample.
     [[nodiscard]] double value(std::size_t candidate) const;
+    /// Returns the part of that value that light samples bring.
+    [[nodiscard]] double light_samples(std::size_t candidate) const { return lights_[candidate]; }
     /// Returns the second moment of that value, without the squares of single paths.
     [[nodiscard]] double cross_terms(std::size_t candidate) const;
 
@@ -119,7 +123,8 @@ private:
         [[nodiscard]] double products() const { return total * total - squares; }
     };
 
-    PerCandidate<Sum> own_{};  ///< contributions of the camera path alone (s <= 1)
+    PerCandidate<Sum> own_{};        ///< contributions of the camera path alone (s <= 1)
+    PerCandidate<double> lights_{};  ///< the part of these with s = 1
     /// Contributions of the connections to each light path, as if it were the only one.
     std::array<PerCandidate<Sum>, PathShares::pilot_connections> connected_{};
 };
@@ -136,6 +141,8 @@ private:
     PerCandidate<double> cross_{};
     PerCandidate<double> sums_{};
     PerCandidate<double> squares_{};
+    PerCandidate<double> lights_{};
+    PerCandidate<double> squares_of_lights_{};
 };
 
 }  // namespace bdpt

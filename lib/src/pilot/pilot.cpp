@@ -19,6 +19,10 @@ namespace bdpt {
 
 RenderOptions with_candidate(RenderOptions options, const Candidate& candidate)
 {
+    constexpr int most_light_samples = 1024;
+    options.sampling.light_samples =
+        std::min(most_light_samples,
+                 options.sampling.light_samples * static_cast<int>(candidate.light_samples));
     if (candidate.light_paths == 0.0) {
         options.integrator = IntegratorKind::mis;
         return options;

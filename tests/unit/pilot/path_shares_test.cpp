@@ -29,7 +29,8 @@ PathContribution path_of(int s)
 /// How many times as many samples as a pilot the candidate takes of strategy s.
 double ratio(const Candidate& candidate, int s)
 {
-    return s <= 1              ? 1.0
+    return s == 0              ? 1.0
+           : s == 1            ? candidate.light_samples
            : vertices - s <= 1 ? candidate.light_paths / pilot_light_paths
                                : candidate.connections / 2.0;
 }
@@ -225,6 +226,7 @@ TEST_CASE("cross terms of a sample are those of its definition", "[pilot]")
         }
         CHECK(sample.cross_terms(k) == Approx(cross).epsilon(1e-4));
         CHECK(sample.value(k) == Approx(value).epsilon(1e-5));
+        CHECK(sample.light_samples(k) == Approx(a1).epsilon(1e-5));
     }
 }
 

@@ -455,7 +455,9 @@ TEST_CASE("a path that a usual render hardly finds does not count, but many of t
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         if (candidates[k].connections >= 1.0) {
             CHECK(one[k] == Approx(none[k]).epsilon(0.02));
-            CHECK(many[k] < 10.0 * none[k]);
+            // Of lights that all find alike, two light samples leave nothing: 0, but for rounding
+            // of the factors of Sobol points to either side.
+            CHECK(many[k] < 10.0 * std::abs(none[k]));
         }
     }
 }

@@ -276,9 +276,11 @@ std::string integrator_text(const RenderOptions& options, bool chosen)
             ? fmt::format("1 light path for {:.3g} camera paths", 1.0 / light_paths)
             : fmt::format("{} for each camera path", number(light_paths, "light path"));
     const double rays = options.bidirectional.connection_rays;
-    return fmt::format("{} ({}{}{})", text, paths,
+    const int light_samples = options.sampling.light_samples;
+    return fmt::format("{} ({}{}{}{})", text, paths,
                        connections == standard ? "" : ", " + number(connections, "connection"),
-                       rays == 0.0 ? "" : " by " + number(rays, "ray"));
+                       rays == 0.0 ? "" : " by " + number(rays, "ray"),
+                       light_samples == 1 ? "" : fmt::format(", {} light samples", light_samples));
 }
 
 namespace fs = std::filesystem;

@@ -74,14 +74,14 @@ std::size_t choose(const PilotMeasurements& pilot, const PerCandidate<Candidate>
     std::optional<Product> usual;  // the least of those that need no sure gain
     for (std::size_t k = 0; k < among.size(); ++k) {
         const Product product(pilot, among[k], k, constants);
-        if (!needs_sure_gain(among[k]) && !pilot.too_large[k] && (!usual || product < *usual)) {
+        if (!needs_sure_gain(among[k]) && !pilot.ruled_out[k] && (!usual || product < *usual)) {
             usual = product;
         }
     }
     Product best = *usual;
     for (std::size_t k = 0; k < among.size(); ++k) {
         const Product product(pilot, among[k], k, constants);
-        if (needs_sure_gain(among[k]) && !pilot.too_large[k] && product < best &&
+        if (needs_sure_gain(among[k]) && !pilot.ruled_out[k] && product < best &&
             product.surely_less(*usual)) {
             best = product;
         }

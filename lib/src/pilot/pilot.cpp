@@ -95,15 +95,13 @@ RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
     return options;
 }
 
-/// Rules out candidates that choose connections: in bodies that scatter light, the choice does not
-/// know how fast light is attenuated.
-void exclude_choice(PerCandidate<double>& errors)
+/// Tests whether the pilot predicts a candidate well. In bodies that scatter light, the choice of
+/// connections does not know how fast light is attenuated. Light samples of one vertex that come
+/// from lamps, small or hidden from it, are more alike than the pilot assumes.
+bool is_predictable(const Candidate& candidate, const World& world)
 {
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        if (candidates[k].connection_rays > 0.0) {
-            errors[k] = std::numeric_limits<double>::infinity();
-        }
-    }
+    return !(candidate.connection_rays > 0.0 && world.media().any_body_scatters()) &&
+           (candidate.light_samples == 1.0 || world.lights().environment().has_value());
 }
 
 /// Returns the number of connection rays, averaged over the image: where camera paths leave the
@@ -193,15 +191,12 @@ PilotMeasurements measure(const World& world, const MovingCamera& camera,
         .visible_lights = visible_light_errors(contributions, brightness, asked),
         .fireflies = errors.sure_fireflies,
         .costs = {},
-        .too_large = {},
+        .ruled_out = {},
         .merging_alone = share_of_merging_alone(contributions, brightness),
         .light_is_rare = errors.light_is_rare,
         .grid = grid,
         .cells = std::move(errors.of_cells),
         .stats = {}};
-    if (world.media().any_body_scatters()) {
-        exclude_choice(result.errors);
-    }
     // Shadow rays to directly visible lights are not part of next-event estimation.
     std::uint64_t to_lamps = 0;
     for (const PilotRow& row : contributions.rows) {
@@ -216,7 +211,8 @@ PilotMeasurements measure(const World& world, const MovingCamera& camera,
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         result.costs[k] = sample_cost(candidates[k], without_lamps,
                                       mean_connection_rays(candidates[k], contributions));
-        result.too_large[k] = !fits(with_candidate(asked, candidates[k]), result.stats);
+        result.ruled_out[k] = !is_predictable(candidates[k], world) ||
+                              !fits(with_candidate(asked, candidates[k]), result.stats);
     }
     return result;
 }

@@ -22,7 +22,8 @@ struct PilotMeasurements {
     VisibleLightErrors visible_lights;                 ///< errors of directly visible light
     PerCandidate<double> fireflies{};  ///< `PilotErrors::sure_fireflies`, which `errors` excludes
     PerCandidate<double> costs{};      ///< cost of a sample [ns on the machine of the cost model]
-    PerCandidate<bool> too_large{};    ///< light paths need more than `light_path_memory`
+    /// Light paths need more than `light_path_memory`, or the errors are not predictable.
+    PerCandidate<bool> ruled_out{};
     /// Fraction of the light that no candidate finds, in [0, 1].
     double merging_alone = 0.0;
     bool light_is_rare = false;  ///< `PilotBrightness::light_is_rare`

@@ -81,7 +81,7 @@ TEST_CASE("of the best at equal cost, the one that fits into memory is taken", "
     pilot.errors[index_of(0.0625, 1.0)] = 0.1;
     pilot.errors[index_of(1.0, 1.0)] = 0.5;
     CHECK(chosen_by(pilot) == Candidate{0.0625, 1.0});
-    pilot.too_large[index_of(0.0625, 1.0)] = true;
+    pilot.ruled_out[index_of(0.0625, 1.0)] = true;
     CHECK(chosen_by(pilot) == Candidate{1.0, 1.0});
     pilot.costs[0] = 0.5;
     CHECK(chosen_by(pilot) == Candidate{0.0, 0.0});

@@ -3,6 +3,7 @@
 #include "pilot/pilot.h"
 
 #include "catch.hpp"
+#include "ground_views.h"
 #include "pilot/candidates.h"
 #include "pilot/light_pilot.h"
 #include "pilot/path_shares.h"
@@ -58,10 +59,11 @@ PilotMeasurements pilot_of(const Scene& scene, const CameraDesc& camera,
     return measure(scene.world(), open_camera(scene.world(), camera, options), options);
 }
 
-std::size_t index_of(double light_paths, double connections, double rays = 0.0)
+std::size_t index_of(double light_paths, double connections, double rays = 0.0,
+                     double light_samples = 1.0)
 {
-    const auto found =
-        std::find(candidates.begin(), candidates.end(), Candidate{light_paths, connections, rays});
+    const auto found = std::find(candidates.begin(), candidates.end(),
+                                 Candidate{light_paths, connections, rays, light_samples});
     REQUIRE(found != candidates.end());
     return static_cast<std::size_t>(found - candidates.begin());
 }
@@ -318,12 +320,15 @@ TEST_CASE("no more connections are chosen than there are", "[pilot]")
 TEST_CASE("a pilot tells whose light paths do not fit into memory", "[pilot]")
 {
     RenderOptions options = small();
-    CHECK(pilot_of(indirect_room(), inside(), options).too_large == PerCandidate<bool>{});
+    const PilotMeasurements all_fit = pilot_of(indirect_room(), inside(), options);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        CHECK(all_fit.ruled_out[k] == (candidates[k].light_samples > 1.0));
+    }
     options.bidirectional.light_path_memory = 1;
     const PilotMeasurements pilot = pilot_of(indirect_room(), inside(), options);
-    CHECK(pilot.too_large[index_of(0.0625, 1.0)]);
-    CHECK_FALSE(pilot.too_large[index_of(1.0, 1.0)]);  // each path has its own
-    CHECK_FALSE(pilot.too_large[0]);
+    CHECK(pilot.ruled_out[index_of(0.0625, 1.0)]);
+    CHECK_FALSE(pilot.ruled_out[index_of(1.0, 1.0)]);  // each path has its own
+    CHECK_FALSE(pilot.ruled_out[0]);
 }
 
 TEST_CASE("connections are not chosen where bodies scatter light", "[pilot][media]")
@@ -339,8 +344,28 @@ TEST_CASE("connections are not chosen where bodies scatter light", "[pilot][medi
     builder.sphere({0.0f, 0.0f, 0.0f}, 0.5f, body, 16);
     const Scene scene(std::move(builder.desc));
     const PilotMeasurements pilot = pilot_of(scene, inside(), small());
-    CHECK(std::isinf(pilot.errors[index_of(0.0625, 8.0, 8.0)]) == scatters);
-    CHECK(std::isfinite(pilot.errors[index_of(0.0625, 1.0)]));
+    CHECK(pilot.ruled_out[index_of(0.0625, 8.0, 8.0)] == scatters);
+    CHECK_FALSE(pilot.ruled_out[index_of(0.0625, 1.0)]);
+}
+
+TEST_CASE("two light samples are a choice where an environment shines", "[pilot]")
+{
+    const bool shines = GENERATE(false, true);
+    SceneBuilder builder;
+    builder.walls(lambertian(Rgb(0.6f)), lambertian(Rgb(0.6f)));
+    builder.lamp(0.9f, 0.4f, Rgb(5.0f));
+    if (shines) {
+        builder.desc.lights.emplace_back(even_sky());
+    }
+    const Scene scene(std::move(builder.desc));
+    const std::size_t two = index_of(0.0625, 8.0, 4.0, 2.0);
+    const std::size_t one = index_of(0.0625, 8.0, 4.0);
+    const PilotMeasurements pilot = pilot_of(scene, inside(), small());
+    CHECK(pilot.ruled_out[two] != shines);
+    CHECK(pilot.errors[two] < pilot.errors[one]);
+    CHECK(pilot.costs[two] > pilot.costs[one]);
+    CHECK(with_candidate(small(), candidates[two]).sampling.light_samples == 2);
+    CHECK(with_candidate(small(), candidates[one]).sampling.light_samples == 1);
 }
 
 TEST_CASE("cells tell whether camera paths scatter there; else they cost less", "[pilot]")

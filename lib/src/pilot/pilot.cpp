@@ -19,10 +19,7 @@ namespace bdpt {
 
 RenderOptions with_candidate(RenderOptions options, const Candidate& candidate)
 {
-    constexpr int most_light_samples = 1024;
-    options.sampling.light_samples =
-        std::min(most_light_samples,
-                 options.sampling.light_samples * static_cast<int>(candidate.light_samples));
+    options.sampling.light_samples *= static_cast<int>(candidate.light_samples);
     if (candidate.light_paths == 0.0) {
         options.integrator = IntegratorKind::mis;
         return options;
@@ -95,13 +92,17 @@ RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
     return options;
 }
 
-/// Tests whether the pilot predicts a candidate well. In bodies that scatter light, the choice of
-/// connections does not know how fast light is attenuated. Light samples of one vertex that come
-/// from lamps, small or hidden from it, are more alike than the pilot assumes.
-bool is_predictable(const Candidate& candidate, const World& world)
+/// Tests whether a render may take the candidate. A number of light samples that was asked for
+/// stays. Some are not predicted well: in bodies that scatter light, the choice of connections does
+/// not know how fast light is attenuated; and light samples of one vertex that come from lamps,
+/// small or hidden from it, are more alike than the pilot assumes.
+bool is_suitable(const Candidate& candidate, const World& world, const RenderOptions& asked)
 {
-    return !(candidate.connection_rays > 0.0 && world.media().any_body_scatters()) &&
-           (candidate.light_samples == 1.0 || world.lights().environment().has_value());
+    if (candidate.connection_rays > 0.0 && world.media().any_body_scatters()) {
+        return false;
+    }
+    return candidate.light_samples == 1.0 ||
+           (asked.sampling.light_samples == 1 && world.lights().environment().has_value());
 }
 
 /// Returns the number of connection rays, averaged over the image: where camera paths leave the
@@ -211,7 +212,7 @@ PilotMeasurements measure(const World& world, const MovingCamera& camera,
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         result.costs[k] = sample_cost(candidates[k], without_lamps,
                                       mean_connection_rays(candidates[k], contributions));
-        result.ruled_out[k] = !is_predictable(candidates[k], world) ||
+        result.ruled_out[k] = !is_suitable(candidates[k], world, asked) ||
                               !fits(with_candidate(asked, candidates[k]), result.stats);
     }
     return result;

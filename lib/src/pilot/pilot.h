@@ -22,7 +22,7 @@ struct PilotMeasurements {
     VisibleLightErrors visible_lights;                 ///< errors of directly visible light
     PerCandidate<double> fireflies{};  ///< `PilotErrors::sure_fireflies`, which `errors` excludes
     PerCandidate<double> costs{};      ///< cost of a sample [ns on the machine of the cost model]
-    /// Light paths need more than `light_path_memory`, or the errors are not predictable.
+    /// Light paths need more than `light_path_memory`, or the candidate is not suitable.
     PerCandidate<bool> ruled_out{};
     /// Fraction of the light that no candidate finds, in [0, 1].
     double merging_alone = 0.0;

@@ -366,6 +366,11 @@ TEST_CASE("two light samples are a choice where an environment shines", "[pilot]
     CHECK(pilot.costs[two] > pilot.costs[one]);
     CHECK(with_candidate(small(), candidates[two]).sampling.light_samples == 2);
     CHECK(with_candidate(small(), candidates[one]).sampling.light_samples == 1);
+    // A number that is asked for stays.
+    RenderOptions three = small();
+    three.sampling.light_samples = 3;
+    CHECK(pilot_of(scene, inside(), three).ruled_out[two]);
+    CHECK(with_candidate(three, candidates[one]).sampling.light_samples == 3);
 }
 
 TEST_CASE("cells tell whether camera paths scatter there; else they cost less", "[pilot]")

@@ -37,9 +37,8 @@ public:
     [[nodiscard]] Kind kind() const { return kind_; }
     /// Returns the path's contribution to the mean of its pixel [nit].
     [[nodiscard]] double mean() const { return static_cast<double>(mean_); }
-    /// Returns how often one light path per camera path, one light sample, and one connection, find
-    /// such paths,
-    /// relative to the pilot; 0 if no candidate can.
+    /// Returns how often one light path per camera path, one light sample of a vertex, and one
+    /// connection find such paths, relative to the pilot; 0 if no candidate can.
     [[nodiscard]] double found_by_one() const
     {
         return shares_[own] + shares_[lights] + shares_[splats] + shares_[connections];

@@ -267,6 +267,9 @@ TEST_CASE("rates make no step of noise that an eye sees: where points gain most"
     check_case(GENERATE(Case{"shading-normals", 192, 8, visible_with_few},
                         Case{"instances", 192, 8, visible_with_few}),
                samples);
+    if (samples == 16) {
+        check_case({"instances", 300, 8, visible_with_few}, samples);
+    }
 }
 
 }  // namespace bdpt::eval::evenness_test

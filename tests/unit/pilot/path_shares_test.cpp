@@ -230,6 +230,24 @@ TEST_CASE("cross terms of a sample are those of its definition", "[pilot]")
     }
 }
 
+TEST_CASE("light samples of one vertex add their products to the second moment", "[pilot]")
+{
+    CandidateMoments sample;
+    PathContribution path = path_of(1);
+    path.unweighted = Rgb(3.0f);
+    sample.add(path, PathShares(path, Heuristic::power, pilot_light_paths));
+    VarianceOfSamples equal;
+    equal.add(sample);
+    equal.add(sample);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        // All samples have the mean m: of m^2 the squares of the n light samples, which are not
+        // counted here, have a part of 1/n.
+        const double mean = 3.0 * weight_of(candidates[k], 1, Heuristic::power);
+        CHECK(equal.variance(k, 2) ==
+              Approx(-mean * mean / candidates[k].light_samples).epsilon(1e-4));
+    }
+}
+
 TEST_CASE("connections that are chosen rarely vary more", "[pilot]")
 {
     constexpr double chance = 0.05;  // of one of the connections to 8 light paths, by one ray

@@ -188,7 +188,7 @@ bool may_adapt(const RenderRequest& request, const RenderArguments& arguments)
            SampleRates::fit(arguments.samples);
 }
 
-/// Tests whether nothing says how long to render one image, or needs more of it than a picture.
+/// Tests whether one image is rendered, and no option sets its samples or another limit.
 bool may_take_few(const RenderRequest& request, const RenderArguments& arguments)
 {
     return !request.spp && !request.samples && !request.seconds && !arguments.goal.noise &&

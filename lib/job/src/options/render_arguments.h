@@ -155,7 +155,7 @@ struct RenderArguments {
     SampleRange samples{};                         ///< per pixel
     std::optional<RatesChoice> rates{};  ///< set if pixels take different numbers of samples
     bool may_adapt = false;              ///< the pilot of the integrator may choose rates
-    /// Nothing says how long to render: one denoised picture gets fewer samples.
+    /// No option sets a limit of the render of one image: a denoised picture gets fewer samples.
     bool may_take_few = false;
     std::optional<std::filesystem::path> saved_rates{};  ///< .exr or .png for the rates
     std::optional<Sequence> sequence{};                  ///< set if there are several images

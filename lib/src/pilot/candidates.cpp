@@ -30,10 +30,12 @@ double connection_rays(const Candidate& candidate, const RenderStats& pilot)
     return wanted > 0.0 && all > 0.0 ? wanted * all / std::sqrt(wanted * wanted + all * all) : all;
 }
 
-double sample_cost(const Candidate& candidate, const RenderStats& pilot, double connection_rays)
+double sample_cost(const Candidate& candidate, const RenderStats& pilot, double connection_rays,
+                   double background)
 {
     const RayCounts& rays = pilot.rays;
-    const double segments = per(rays.camera, pilot.paths.camera);
+    const double segments =
+        per(rays.camera, pilot.paths.camera) - (1.0 - cost_model.background_segment) * background;
     const double next_event =
         candidate.light_samples *
         per(rays.shadow - rays.shadow_to_lens - rays.shadow_interior, pilot.paths.camera);

@@ -42,8 +42,9 @@ using PerCandidate = std::array<T, candidates.size()>;
 [[nodiscard]] double connection_rays(const Candidate& candidate, const RenderStats& pilot);
 
 /// Returns the cost of a sample of the candidate [ns], from the counts of a pilot, a number of
-/// connections, and fixed cost factors, so that every machine makes the same choice.
+/// connections, and fixed cost factors, so that every machine makes the same choice. `background`
+/// is the fraction of the pilot's camera paths that leave the scene at once.
 [[nodiscard]] double sample_cost(const Candidate& candidate, const RenderStats& pilot,
-                                 double connection_rays);
+                                 double connection_rays, double background);
 
 }  // namespace bdpt

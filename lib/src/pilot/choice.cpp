@@ -45,8 +45,8 @@ public:
 
     [[nodiscard]] std::size_t candidate() const { return candidate_; }
     [[nodiscard]] bool operator<(const Product& other) const { return value_ < other.value_; }
-    /// Returns whether this product is less than another by more than two standard errors of the
-    /// difference.
+    /// Returns whether this product is less than another by more than so many standard errors of
+    /// the difference.
     [[nodiscard]] bool surely_less(const Product& other) const
     {
         const std::size_t a = candidate_;

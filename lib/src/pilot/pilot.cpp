@@ -4,6 +4,7 @@
 #include "integrator/bidirectional/bidirectional_integrator.h"
 #include "pilot/candidates.h"
 #include "pilot/pilot_errors.h"
+#include "rates/rate_map.h"
 
 #include <tbb/parallel_for.h>
 
@@ -209,9 +210,11 @@ PilotMeasurements measure(const World& world, const MovingCamera& camera,
     }
     RenderStats without_lamps = result.stats;
     without_lamps.rays.shadow -= to_lamps;
+    const double background = 1.0 - mean_of(result.cells.scattering);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        result.costs[k] = sample_cost(candidates[k], without_lamps,
-                                      mean_connection_rays(candidates[k], contributions));
+        result.costs[k] =
+            sample_cost(candidates[k], without_lamps,
+                        mean_connection_rays(candidates[k], contributions), background);
         result.ruled_out[k] = !is_suitable(candidates[k], world, asked) ||
                               !fits(with_candidate(asked, candidates[k]), result.stats);
     }

@@ -372,14 +372,14 @@ PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
             }
             errors.of_sums[k] += error / cells;
             of_cells.camera[first_cell + i][k] += error;
-            of_cells.costs[first_cell + i][k] =
-                sample_cost(candidates[k], cell.stats, connection_rays(candidates[k], cell.stats));
+            of_cells.costs[first_cell + i][k] = sample_cost(
+                candidates[k], cell.stats, connection_rays(candidates[k], cell.stats), 0.0);
         }
         if (cell.stats.rays.camera > cell.stats.paths.camera) {
             of_cells.scattering[first_cell + i] = 1.0;
         } else {
             for (double& cost : of_cells.costs[first_cell + i]) {
-                cost *= pilot_constants.cost.background;
+                cost *= pilot_constants.cost.background_cell;
             }
         }
     }

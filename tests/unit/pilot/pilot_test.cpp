@@ -266,7 +266,7 @@ TEST_CASE("what costs more rays has a higher price", "[pilot]")
                   .shadow_interior = 60};
     const auto cost = [&](double n, double c, double rays = 0.0) {
         const Candidate candidate{.light_paths = n, .connections = c, .connection_rays = rays};
-        return sample_cost(candidate, stats, connection_rays(candidate, stats));
+        return sample_cost(candidate, stats, connection_rays(candidate, stats), 0.0);
     };
     CHECK(cost(0.0, 0.0) < cost(0.0625, 0.25));
     CHECK(cost(0.0625, 0.25) < cost(0.0625, 1.0));
@@ -283,7 +283,14 @@ TEST_CASE("what costs more rays has a higher price", "[pilot]")
     CHECK(cost(0.25, 8.0, 4.0) < cost(0.25, 8.0, 8.0));
     CHECK(cost(0.25, 8.0, 8.0) < cost(0.25, 8.0));
     CHECK(cost(0.25, 1.0, 4.0) < cost(0.25, 8.0, 4.0));
-    CHECK(sample_cost({.light_paths = 0.0, .connections = 0.0}, RenderStats{}, 0.0) > 0.0);
+    CHECK(sample_cost({.light_paths = 0.0, .connections = 0.0}, RenderStats{}, 0.0, 0.0) > 0.0);
+    // Camera paths that leave the scene at once cost less: by the same part of a segment.
+    const auto before_nothing = [&](double n, double background) {
+        const Candidate candidate{.light_paths = n};
+        return sample_cost(candidate, stats, 0.0, background);
+    };
+    CHECK(before_nothing(0.0, 0.0) - before_nothing(0.0, 0.5) == Approx(0.5 * 0.7 * 305.0));
+    CHECK(before_nothing(0.5, 0.0) - before_nothing(0.5, 1.0) == Approx(0.7 * 345.0));
 }
 
 TEST_CASE("a connection costs its choice and the shadow rays that one of the pilot's took",
@@ -297,7 +304,7 @@ TEST_CASE("a connection costs its choice and the shadow rays that one of the pil
     stats.rays.shadow = stats.rays.shadow_interior;
     const auto cost = [&](double connections) {
         const Candidate candidate{.light_paths = 0.25, .connections = connections};
-        return sample_cost(candidate, stats, connection_rays(candidate, stats));
+        return sample_cost(candidate, stats, connection_rays(candidate, stats), 0.0);
     };
     constexpr double shadow_ray = 200.0;  // [ns]
     constexpr double choice = 30.0;
@@ -391,7 +398,7 @@ TEST_CASE("cells tell whether camera paths scatter there; else they cost less", 
     RenderStats one_ray;
     one_ray.paths.camera = 1;
     one_ray.rays.camera = 1;
-    const double cost = sample_cost(candidates[0], one_ray, 0.0);
+    const double cost = sample_cost(candidates[0], one_ray, 0.0, 0.0);
     CHECK(cells.costs[in_front_of_nothing][0] < 0.6 * cost);
     CHECK(cells.costs[in_front_of_wall][0] > 1.5 * cost);
 }

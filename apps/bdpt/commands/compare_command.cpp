@@ -171,8 +171,7 @@ CompareArguments checked(const CompareArguments& arguments, const OptionList& /*
     metrics = arguments.metrics.value_or(
         std::vector<eval::Metric>(eval::all_metrics.begin(), eval::all_metrics.end()));
     for (const eval::Threshold& threshold : result.thresholds) {
-        if (threshold.kind == eval::ThresholdKind::metric &&
-            std::find(metrics.begin(), metrics.end(), threshold.metric) == metrics.end()) {
+        if (threshold.kind == eval::ThresholdKind::metric && !is_among(metrics, threshold.metric)) {
             metrics.push_back(threshold.metric);
         }
     }

@@ -32,11 +32,6 @@ constexpr std::array<std::string_view, 26> not_for_view{
     "--cameras",    "--same-noise",     "--json",    "--aov",     "--half",  "--float",
     "--tiled",      "--full-paths"};
 
-bool is_for_view(const Option& option)
-{
-    return std::find(not_for_view.begin(), not_for_view.end(), option.name()) == not_for_view.end();
-}
-
 constexpr const char* view_footer = R"(Examples:
   bdpt view model.glb
   bdpt view model.glb --env studio --background white
@@ -62,9 +57,7 @@ void add_view_options(OptionList& options, ViewRequest& request)
 {
     add_render_options(options, request.render);
     std::deque<Option>& all = options.all();
-    all.erase(std::remove_if(all.begin(), all.end(),
-                             [](const Option& option) { return !is_for_view(option); }),
-              all.end());
+    std::erase_if(all, [](const Option& option) { return is_among(not_for_view, option.name()); });
     for (Option& option : all) {
         option.uses = {.stated_in = option.uses.stated_in};
         if (option.name() == "--spp") {

@@ -2,6 +2,7 @@
 
 #include <bdpt/render.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -33,6 +34,12 @@ struct Goal {
     double seconds = std::numeric_limits<double>::infinity();
     std::optional<double> noise{};  ///< as by estimate_noise()
 };
+
+/// Returns the time since `start` [s].
+[[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 /// Progress of a task of many parts.
 struct TaskProgress {

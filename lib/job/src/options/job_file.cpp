@@ -20,15 +20,9 @@ using nlohmann::ordered_json;
 constexpr const char* format_key = "bdpt_job";
 constexpr const char* schema_key = "$schema";  // for editors
 
-bool is_word(const Option& option, const std::string& text)
-{
-    const std::vector<std::string>& words = option.info.words;
-    return std::find(words.begin(), words.end(), text) != words.end();
-}
-
 bool is_path(const Option& option, const std::string& text)
 {
-    return option.info.is_path && !text.empty() && !is_word(option, text);
+    return option.info.is_path && !text.empty() && !is_among(option.info.words, text);
 }
 
 bool is_number(const Option& option)
@@ -235,7 +229,7 @@ void load_job(const JsonValue& job, const fs::path& file, OptionList& options)
         // Values that the command line overrides are checked, too.
         std::vector<std::string> before = option->texts;
         take(*option, job.at(key), file.parent_path());
-        if (std::find(given.begin(), given.end(), option) != given.end()) {
+        if (is_among(given, option)) {
             option->texts = std::move(before);
         } else {
             option->job = file;

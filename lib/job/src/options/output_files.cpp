@@ -235,8 +235,7 @@ std::vector<std::string> standard_output_names()
 
 bool is_standard_output(const fs::path& output)
 {
-    const std::vector<std::string> names = standard_output_names();
-    return std::find(names.begin(), names.end(), output) != names.end();
+    return is_among(standard_output_names(), output);
 }
 
 bool use_standard_output(std::span<const fs::path> outputs)

@@ -2,10 +2,8 @@
 
 #include <bdpt/options/option_text.h>
 #include <bdpt/part/sample_rates.h>
-#include <fmt/core.h>
 
 #include <array>
-#include <limits>
 #include <utility>
 
 #include "machine/machine_limits.h"
@@ -384,8 +382,7 @@ RenderArguments render_arguments(const std::vector<std::string>& words)
 
 bool is_file_of_environment(const std::string& environment)
 {
-    return std::find(named_environments.begin(), named_environments.end(), environment) ==
-           named_environments.end();
+    return !is_among(named_environments, environment);
 }
 
 void add_part_options(OptionList& options, PartChoice& part)

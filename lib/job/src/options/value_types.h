@@ -32,6 +32,13 @@ struct Size {
 /// Converts ASCII letters to lower case.
 [[nodiscard]] std::string lower_case(std::string_view text);
 
+/// Tests whether `value` is one of `values`.
+template <typename Values, typename Value>
+[[nodiscard]] bool is_among(const Values& values, const Value& value)
+{
+    return std::find(std::begin(values), std::end(values), value) != std::end(values);
+}
+
 /// Splits `text` at each `separator`; parts may be empty.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
@@ -96,7 +103,7 @@ template <typename Value>
         if (!value) {
             return std::nullopt;
         }
-        if (std::find(result.begin(), result.end(), *value) == result.end()) {
+        if (!is_among(result, *value)) {
             result.push_back(*value);
         }
     }

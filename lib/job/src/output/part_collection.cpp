@@ -33,12 +33,6 @@ constexpr std::array<std::string_view, 16> with_value{
 constexpr std::array<std::string_view, 6> flags{"--restart", "-q",        "--quiet",
                                                 "-v",        "--verbose", "--json"};
 
-template <typename Names>
-bool has(const Names& names, std::string_view word)
-{
-    return std::find(names.begin(), names.end(), word) != names.end();
-}
-
 /// Returns the text of the first `command(i)` of `count` that fit.
 template <typename Command>
 std::string text_of_commands(std::size_t count, const Command& command)
@@ -59,10 +53,10 @@ std::vector<std::string> render_words(const std::vector<std::string>& words)
     for (std::size_t i = 1; i < words.size(); ++i) {
         const std::string& word = words[i];
         const std::string name = word.substr(0, word.find('='));
-        if (has(with_value, name)) {
+        if (is_among(with_value, name)) {
             // Skips the value, unless the word contains it.
             i += std::size_t{name.size() == word.size() ? 1U : 0U};
-        } else if (!has(flags, word) && !(word.starts_with("-o") && word.size() > 2)) {
+        } else if (!is_among(flags, word) && !(word.starts_with("-o") && word.size() > 2)) {
             result.push_back(one_line(word));
         }
     }

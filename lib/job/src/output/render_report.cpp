@@ -225,9 +225,7 @@ ordered_json make_settings(const RenderArguments& arguments, const PreparedScene
         settings["background"] = backdrop_text(*arguments.display.backdrop);
     }
     add("light_exposure", arguments.light_exposure);
-    const std::vector<Aov>& added = arguments.screen_aovs;
-    if (options.film.aovs.contains(Aov::shadow) &&
-        std::find(added.begin(), added.end(), Aov::shadow) == added.end()) {
+    if (options.film.aovs.contains(Aov::shadow) && !is_among(arguments.screen_aovs, Aov::shadow)) {
         settings["ground"] = "shadow";
         const Vec3 lowest(to_file(stage.scene.bounds().min, stage.scene.description().origin));
         settings["ground_height"] = options.film.ground_height.value_or(lowest.y);
@@ -360,8 +358,7 @@ void check_file_of_job(const JobSource& job, std::string_view option,
     if (is_standard_output(file)) {
         return;
     }
-    const bool names =
-        std::find(job.outputs.begin(), job.outputs.end(), option) != job.outputs.end();
+    const bool names = is_among(job.outputs, option);
     const bool names_default = job.names_default && option == "--output";
     if (names && !is_below(file, job.file.parent_path())) {
         throw Error(ErrorCode::invalid_input,

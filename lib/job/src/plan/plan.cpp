@@ -409,9 +409,8 @@ std::vector<std::string> read_words(const JsonValue& json, const std::vector<std
         words.push_back(element.text());
         const std::string& word = words.back();
         const std::string name = word.substr(0, word.find('='));
-        const bool is_allowed = std::find(allowed.begin(), allowed.end(), name) != allowed.end();
         const bool names_file = name == "--env" && word != "--env=none" && word != "--env=default";
-        if (!is_allowed || names_file) {
+        if (!is_among(allowed, name) || names_file) {
             element.fail_expecting("an option that a plan may have");
         }
     }

@@ -24,12 +24,6 @@ constexpr std::array<std::string_view, 7> of_a_process{
 constexpr std::array<std::string_view, 6> flags_of_a_process{"--restart", "-q",        "--quiet",
                                                              "-v",        "--verbose", "--json"};
 
-template <typename Names>
-bool has(const Names& names, std::string_view word)
-{
-    return std::find(names.begin(), names.end(), word) != names.end();
-}
-
 std::string parse_name(const std::string& word)
 {
     return word.substr(0, word.find('='));
@@ -56,9 +50,10 @@ std::optional<std::string> find_value(const Words& words, std::string_view name)
 void check_render_words(const Words& words)
 {
     for (std::size_t i = 2; i < words.size(); ++i) {
-        if (has(of_a_process, words[i])) {
+        if (is_among(of_a_process, words[i])) {
             ++i;  // its value
-        } else if (!has(of_a_process, parse_name(words[i])) && !has(flags_of_a_process, words[i])) {
+        } else if (!is_among(of_a_process, parse_name(words[i])) &&
+                   !is_among(flags_of_a_process, words[i])) {
             throw OptionError(
                 fmt::format("--plan cannot be combined with {}, only with --task, --threads, "
                             "--max-memory, --stats, --ktx-library, --allow-folder, --restart, "
@@ -119,7 +114,7 @@ std::vector<std::string> with_planned_words(std::vector<std::string> words)
     const bool render = words.size() > 1 && words[1] == "render";
     const bool merge = words.size() > 1 && words[1] == "merge";
     const std::optional<std::string> file = find_value(words, "--plan");
-    if (!(render || merge) || !file || has(words, "--help") || has(words, "-h")) {
+    if (!(render || merge) || !file || is_among(words, "--help") || is_among(words, "-h")) {
         return words;
     }
     const Plan plan = read_plan(*file);
@@ -221,7 +216,7 @@ Identity common_identity(const Identity& of_one, const RenderArguments& asked)
     Identity result;
     for (const IdentityComponent& component : of_one.components) {
         const bool is_option = component.name.starts_with("option: ");
-        const bool is_own = std::find(own.begin(), own.end(), component.name) != own.end();
+        const bool is_own = is_among(own, component.name);
         if (component.name.starts_with("build: ") || (is_option && !is_own)) {
             result.components.push_back(component);
         }

@@ -179,11 +179,9 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
     ordered_json outputs = ordered_json::array();
     for (const fs::path& output : merged_files(arguments)) {
         outputs.push_back(output.string());
-        const bool is_denoised =
-            std::find(denoised.begin(), denoised.end(), output) != denoised.end();
         console.note(fmt::format("wrote {}: {} spp of {} parts, {:.1f} s of CPU time{}",
                                  output.string(), sum.samples.count(), parts.size(),
-                                 sum.cpu_seconds, is_denoised ? ", denoised" : ""));
+                                 sum.cpu_seconds, is_among(denoised, output) ? ", denoised" : ""));
     }
     ordered_json fields{{"samples", sum.samples.count()},
                         {"missing", missing.text()},
@@ -245,8 +243,7 @@ std::optional<std::string> merge_parts(const MergeArguments& asked, Console& con
     for (MergeArguments image : images) {
         interrupt.set_outputs(pending_outputs(merged_files(image)));
         if (image.wait) {  // for all images together
-            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-            image.wait = std::max(*asked.wait - passed.count(), 0.0);
+            image.wait = std::max(*asked.wait - seconds_since(start), 0.0);
         }
         MergedImage merged = merge_image(image, session);
         if (!merged.written) {

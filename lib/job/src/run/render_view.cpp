@@ -196,8 +196,7 @@ std::string exposure_text(const std::filesystem::path& file, const std::optional
 /// Returns ", denoised" for a file that is.
 std::string denoised_text(const std::filesystem::path& file, const WrittenImages& images)
 {
-    const auto& denoised = images.denoised;
-    return std::find(denoised.begin(), denoised.end(), file) != denoised.end() ? ", denoised" : "";
+    return is_among(images.denoised, file) ? ", denoised" : "";
 }
 
 /// Prints the written files: a line per file or, for a sequence, one line.
@@ -303,8 +302,7 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
     if (interrupt.stopped_by()) {
         return std::nullopt;
     }
-    const std::chrono::duration<double> choosing =
-        std::chrono::steady_clock::now() - choosing_start;
+    const double choosing = seconds_since(choosing_start);
     ordered_json settings = make_settings(arguments, stage);
     if (asked.options.integrator == IntegratorKind::automatic) {
         settings["chosen_by"] = "auto";
@@ -364,7 +362,7 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
             images.files.insert(images.files.end(), both.begin(), both.end());
         }
     }
-    const std::chrono::duration<double> writing = std::chrono::steady_clock::now() - writing_start;
+    const double writing = seconds_since(writing_start);
     if (images.clamped_pixels > 0) {
         console.warning(
             fmt::format("{} pixels exceed 65504 and are clamped to it; --float keeps them",
@@ -375,9 +373,9 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
         ordered_json stats = head_of_stats(arguments, settings, stopped_by);
         stats.update(stats_json(result, {.load = stage.load_seconds,
                                          .build = stage.build_seconds,
-                                         .choose = choosing.count(),
+                                         .choose = choosing,
                                          .render = result.seconds,
-                                         .write = writing.count()}));
+                                         .write = writing}));
         stats["memory"] = {{"estimated_bytes", stage.memory.spent()},
                            {"limit_bytes", stage.memory.limit().bytes},
                            {"limit", stage.memory.limit().source}};

@@ -120,8 +120,7 @@ struct Viewpoint {
 [[nodiscard]] std::uint64_t image_cache_bytes(const RenderArguments& arguments);
 
 /// Loads the scene, and shows the progress on the console. Throws `Error`.
-[[nodiscard]] PreparedScene prepare_with_progress(const RenderArguments& arguments,
-                                                  Console& console);
+[[nodiscard]] PreparedScene prepare_with_progress(RenderArguments arguments, Console& console);
 
 /// Prints warnings and notes from the preparation of the scene, each once.
 void tell_findings(Console& console, const PreparedScene& stage);

@@ -122,27 +122,6 @@ std::vector<fs::path> named_files(const RenderArguments& arguments,
 
 namespace {
 
-/// Returns `arguments` whose loading shows its progress on the console.
-RenderArguments with_progress(RenderArguments arguments, Console& console)
-{
-    const auto start = std::chrono::steady_clock::now();
-    arguments.scene.on_progress = [&console, start](const io::LoadProgress& progress) {
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-        constexpr double report_threshold = 1.0;  // [s]
-        if (passed.count() < report_threshold) {
-            return;
-        }
-        const double done =
-            static_cast<double>(progress.images_done) / static_cast<double>(progress.images_total);
-        console.task({.fraction = done,
-                      .seconds = passed.count(),
-                      .seconds_left = passed.count() * (1.0 - done) / done,
-                      .activity = fmt::format("loading textures, {}/{}", progress.images_done,
-                                              progress.images_total)});
-    };
-    return arguments;
-}
-
 RenderOptions options_for(const RenderArguments& arguments, const PreparedScene& stage,
                           Console& console)
 {
@@ -167,13 +146,12 @@ std::shared_ptr<const SampleRates> prepare_rates(const RenderArguments& argument
         const auto start = std::chrono::steady_clock::now();
         auto rates = std::make_shared<const SampleRates>(
             sample_rates(stage.scene, stage.camera, arguments.options));
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
         console.verbose(
             {"adaptive",
              fmt::format("noisy pixels get more samples and others fewer: {} to {} times --spp, "
                          "{:.3f} on average, by a test render of {} samples in {:.1f} s",
                          rates->least(), rates->greatest(), rates->mean(), rate_pilot_samples,
-                         passed.count())});
+                         seconds_since(start))});
         return rates;
     }
     const std::filesystem::path& file = *arguments.rates->file;
@@ -309,9 +287,24 @@ std::optional<std::vector<Aov>> spend_guides(io::MemoryBudget& memory,
     return guides;
 }
 
-PreparedScene prepare_with_progress(const RenderArguments& arguments, Console& console)
+PreparedScene prepare_with_progress(RenderArguments arguments, Console& console)
 {
-    return prepare_scene(with_progress(arguments, console));
+    const auto start = std::chrono::steady_clock::now();
+    arguments.scene.on_progress = [&console, start](const io::LoadProgress& progress) {
+        const double passed = seconds_since(start);
+        constexpr double report_threshold = 1.0;  // [s]
+        if (passed < report_threshold) {
+            return;
+        }
+        const double done =
+            static_cast<double>(progress.images_done) / static_cast<double>(progress.images_total);
+        console.task({.fraction = done,
+                      .seconds = passed,
+                      .seconds_left = passed * (1.0 - done) / done,
+                      .activity = fmt::format("loading textures, {}/{}", progress.images_done,
+                                              progress.images_total)});
+    };
+    return prepare_scene(arguments);
 }
 
 PreparedScene prepare_within_memory(const RenderArguments& asked, Console& console)

@@ -2,7 +2,6 @@
 
 #include <bdpt/error.h>
 #include <bdpt/inspect.h>
-#include <bdpt/io/display.h>
 #include <bdpt/options/option_fields.h>
 #include <fmt/core.h>
 
@@ -13,18 +12,12 @@
 #include <utility>
 
 #include "messages/text.h"
-#include "options/groups/view_arguments.h"
 #include "output/values.h"
 #include "stage/prepared_scene.h"
 #include "state/view_state.h"
 
 namespace bdpt::view {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Calls `work()`; returns its failure as a line.
 template <typename Work>

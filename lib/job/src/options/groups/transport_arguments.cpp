@@ -84,9 +84,7 @@ void check_takers(const RenderOptions& render, const OptionList& options)
         {"--light-samples", {pt, nee, mis, IntegratorKind::bdpt, vcm, automatic}},
     };
     for (const Row& row : rows) {
-        const bool taken =
-            std::find(row.takers.begin(), row.takers.end(), render.integrator) != row.takers.end();
-        if (options.given(row.option) && !taken) {
+        if (options.given(row.option) && !is_among(row.takers, render.integrator)) {
             std::vector<std::string> names;
             for (const IntegratorKind taker : row.takers) {
                 names.emplace_back(to_name(taker));

@@ -112,14 +112,12 @@ void write_directions(const InspectRequest& arguments, const PreparedScene& stag
     metadata.version = BDPT_VERSION;
     metadata.created = std::chrono::system_clock::now();
     if (find_type(*arguments.directions) == ImageType::png) {
-        io::PngOptions png;
-        png.metadata = metadata;
-        io::write_png(file, direction_sheet(maps, options.sampling.light_samples), png);
+        io::write_png(file, direction_sheet(maps, options.sampling.light_samples),
+                      {.metadata = metadata});
         return;
     }
-    io::ExrOptions exr;
-    exr.metadata = metadata;
-    static_cast<void>(io::write_exr(file, maps.product, direction_layers(maps), exr));
+    static_cast<void>(
+        io::write_exr(file, maps.product, direction_layers(maps), {.metadata = metadata}));
 }
 
 int run_inspect(const InspectRequest& arguments, const OptionList& given, const Words& /*words*/)

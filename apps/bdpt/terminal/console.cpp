@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "messages/text.h"
+#include "output/values.h"
 
 namespace bdpt::app {
 namespace {
@@ -225,7 +226,7 @@ void TerminalConsole::show_progress(const Progress& progress, const Goal& goal)
     const double fraction = fraction_done(progress, goal);
     if (format_ == Format::json) {
         ordered_json fields{{"samples", progress.samples_done}};
-        fields["samples_total"] = goal.samples ? ordered_json(*goal.samples) : ordered_json();
+        fields["samples_total"] = or_null(goal.samples);
         fields.update({{"fraction", fraction},
                        {"seconds", progress.seconds},
                        {"eta_seconds", *left},
@@ -249,8 +250,7 @@ void TerminalConsole::show_task(const TaskProgress& progress)
     const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
     if (format_ == Format::json) {
         ordered_json fields{{"fraction", fraction}, {"seconds", progress.seconds}};
-        fields["eta_seconds"] =
-            progress.seconds_left ? ordered_json(*progress.seconds_left) : ordered_json();
+        fields["eta_seconds"] = or_null(progress.seconds_left);
         fields["activity"] = one_line(progress.activity);
         put_event("progress", fields);
         return;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "output/image_files.h"
 #include "output/values.h"
 
 namespace bdpt::job {
@@ -158,16 +159,6 @@ constexpr int border = 4;         // [pixels] around each sphere
 constexpr int label_height = 20;  // [pixels] below each sphere
 constexpr double decades = 4.0;
 
-/// Position of a sphere on the sheet.
-struct Cell {
-    int x = 0;
-    int y = 0;
-    Cell(int index, const Image& map)
-        : x(border + index % columns * (map.width + border)),
-          y(border + index / columns * (map.height + label_height + border))
-    {}
-};
-
 io::DisplayImage empty_sheet(const Image& map)
 {
     io::DisplayImage sheet;
@@ -179,21 +170,21 @@ io::DisplayImage empty_sheet(const Image& map)
     return sheet;
 }
 
-void paste(io::DisplayImage& sheet, int index, const io::DisplayImage& map, const char* label,
-           const Image& size)
+void paste(io::DisplayImage& sheet, int index, const io::DisplayImage& map, const char* label)
 {
-    const Cell cell(index, size);
+    const int left = border + index % columns * (map.width + border);
+    const int top = border + index / columns * (map.height + label_height + border);
     const auto row_bytes = 3 * static_cast<std::size_t>(map.width);
     for (int y = 0; y < map.height; ++y) {
         const auto from = static_cast<std::ptrdiff_t>(row_bytes * static_cast<std::size_t>(y));
         const auto to =
-            3 * (static_cast<std::size_t>(cell.y + y) * static_cast<std::size_t>(sheet.width) +
-                 static_cast<std::size_t>(cell.x));
+            3 * (static_cast<std::size_t>(top + y) * static_cast<std::size_t>(sheet.width) +
+                 static_cast<std::size_t>(left));
         std::copy_n(map.rgb.begin() + from, row_bytes,
                     sheet.rgb.begin() + static_cast<std::ptrdiff_t>(to));
     }
     sheet = eval::with_text(std::move(sheet), label,
-                            {.x = cell.x, .y = cell.y + map.height + border, .dot = 2});
+                            {.x = left, .y = top + map.height + border, .dot = 2});
 }
 
 /// Returns densities of four decades below `greatest` as colours.
@@ -263,16 +254,6 @@ Image mean_density(const DirectionMaps& maps, int light_samples)
     return result;
 }
 
-Layer map_layer(const Image& map, const char* name)
-{
-    Layer layer{
-        .name = name, .channels = "RGB", .width = map.width, .height = map.height, .values = {}};
-    for (const Rgb& value : map.pixels) {
-        layer.values.insert(layer.values.end(), {value.r, value.g, value.b});
-    }
-    return layer;
-}
-
 }  // namespace
 
 io::DisplayImage direction_sheet(const DirectionMaps& maps, int light_samples)
@@ -285,19 +266,19 @@ io::DisplayImage direction_sheet(const DirectionMaps& maps, int light_samples)
     const auto mapped = [](const Image& map) {
         return io::tone_map(map, io::automatic_exposure(map));
     };
-    paste(sheet, 0, mapped(maps.incident), "light", ideal);
-    paste(sheet, 1, mapped(maps.scattering), "bsdf cos", ideal);
-    paste(sheet, 2, heat(ideal, greatest), "ideal pdf", ideal);
-    paste(sheet, 3, heat(maps.bsdf_pdf, greatest), "bsdf pdf", ideal);
-    paste(sheet, 4, heat(maps.light_pdf, greatest), "light pdf", ideal);
-    paste(sheet, 5, heat(mean, greatest), "mean pdf", ideal);
+    paste(sheet, 0, mapped(maps.incident), "light");
+    paste(sheet, 1, mapped(maps.scattering), "bsdf cos");
+    paste(sheet, 2, heat(ideal, greatest), "ideal pdf");
+    paste(sheet, 3, heat(maps.bsdf_pdf, greatest), "bsdf pdf");
+    paste(sheet, 4, heat(maps.light_pdf, greatest), "light pdf");
+    paste(sheet, 5, heat(mean, greatest), "mean pdf");
     return sheet;
 }
 
 std::vector<Layer> direction_layers(const DirectionMaps& maps)
 {
-    return {map_layer(maps.incident, "incident"), map_layer(maps.scattering, "scattering"),
-            map_layer(maps.bsdf_pdf, "bsdf_pdf"), map_layer(maps.light_pdf, "light_pdf")};
+    return {to_layer(maps.incident, "incident"), to_layer(maps.scattering, "scattering"),
+            to_layer(maps.bsdf_pdf, "bsdf_pdf"), to_layer(maps.light_pdf, "light_pdf")};
 }
 
 }  // namespace bdpt::job

@@ -243,12 +243,12 @@ Image with_shadow(Image image, std::span<const float> shadow)
     return image;
 }
 
-void put(const Matte& matte, const Matte& other, const MatteNames& names_of_other,
+void put(const Matte& matte, const Matte& other, const std::string& name_of_other,
          std::vector<Layer>& layers)
 {
     std::vector<Layer> extra;
     const auto exchange = [&extra](Layer* layer, const std::vector<float>& values,
-                                   const std::vector<float>& others, const char* name) {
+                                   const std::vector<float>& others, const std::string& name) {
         if (layer != nullptr) {
             layer->values = others;
             extra.push_back(*layer);
@@ -260,11 +260,11 @@ void put(const Matte& matte, const Matte& other, const MatteNames& names_of_othe
     Layer* alpha = find(layers, main_layer);
     Layer* shadow = find(layers, shadow_layer);
     if (blends) {
-        exchange(alpha, matte.alpha, other.alpha, names_of_other.alpha);
+        exchange(alpha, matte.alpha, other.alpha, name_of_other + "Alpha");
     } else if (alpha != nullptr) {
         alpha->values = matte.alpha;
     }
-    exchange(shadow, matte.shadow, other.shadow, names_of_other.shadow);
+    exchange(shadow, matte.shadow, other.shadow, name_of_other + "Shadow");
     std::move(extra.begin(), extra.end(), std::back_inserter(layers));
 }
 

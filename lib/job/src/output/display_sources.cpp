@@ -76,7 +76,7 @@ std::vector<Layer> with_clean_matte(const fs::path& file, std::vector<Layer> lay
     if (const std::optional<Image> alpha = layer_in(file, "denoisedAlpha")) {
         matte.alpha = alpha_layer(*alpha, "").values;
     }
-    put(matte, noisy, {.alpha = "noisyAlpha", .shadow = "noisyShadow"}, layers);
+    put(matte, noisy, "noisy", layers);
     return layers;
 }
 

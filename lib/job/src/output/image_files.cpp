@@ -199,12 +199,6 @@ Cleaned cleaned(const Image& image, const Matte& noisy, const ImageFileOptions& 
 
 namespace {
 
-bool is_for_screens_only(Aov aov, const ImageFileOptions& options)
-{
-    const std::vector<Aov>& aovs = options.screen_aovs;
-    return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
-}
-
 void drop_layer(Aov aov, std::vector<Layer>& layers)
 {
     std::erase_if(layers, [aov](const Layer& layer) {
@@ -240,12 +234,11 @@ WrittenImages write_alike(std::span<const fs::path> outputs, const Image& render
     }
     const std::string denoiser = "Open Image Denoise " + options.denoiser->version();
     if (options.denoising == Denoising::image) {
-        put(clean.matte, noisy, {.alpha = "noisyAlpha", .shadow = "noisyShadow"}, options.layers);
+        put(clean.matte, noisy, "noisy", options.layers);
         options.layers.push_back(to_layer(image, "noisy"));
         options.exr.metadata.denoiser = denoiser;
     } else if (options.denoising == Denoising::layer) {
-        put(noisy, clean.matte, {.alpha = "denoisedAlpha", .shadow = "denoisedShadow"},
-            options.layers);
+        put(noisy, clean.matte, "denoised", options.layers);
         options.layers.push_back(to_layer(*clean.image, "denoised"));
         options.exr.metadata.denoiser = denoiser;
     }
@@ -297,7 +290,7 @@ ImageFileOptions image_file_options(const RenderResult& part, io::ImageMetadata 
 WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& rendered,
                                 ImageFileOptions options, Attempts& attempts)
 {
-    if (!is_for_screens_only(Aov::shadow, options)) {
+    if (!is_among(options.screen_aovs, Aov::shadow)) {
         return write_alike(outputs, rendered, std::move(options), attempts);
     }
     std::vector<fs::path> screens(outputs.begin(), outputs.end());

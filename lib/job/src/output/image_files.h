@@ -83,15 +83,10 @@ struct Matte {
 /// the opacity of each pixel; an empty shadow changes nothing.
 [[nodiscard]] Image with_shadow(Image image, std::span<const float> shadow);
 
-/// Layer names for the values of a matte that are replaced in the main layers.
-struct MatteNames {
-    const char* alpha;
-    const char* shadow;
-};
-
-/// Stores `matte` in the layers, and adds the values of `other` under their names where both may
-/// differ: the shadow if there is one, alpha if there is a layer `opacity`.
-void put(const Matte& matte, const Matte& other, const MatteNames& names_of_other,
+/// Stores `matte` in the layers, and adds the values of `other`, "noisy" or "denoised", as layers
+/// like "noisyAlpha" and "noisyShadow" where both may differ: the shadow if there is one, alpha if
+/// there is a layer `opacity`.
+void put(const Matte& matte, const Matte& other, const std::string& name_of_other,
          std::vector<Layer>& layers);
 
 /// Contents of an EXR file from which images for screens are made.
@@ -164,9 +159,9 @@ void check_metered(const std::optional<Exposure>& asked, const io::ImageMetadata
 
 struct ImageFileOptions {
     io::ExrOptions exr;
-    std::vector<Layer> layers;  ///< layers of EXR files, and of `screen_aovs`
-    std::vector<Aov> screen_aovs{};  ///< layers for files for screens: EXR files lack them
-    DisplayArguments display;   ///< options of files for screens
+    std::vector<Layer> layers;               ///< layers of EXR files, and of `screen_aovs`
+    std::vector<Aov> screen_aovs{};          ///< layers for files for screens: EXR files lack them
+    DisplayArguments display;                ///< options of files for screens
     const io::Denoiser* denoiser = nullptr;  ///< null: images are not denoised
     Denoising denoising = Denoising::image;
     io::DenoiserControl denoise_control{};

@@ -132,11 +132,6 @@ std::optional<Vec3> parse_vec3(std::string_view text)
     return parse_numbers<Vec3>(text);
 }
 
-std::optional<DVec3> parse_dvec3(std::string_view text)
-{
-    return parse_vec3(text) ? parse_numbers<DVec3>(text) : std::nullopt;
-}
-
 std::optional<double> parse_double(std::string_view text)
 {
     const auto value = parse_number<double>(text);
@@ -308,14 +303,18 @@ ValueType<double> number(double least, double most)
 
 ValueType<double> number(double least, double most, std::string expected)
 {
-    return number_that([=](double value) { return value >= least && value <= most; },
-                       std::move(expected), {least, most});
+    return number_within({least, most}, std::move(expected));
 }
 
 ValueType<double> number_above(double low, double most, std::string expected)
 {
-    return number_that([=](double value) { return value > low && value <= most; },
-                       std::move(expected), {low, most, true});
+    return number_within({low, most, true}, std::move(expected));
+}
+
+ValueType<double> number_within(const Range& range, std::string expected)
+{
+    return number_that([range](double value) { return range.contains(value); }, std::move(expected),
+                       range);
 }
 
 ValueType<double> finite_number(std::string expected)
@@ -334,7 +333,11 @@ ValueType<double> positive_number(std::string expected)
 
 ValueType<DVec3> point()
 {
-    ValueType<DVec3> type = parsed_by(parse_dvec3, "three numbers x,y,z");
+    const auto parse = [](const std::string& text) {
+        // Single precision must be able to hold it, too.
+        return parse_vec3(text) ? parse_numbers<DVec3>(text) : std::nullopt;
+    };
+    ValueType<DVec3> type = parsed_by(parse, "three numbers x,y,z");
     type.info.separator = ',';
     return type;
 }

@@ -68,8 +68,6 @@ template <typename Number>
 
 /// Parses "x,y,z", all finite.
 [[nodiscard]] std::optional<Vec3> parse_vec3(std::string_view text);
-/// The same in double precision, if single precision can hold it, too.
-[[nodiscard]] std::optional<DVec3> parse_dvec3(std::string_view text);
 
 /// Parses a finite number.
 [[nodiscard]] std::optional<float> parse_float(std::string_view text);
@@ -142,6 +140,9 @@ template <typename Value>
 
 /// Accepts a decimal number in (low, most]; `expected` says so.
 [[nodiscard]] ValueType<double> number_above(double low, double most, std::string expected);
+
+/// Accepts a decimal number in `range`; `expected` says so.
+[[nodiscard]] ValueType<double> number_within(const Range& range, std::string expected);
 
 /// Accepts a finite number.
 [[nodiscard]] ValueType<double> finite_number(std::string expected = "a number");

@@ -23,8 +23,6 @@
 
 namespace bdpt::job {
 
-namespace {}  // namespace
-
 std::optional<FilterOptions> parse_filter(std::string_view text)
 {
     const std::size_t colon = text.find(':');
@@ -81,13 +79,12 @@ std::optional<PixelRect> parse_crop(std::string_view text)
 void add_ground_option(OptionList& options, Ground& ground)
 {
     const Choices<Ground> grounds{{{"shadow", Ground::shadow}, {"none", Ground::none}}};
-    options.add(
-        "--ground", "shadow|none",
-        "shadow: shadow catcher, a horizontal ground that is invisible itself, also in "
-        "reflections. The shadow is black: it darkens the visible environment, or adds to "
-        "the alpha of --background; .exr also gets it as layer shadow.A. Default: shadow in "
-        ".png, .jpg and .webp files of an object that gets default light, else none",
-        ground, grounds.type());
+    add_choice(options, "--ground",
+               "shadow: shadow catcher, a horizontal ground that is invisible itself, also in "
+               "reflections. The shadow is black: it darkens the visible environment, or adds to "
+               "the alpha of --background; .exr also gets it as layer shadow.A. Default: shadow in "
+               ".png, .jpg and .webp files of an object that gets default light, else none",
+               ground, grounds);
 }
 
 FilmOptions with_ground(Ground ground, FilmOptions film, const OptionList& options)
@@ -206,13 +203,7 @@ auto value_type(const OptionInfo& info)
         return whole_number(static_cast<std::int64_t>(info.range.low),
                             static_cast<std::int64_t>(info.range.high));
     } else if constexpr (std::is_floating_point_v<T>) {
-        const auto parse = [range = info.range](const std::string& text) {
-            const std::optional<double> value = parse_number<double>(text);
-            return value && range.contains(*value) ? value : std::nullopt;
-        };
-        return ValueType<double>{.parse = parse,
-                                 .expected = format_range(info.range),
-                                 .info = {.json = JsonType::number, .range = info.range}};
+        return number_within(info.range, format_range(info.range));
     } else if constexpr (std::is_same_v<T, FilterOptions>) {
         return parsed_by(
             parse_filter,
@@ -280,7 +271,7 @@ void add_fields(OptionList& options, RenderOptions& render, std::span<const std:
 {
     for_each_option(render, [&](const auto& field, auto& value) {
         if constexpr (requires { option_text(value); }) {
-            if (std::find(names.begin(), names.end(), field.name) != names.end()) {
+            if (is_among(names, field.name)) {
                 add_field(options, field, value);
             }
         }

@@ -13,7 +13,6 @@
 #include <numbers>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "messages/text.h"
 #include "options/value_types.h"
@@ -165,22 +164,18 @@ ValueType<float> focal_length()
 
 ValueType<ViewDirection> view_direction()
 {
-    static constexpr float quarter = std::numbers::pi_v<float> / 2.0f;
-    static constexpr std::array<std::pair<std::string_view, ViewDirection>, 7> named{{
-        {"front", {0.0f, 0.0f}},
-        {"right", {quarter, 0.0f}},
-        {"back", {2.0f * quarter, 0.0f}},
-        {"left", {-quarter, 0.0f}},
-        {"top", {0.0f, quarter}},
-        {"bottom", {0.0f, -quarter}},
-        {"three-quarter", three_quarter_view},
-    }};
-    const auto parse = [](const std::string& given) -> std::optional<ViewDirection> {
+    constexpr float quarter = std::numbers::pi_v<float> / 2.0f;
+    const Choices<ViewDirection> named{{{"front", {0.0f, 0.0f}},
+                                        {"right", {quarter, 0.0f}},
+                                        {"back", {2.0f * quarter, 0.0f}},
+                                        {"left", {-quarter, 0.0f}},
+                                        {"top", {0.0f, quarter}},
+                                        {"bottom", {0.0f, -quarter}},
+                                        {"three-quarter", three_quarter_view}}};
+    const auto parse = [named](const std::string& given) -> std::optional<ViewDirection> {
         const std::string text = lower_case(given);
-        for (const auto& [name, direction] : named) {
-            if (text == name) {
-                return direction;
-            }
+        if (const auto direction = named.type().parse(text)) {
+            return direction;
         }
         const std::size_t comma = text.find(',');
         if (comma == std::string::npos) {
@@ -195,13 +190,11 @@ ValueType<ViewDirection> view_direction()
         return ViewDirection{.azimuth = static_cast<float>(radians(*azimuth)),
                              .elevation = static_cast<float>(radians(*elevation))};
     };
-    ValueType<ViewDirection> type{
-        .parse = parse,
-        .expected =
-            "front, right, back, left, top, bottom, three-quarter, or AZIMUTH,ELEVATION "
-            "in degrees with an azimuth from -360 to 360 and an elevation from -90 to 90",
-        .info = {}};
-    return type;
+    return {.parse = parse,
+            .expected =
+                "front, right, back, left, top, bottom, three-quarter, or AZIMUTH,ELEVATION "
+                "in degrees with an azimuth from -360 to 360 and an elevation from -90 to 90",
+            .info = {}};
 }
 
 ValueType<float> margin()
@@ -506,8 +499,8 @@ void add_volume_options(OptionList& options, VolumeChoice& volume)
                 "forward, like clouds. Default: 0, isotropic",
                 volume.options.anisotropy, anisotropy());
     const Choices<io::UpAxis> axes{{{"y", io::UpAxis::y}, {"z", io::UpAxis::z}}};
-    options.add("--volume-up", "y|z", "Up axis of the file: y (default) or z, as in Blender",
-                volume.options.up, axes.type());
+    add_choice(options, "--volume-up", "Up axis of the file: y (default) or z, as in Blender",
+               volume.options.up, axes);
 }
 
 void check_medium_options(const OptionList& options)

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "dataset/dataset.h"
-#include "dataset/dataset_files.h"
 #include "interpreter_lock.h"
 #include "python_parts.h"
 #include "python_scene.h"

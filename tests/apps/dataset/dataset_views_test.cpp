@@ -1,4 +1,4 @@
-#include "dataset/dataset_views.h"
+#include "dataset/dataset.h"
 
 #include <bdpt/error.h>
 #include <bdpt/tools/intrinsics.h>

@@ -4,7 +4,6 @@
 #include <bdpt/io/output_file.h>
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <list>
@@ -12,9 +11,6 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
-#include "dataset/dataset_files.h"
-#include "dataset/dataset_manifest.h"
-#include "dataset/model_process.h"
 #include "messages/text.h"
 #include "options/output_files.h"
 
@@ -84,13 +80,14 @@ public:
                               : fmt::format("{}: {}", model.file.string(), message));
         console_.event("model", {{"model", model.name}, {"error", message}, {"code", code}});
     }
-    void show(const DatasetModel& model, double share)
+    void show(const DatasetModel& model, std::size_t views, std::size_t all_views)
     {
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+        const double share = static_cast<double>(views) / static_cast<double>(all_views);
+        const double passed = seconds_since(start_);
         const double fraction = (static_cast<double>(ended_) + share) / static_cast<double>(all_);
-        TaskProgress progress{.fraction = fraction, .seconds = passed.count(), .activity = {}};
+        TaskProgress progress{.fraction = fraction, .seconds = passed, .activity = {}};
         if (fraction > 0.0) {
-            progress.seconds_left = passed.count() * (1.0 - fraction) / fraction;
+            progress.seconds_left = passed * (1.0 - fraction) / fraction;
         }
         progress.activity = fmt::format("{}, model {} of {}", model.name, ended_ + 1, all_);
         console_.task(progress);
@@ -118,37 +115,6 @@ private:
     std::size_t views_ = 0;
     int first_failure_ = 0;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Tells the process that started this one, by lines on the standard output.
-class LineProgress final : public ModelProgress {
-public:
-    void loaded() override { put("loaded"); }
-    void viewed(std::size_t done, std::size_t all) override
-    {
-        put(fmt::format("view {} {}", done, all).c_str());
-    }
-
-private:
-    static void put(const char* line)
-    {
-        std::puts(line);
-        std::fflush(stdout);
-    }
-};
-
-/// Shows progress on the console.
-class ShownProgress final : public ModelProgress {
-public:
-    ShownProgress(Tally& tally, const DatasetModel& model) : tally_(tally), model_(model) {}
-    void viewed(std::size_t done, std::size_t all) override
-    {
-        tally_.show(model_, static_cast<double>(done) / static_cast<double>(all));
-    }
-
-private:
-    Tally& tally_;
-    const DatasetModel& model_;
 };
 
 /// Returns what `work()` returns; an exception becomes a failure of the model.
@@ -238,8 +204,7 @@ private:
         }
         if (!running_.empty() && running_.front().all > 0) {
             const Running& first = running_.front();
-            tally_.show(*first.model,
-                        static_cast<double>(first.done) / static_cast<double>(first.all));
+            tally_.show(*first.model, first.done, first.all);
         }
     }
 
@@ -288,19 +253,28 @@ private:
     bool stopping_ = false;
 };
 
-/// Renders a model in a process that another one has started.
+/// Renders a model in a process that another one has started, and tells that one the progress by
+/// lines on the standard output.
 int run_for_parent(const DatasetArguments& arguments, Interrupt& interrupt)
 {
     const DatasetModel model{.file = arguments.models.front(),
                              .name = name_of(arguments.models.front(), arguments.root)};
-    LineProgress progress;
-    const ModelResult result = render_model(arguments, model, progress, interrupt);
+    const auto put = [](const std::string& line) {
+        std::puts(line.c_str());
+        std::fflush(stdout);
+    };
+    const ModelResult result = render_model(
+        arguments, model,
+        {.loaded = [&] { put("loaded"); },
+         .viewed = [&](std::size_t done,
+                       std::size_t all) { put(fmt::format("view {} {}", done, all)); }},
+        interrupt);
     std::fputs(fmt::format("done {} {}\n", result.views, result.rendered).c_str(), stdout);
     return 0;
 }
 
-}  // namespace
-
+/// Returns the models of this share, sorted by name. Throws `Error` (usage) for two models of the
+/// same name, and for one that is not below --root.
 std::vector<DatasetModel> dataset_models(const DatasetArguments& arguments)
 {
     std::map<std::string, fs::path> files;
@@ -324,6 +298,8 @@ std::vector<DatasetModel> dataset_models(const DatasetArguments& arguments)
     return models;
 }
 
+/// Writes what belongs to all models: manifest.jsonl, a line for each view and failure in the order
+/// of models and views, and the file of --coco. Throws `Error`.
 void write_summary(const DatasetArguments& arguments, const std::vector<DatasetModel>& models)
 {
     std::string text;
@@ -348,6 +324,8 @@ void write_summary(const DatasetArguments& arguments, const std::vector<DatasetM
         write_coco(*arguments.coco, annotated);
     }
 }
+
+}  // namespace
 
 int run_dataset(const DatasetArguments& arguments, Console& console, Interrupt& interrupt,
                 const OnFailure& on_failure)
@@ -375,7 +353,10 @@ int run_dataset(const DatasetArguments& arguments, Console& console, Interrupt& 
                 break;
             }
             guarded(arguments, model, tally, [&] {
-                ShownProgress progress(tally, model);
+                const ModelProgress progress{
+                    .loaded = [] {},
+                    .viewed = [&](std::size_t done,
+                                  std::size_t of) { tally.show(model, done, of); }};
                 const ModelResult result = render_model(arguments, model, progress, interrupt);
                 if (!result.stopped) {
                     tally.done(model, result);

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <glob.h>
 
-#include <algorithm>
 #include <array>
 #include <numbers>
 #include <utility>
@@ -32,12 +31,6 @@ constexpr std::array<std::string_view, 13> without_effect{
 constexpr std::array<std::string_view, 7> of_all_models{
     "models", "--isolate", "--model-time", "--share", "--coco", "--json", "--verbose"};
 
-template <typename Names>
-bool is_among(const Names& names, std::string_view name)
-{
-    return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 Choices<DatasetLayer> layer_choices()
 {
     return {{{"depth", DatasetLayer::depth},
@@ -62,6 +55,44 @@ NumberRange in_radians(NumberRange degrees)
     return {degrees.low * radians_per_degree, degrees.high * radians_per_degree};
 }
 
+/// Parses "A" or "A:B", finite, A not above B.
+std::optional<NumberRange> parse_interval(std::string_view text)
+{
+    const std::vector<std::string_view> parts = split(text, ':');
+    const std::optional<double> low = parse_double(parts.front());
+    const std::optional<double> high = parse_double(parts.back());
+    if (parts.size() > 2 || !low || !high || *low > *high) {
+        return std::nullopt;
+    }
+    return NumberRange{*low, *high};
+}
+
+/// Parses "AZ0:AZ1,EL0:EL1" [degrees]; elevations in [-90, 90].
+std::optional<ViewRange> parse_view_range(std::string_view text)
+{
+    const std::vector<std::string_view> parts = split(text, ',');
+    const std::optional<NumberRange> azimuth = parse_interval(parts.front());
+    const std::optional<NumberRange> elevation = parse_interval(parts.back());
+    constexpr double zenith = 90.0;
+    if (parts.size() != 2 || !azimuth || !elevation || elevation->low < -zenith ||
+        elevation->high > zenith) {
+        return std::nullopt;
+    }
+    return ViewRange{.azimuth = in_radians(*azimuth), .elevation = in_radians(*elevation)};
+}
+
+/// Parses "K/N" with K from 0 to N - 1.
+std::optional<Share> parse_model_share(const std::string& text)
+{
+    const std::vector<std::string_view> parts = split(text, '/');
+    const std::optional<std::size_t> index = parse_index(parts.front());
+    const std::optional<std::size_t> count = parse_index(parts.back());
+    if (parts.size() != 2 || !index || !count || *index >= *count) {
+        return std::nullopt;
+    }
+    return Share{static_cast<std::int64_t>(*index), static_cast<std::int64_t>(*count)};
+}
+
 std::optional<NumberRange> parse_positive_interval(const std::string& text, double most)
 {
     const std::optional<NumberRange> interval = parse_interval(text);
@@ -80,8 +111,7 @@ void add_views(OptionList& options, DatasetArguments& arguments)
         "Random directions in this range of azimuths and elevations [degrees]: azimuth 0 is "
         "the front (+z), 90 the right side; all areas of the sphere are equally likely",
         arguments.views.range,
-        parsed_by([](const std::string& text) { return parse_view_range(text); },
-                  "AZ0:AZ1,EL0:EL1 in degrees, like -60:60,0:45"));
+        parsed_by(parse_view_range, "AZ0:AZ1,EL0:EL1 in degrees, like -60:60,0:45"));
     options.add(
         "--distance", "D|A:B",
         "Distance from the model's middle, or a range of it; at 1 (default) the model's "
@@ -145,9 +175,7 @@ void add_processes(OptionList& options, DatasetArguments& arguments)
         "--share", "K/N",
         "Render every Nth model from number K on, counted from 0: one of N tasks of a farm, "
         "which may share the folder or not",
-        arguments.share,
-        parsed_by([](const std::string& text) { return parse_model_share(text); },
-                  "K/N with K from 0 to N - 1, like 0/8"));
+        arguments.share, parsed_by(parse_model_share, "K/N with K from 0 to N - 1, like 0/8"));
     options.add_flag(
         "--restart",
         "Replace views of other options or of a changed model, which are an error else",
@@ -190,44 +218,9 @@ void check_datasets(const OptionList& options)
 
 }  // namespace
 
-std::optional<NumberRange> parse_interval(std::string_view text)
-{
-    const std::vector<std::string_view> parts = split(text, ':');
-    const std::optional<double> low = parse_double(parts.front());
-    const std::optional<double> high = parse_double(parts.back());
-    if (parts.size() > 2 || !low || !high || *low > *high) {
-        return std::nullopt;
-    }
-    return NumberRange{*low, *high};
-}
-
-std::optional<ViewRange> parse_view_range(std::string_view text)
-{
-    const std::vector<std::string_view> parts = split(text, ',');
-    const std::optional<NumberRange> azimuth = parse_interval(parts.front());
-    const std::optional<NumberRange> elevation = parse_interval(parts.back());
-    constexpr double zenith = 90.0;
-    if (parts.size() != 2 || !azimuth || !elevation || elevation->low < -zenith ||
-        elevation->high > zenith) {
-        return std::nullopt;
-    }
-    return ViewRange{.azimuth = in_radians(*azimuth), .elevation = in_radians(*elevation)};
-}
-
-std::optional<Share> parse_model_share(const std::string& text)
-{
-    const std::vector<std::string_view> parts = split(text, '/');
-    const std::optional<std::size_t> index = parse_index(parts.front());
-    const std::optional<std::size_t> count = parse_index(parts.back());
-    if (parts.size() != 2 || !index || !count || *index >= *count) {
-        return std::nullopt;
-    }
-    return Share{static_cast<std::int64_t>(*index), static_cast<std::int64_t>(*count)};
-}
-
 bool DatasetArguments::has(DatasetLayer layer) const
 {
-    return std::find(layers.begin(), layers.end(), layer) != layers.end();
+    return is_among(layers, layer);
 }
 
 void add_dataset_options(OptionList& options, DatasetRequest& request)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -32,17 +31,11 @@ struct NumberRange {
     double high = 0.0;
 };
 
-/// Parses "A" or "A:B", finite, A not above B.
-[[nodiscard]] std::optional<NumberRange> parse_interval(std::string_view text);
-
 /// Directions from a model to its cameras [rad].
 struct ViewRange {
     NumberRange azimuth;    ///< as in `ViewDirection`
     NumberRange elevation;  ///< in [-pi/2, pi/2]
 };
-
-/// Parses "AZ0:AZ1,EL0:EL1" [degrees]; elevations in [-90, 90].
-[[nodiscard]] std::optional<ViewRange> parse_view_range(std::string_view text);
 
 /// How the cameras of a model are drawn.
 struct ViewDraw {
@@ -58,9 +51,6 @@ struct Share {
     std::int64_t index = 0;
     std::int64_t count = 1;
 };
-
-/// Parses "K/N" with K from 0 to N - 1.
-[[nodiscard]] std::optional<Share> parse_model_share(const std::string& text);
 
 /// Whether each model is rendered by a process of its own.
 enum class Isolation : std::uint8_t { automatic, on, off };

@@ -1,4 +1,4 @@
-#include "dataset/dataset_files.h"
+#include "dataset/dataset.h"
 
 #include <bdpt/error.h>
 #include <bdpt/io/json_value.h>
@@ -174,50 +174,39 @@ void write_millimetres(const fs::path& file, const PixelHits& seen, std::span<co
     write_integers(file, seen, integers);
 }
 
-/// Pixels of an instance, and how COCO describes them.
-class InstancePixels {
-public:
-    InstancePixels(std::size_t width, std::size_t height) : width_(width), mask_(width * height) {}
-
-    void add(std::size_t pixel) { mask_[pixel] = true; }
-
-    [[nodiscard]] ordered_json annotation() const
-    {
-        const std::size_t height = mask_.size() / width_;
-        std::size_t x0 = width_;
-        std::size_t y0 = height;
-        std::size_t x1 = 0;
-        std::size_t y1 = 0;
-        std::size_t area = 0;
-        std::vector<std::size_t> counts{0};  // of pixels outside, inside, outside, ..., by columns
-        bool inside = false;
-        for (std::size_t x = 0; x < width_; ++x) {
-            for (std::size_t y = 0; y < height; ++y) {
-                const bool is_set = mask_[y * width_ + x];
-                if (is_set != inside) {
-                    counts.push_back(0);
-                    inside = is_set;
-                }
-                ++counts.back();
-                if (is_set) {
-                    x0 = std::min(x0, x);
-                    y0 = std::min(y0, y);
-                    x1 = std::max(x1, x + 1);
-                    y1 = std::max(y1, y + 1);
-                    ++area;
-                }
+/// Returns how COCO describes an instance: the pixels that are set in `mask`.
+ordered_json annotation_of(const std::vector<bool>& mask, std::size_t width)
+{
+    const std::size_t height = mask.size() / width;
+    std::size_t x0 = width;
+    std::size_t y0 = height;
+    std::size_t x1 = 0;
+    std::size_t y1 = 0;
+    std::size_t area = 0;
+    std::vector<std::size_t> counts{0};  // of pixels outside, inside, outside, ..., by columns
+    bool inside = false;
+    for (std::size_t x = 0; x < width; ++x) {
+        for (std::size_t y = 0; y < height; ++y) {
+            const bool is_set = mask[y * width + x];
+            if (is_set != inside) {
+                counts.push_back(0);
+                inside = is_set;
+            }
+            ++counts.back();
+            if (is_set) {
+                x0 = std::min(x0, x);
+                y0 = std::min(y0, y);
+                x1 = std::max(x1, x + 1);
+                y1 = std::max(y1, y + 1);
+                ++area;
             }
         }
-        return {{"bbox", {x0, y0, x1 - x0, y1 - y0}},
-                {"area", area},
-                {"segmentation", {{"size", {height, width_}}, {"counts", counts}}},
-                {"iscrowd", 0}};
     }
-
-private:
-    std::size_t width_;
-    std::vector<bool> mask_;
-};
+    return {{"bbox", {x0, y0, x1 - x0, y1 - y0}},
+            {"area", area},
+            {"segmentation", {{"size", {height, width}}, {"counts", counts}}},
+            {"iscrowd", 0}};
+}
 
 }  // namespace
 
@@ -341,18 +330,20 @@ void write_coco(const fs::path& file, std::span<const AnnotatedView> views)
                           {"file_name", view.image},
                           {"width", instances.width},
                           {"height", instances.height}});
+        const auto width = static_cast<std::size_t>(instances.width);
+        const std::size_t pixels = width * static_cast<std::size_t>(instances.height);
         struct Found {
-            InstancePixels pixels;
-            std::size_t object;
+            std::vector<bool> mask;
+            std::size_t object = 0;
         };
         std::map<std::uint16_t, Found> found;
-        for (std::size_t i = 0; i < instances.bytes.size() / 2; ++i) {
+        for (std::size_t i = 0; i < pixels; ++i) {
             if (const std::uint16_t instance = integer_at(instances, i); instance != 0) {
-                const auto [place, is_new] = found.try_emplace(
-                    instance, Found{InstancePixels(static_cast<std::size_t>(instances.width),
-                                                   static_cast<std::size_t>(instances.height)),
-                                    integer_at(objects, i)});
-                place->second.pixels.add(i);
+                Found& thing = found[instance];
+                if (thing.mask.empty()) {
+                    thing = {.mask = std::vector<bool>(pixels), .object = integer_at(objects, i)};
+                }
+                thing.mask[i] = true;
             }
         }
         for (const auto& [instance, thing] : found) {
@@ -362,7 +353,7 @@ void write_coco(const fs::path& file, std::span<const AnnotatedView> views)
                                     {"image_id", image_id},
                                     {"category_id", category->second},
                                     {"instance", instance}};
-            annotation.update(thing.pixels.annotation());
+            annotation.update(annotation_of(thing.mask, width));
             annotations.push_back(std::move(annotation));
         }
     }

@@ -1,4 +1,4 @@
-#include "dataset/dataset_manifest.h"
+#include "dataset/dataset.h"
 
 #include <bdpt/error.h>
 #include <fcntl.h>
@@ -106,13 +106,7 @@ void ModelManifest::clear()
     is_ours_ = true;
 }
 
-void ModelManifest::add_view(ordered_json line)
-{
-    line["key"] = key_;
-    append_line(folder_, line);
-}
-
-void ModelManifest::add_end(ordered_json line)
+void ModelManifest::add(ordered_json line)
 {
     line["key"] = key_;
     append_line(folder_, line);

@@ -1,6 +1,5 @@
-#include "dataset/dataset_views.h"
+#include "dataset/dataset.h"
 
-#include <bdpt/error.h>
 #include <bdpt/framing.h>
 #include <bdpt/io/json_value.h>
 #include <bdpt/part/content_hash.h>
@@ -12,7 +11,6 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "dataset/model_process.h"
+#include "dataset/dataset.h"
 
 #include <bdpt/error.h>
 #include <fcntl.h>
@@ -177,7 +177,7 @@ std::vector<int> ModelProcess::descriptors() const
 
 double ModelProcess::seconds() const
 {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    return seconds_since(start_);
 }
 
 void wait_for_any(const std::vector<int>& descriptors)

@@ -1,5 +1,4 @@
 #include <bdpt/error.h>
-#include <bdpt/framing.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene.h>
 #include <bdpt/tools/pixel_hits.h>
@@ -11,9 +10,6 @@
 #include <utility>
 
 #include "dataset/dataset.h"
-#include "dataset/dataset_files.h"
-#include "dataset/dataset_manifest.h"
-#include "dataset/dataset_views.h"
 #include "options/output_files.h"
 #include "output/image_files.h"
 #include "plan/plan.h"
@@ -65,7 +61,7 @@ ContentHash key_of(const DatasetArguments& arguments, const RenderArguments& ask
 class ModelRender {
 public:
     ModelRender(const DatasetArguments& arguments, const DatasetModel& model,
-                ModelProgress& progress, Interrupt& interrupt)
+                const ModelProgress& progress, Interrupt& interrupt)
         : arguments_(arguments),
           model_(model),
           progress_(progress),
@@ -119,11 +115,6 @@ private:
         PixelHits seen;
         ordered_json line;
     };
-
-    static double seconds_since(std::chrono::steady_clock::time_point start)
-    {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
 
     void load(const RenderArguments& image)
     {
@@ -242,7 +233,7 @@ private:
         if (pending_) {
             write_flow(folder_, number(pending_->index), pending_->seen,
                        optical_flow(pending_->seen, stage_->scene, stage_->camera));
-            manifest_.add_view(std::move(pending_->line));
+            manifest_.add(std::move(pending_->line));
             pending_.reset();
         }
         if (manifest_.has(index, files(index))) {
@@ -283,7 +274,7 @@ private:
         if (arguments_.has(DatasetLayer::flow) && index + 1 < views_.size()) {
             pending_ = Pending{.index = index, .seen = std::move(seen), .line = std::move(line)};
         } else {
-            manifest_.add_view(std::move(line));
+            manifest_.add(std::move(line));
         }
         return true;
     }
@@ -314,12 +305,12 @@ private:
         if (!warnings_.empty()) {
             line["warnings"] = warnings_;
         }
-        manifest_.add_end(std::move(line));
+        manifest_.add(std::move(line));
     }
 
     const DatasetArguments& arguments_;
     const DatasetModel& model_;
-    ModelProgress& progress_;
+    const ModelProgress& progress_;
     Interrupt& interrupt_;
     RenderArguments asked_;
     fs::path folder_;
@@ -366,7 +357,7 @@ std::vector<PosedCamera> posed_cameras(const DatasetArguments& arguments, const 
 }
 
 ModelResult render_model(const DatasetArguments& arguments, const DatasetModel& model,
-                         ModelProgress& progress, Interrupt& interrupt)
+                         const ModelProgress& progress, Interrupt& interrupt)
 {
     return ModelRender(arguments, model, progress, interrupt).run();
 }

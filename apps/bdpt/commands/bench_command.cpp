@@ -247,12 +247,12 @@ public:
         worked_ = progress.worked;
         const double worked = worked_before_ + worked_;
         const double left = progress.left + seconds_a_scene_ * static_cast<double>(scenes_left_);
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-        console_->task({.fraction = worked / std::max(worked + left, 1e-9),
-                        .seconds = passed.count(),
-                        .seconds_left = worked > 0.0 ? std::optional(passed.count() * left / worked)
-                                                     : std::nullopt,
-                        .activity = scene_ + ": " + progress.activity});
+        const double passed = seconds_since(start_);
+        console_->task(
+            {.fraction = worked / std::max(worked + left, 1e-9),
+             .seconds = passed,
+             .seconds_left = worked > 0.0 ? std::optional(passed * left / worked) : std::nullopt,
+             .activity = scene_ + ": " + progress.activity});
     }
 
 private:
@@ -265,44 +265,31 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-class BenchSession {
-public:
-    BenchSession(const BenchArguments& arguments, Console& console, std::stop_token stop)
-        : arguments_(arguments),
-          console_(console),
-          clock_(console, eval::planned_seconds(arguments.options), arguments.subjects.size()),
-          stop_(std::move(stop))
-    {}
-
-    [[nodiscard]] std::optional<eval::SceneResult> run(const BenchSubject& subject)
-    {
-        const PreparedScene stage = prepare_scene(subject.render);
-        check_not_read(all_files(arguments_), input_files(subject.render, stage));
-        tell_findings(console_, stage);
-        const Size size = arguments_.size.value_or(bench_size(stage.size, arguments_.pixels));
-        const eval::BenchScene scene{.name = subject.name,
-                                     .file = subject.render.file.string(),
-                                     .environment = stage.environment_name,
-                                     .scene = stage.scene,
-                                     .camera = stage.camera,
-                                     .width = size.width,
-                                     .height = size.height};
-        clock_.begin_scene(subject.name);
-        eval::BenchControl control;
-        control.stop = stop_;
-        control.on_progress = [this](const auto& progress) { clock_.tell(progress); };
-        control.on_note = [this](const std::string& note) { console_.note(note); };
-        auto result = eval::run_scene(scene, arguments_.options, arguments_.folder, control);
-        console_.end_progress();
-        return result;
-    }
-
-private:
-    const BenchArguments& arguments_;
-    Console& console_;
-    BenchClock clock_;
-    std::stop_token stop_;
-};
+/// Returns the result of a scene; none if a stop was requested.
+std::optional<eval::SceneResult> run_subject(const BenchSubject& subject,
+                                             const BenchArguments& arguments, Console& console,
+                                             BenchClock& clock, std::stop_token stop)
+{
+    const PreparedScene stage = prepare_scene(subject.render);
+    check_not_read(all_files(arguments), input_files(subject.render, stage));
+    tell_findings(console, stage);
+    const Size size = arguments.size.value_or(bench_size(stage.size, arguments.pixels));
+    const eval::BenchScene scene{.name = subject.name,
+                                 .file = subject.render.file.string(),
+                                 .environment = stage.environment_name,
+                                 .scene = stage.scene,
+                                 .camera = stage.camera,
+                                 .width = size.width,
+                                 .height = size.height};
+    clock.begin_scene(subject.name);
+    eval::BenchControl control;
+    control.stop = std::move(stop);
+    control.on_progress = [&clock](const auto& progress) { clock.tell(progress); };
+    control.on_note = [&console](const std::string& note) { console.note(note); };
+    auto result = eval::run_scene(scene, arguments.options, arguments.folder, control);
+    console.end_progress();
+    return result;
+}
 
 /// Prints a scene's table on stdout, or an event.
 void report_scene(const eval::SceneResult& scene, const BenchArguments& arguments, Console& console)
@@ -347,7 +334,7 @@ int run_bench(const BenchRequest& request, const OptionList& options,
     for (const std::string& word : command) {
         record.command += (record.command.empty() ? "" : " ") + one_line(word);
     }
-    BenchSession session(arguments, console, interrupt.stop_token());
+    BenchClock clock(console, eval::planned_seconds(arguments.options), arguments.subjects.size());
     interrupt.allow_stop();
     std::exception_ptr failure;  // deferred, so that finished scenes are still written
     for (const BenchSubject& subject : arguments.subjects) {
@@ -355,7 +342,7 @@ int run_bench(const BenchRequest& request, const OptionList& options,
             break;
         }
         try {
-            auto scene = session.run(subject);
+            auto scene = run_subject(subject, arguments, console, clock, interrupt.stop_token());
             if (scene) {
                 report_scene(*scene, arguments, console);
                 record.scenes.push_back(std::move(*scene));

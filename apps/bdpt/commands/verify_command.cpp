@@ -6,7 +6,6 @@
 
 #include <string>
 
-#include "messages/text.h"
 #include "options/groups/transport_arguments.h"
 #include "report/reports.h"
 #include "stage/prepared_scene.h"

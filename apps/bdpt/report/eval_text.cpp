@@ -13,8 +13,6 @@
 #include <string_view>
 #include <vector>
 
-#include "messages/text.h"
-
 namespace bdpt::app {
 
 std::string bench_text(const eval::SceneResult& scene, double seconds)

@@ -59,6 +59,7 @@ DVec3 shift_of_field(std::string_view field, const DVec3& origin)
     return field == "position" ? origin : DVec3(0.0);
 }
 
+/// Returns a light as a line for people.
 struct LightText {
     DVec3 origin;
 
@@ -97,6 +98,7 @@ struct LightText {
     }
 };
 
+/// Returns a light as an object: "kind" and its properties by kind.
 struct LightJson {
     DVec3 origin;
 
@@ -152,22 +154,6 @@ LightDesc without_pixels(const LightDesc& light)
     }
     return light;
 }
-
-/// Returns a light as a line for people.
-std::string light_text(const LightDesc& light, const DVec3& origin)
-{
-    return std::visit(LightText{origin}, light);
-}
-
-/// Returns a light as an object: "kind" and its properties by kind.
-ordered_json light_json(const LightDesc& light, const DVec3& origin)
-{
-    return std::visit(LightJson{origin}, light);
-}
-
-}  // namespace
-
-namespace {
 
 /// Groups equal sizes as "3 of 1024x1024".
 std::string summary(const std::vector<Size>& sizes)
@@ -384,7 +370,7 @@ void add_scene(Lines& lines, const SceneReport& report)
     lines.add_list("cameras", camera_lines(report.cameras, report.origin));
     std::vector<std::string> lights;
     for (const LightDesc& light : report.lights) {
-        lights.push_back(light_text(light, report.origin));
+        lights.push_back(std::visit(LightText{report.origin}, light));
     }
     lines.add_list("lights", lights);
 }
@@ -425,7 +411,7 @@ ordered_json scene_json(const SceneReport& report)
         return camera_json(camera, report.origin);
     });
     result["lights"] = make_array(report.lights, [&report](const LightDesc& light) {
-        return light_json(light, report.origin);
+        return std::visit(LightJson{report.origin}, light);
     });
     result["warnings"] = report.warnings;
     result["defaults"] = default_names(report.defaults);

@@ -120,7 +120,4 @@ private:
     std::jthread watcher_;  // last: uses all of the above
 };
 
-/// Returns "SIGINT", "SIGTERM" or "SIGHUP".
-[[nodiscard]] const char* signal_name(int signal_number);
-
 }  // namespace bdpt::app

@@ -3,7 +3,6 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <ctime>
 #include <system_error>
 #include <utility>
 
@@ -24,6 +23,11 @@ sigset_t signals_to_watch()
         }
     }
     return result;
+}
+
+const char* signal_name(int signal_number)
+{
+    return signal_number == SIGTERM ? "SIGTERM" : signal_number == SIGHUP ? "SIGHUP" : "SIGINT";
 }
 
 /// Tests whether a message to this stream would have to wait for its reader.
@@ -123,11 +127,6 @@ void SignalInterrupt::handle(int signal_number)
         ::unlink(temporary.c_str());
     }
     ::_exit(128 + signal_number);
-}
-
-const char* signal_name(int signal_number)
-{
-    return signal_number == SIGTERM ? "SIGTERM" : signal_number == SIGHUP ? "SIGHUP" : "SIGINT";
 }
 
 }  // namespace bdpt::app

@@ -95,10 +95,6 @@ void check_files_of_plan(const RenderArguments& asked, const Plan& plan)
     }
 }
 
-}  // namespace
-
-namespace {
-
 /// Returns the number of samples per pixel that a denoised picture has if none is asked for: about
 /// a minute of two processors brings it in a room, and it is clean to the eye. Depends on the size
 /// of the whole image, so that a crop has its pixels.

@@ -1,4 +1,4 @@
-#include "pilot/choice.h"
+#include "pilot/pilot.h"
 
 #include "rates/rate_map.h"
 

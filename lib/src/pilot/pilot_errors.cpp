@@ -122,19 +122,17 @@ double share_of_merging_alone(const PilotContributions& contributions,
 
 namespace {
 
+void add_scaled(PerCandidate<double>& to, const PerCandidate<double>& values, double factor)
+{
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        to[k] += values[k] * factor;
+    }
+}
+
 /// Second moments of paths that connections found.
 struct ChoiceMoments {
     PerCandidate<double> choice{};
     PerCandidate<double> connections{};
-
-    void add(const PerCandidate<double>& of_choice, const PerCandidate<double>& of_connections,
-             double scale)
-    {
-        for (std::size_t k = 0; k < candidates.size(); ++k) {
-            choice[k] += scale * of_choice[k];
-            connections[k] += scale * of_connections[k];
-        }
-    }
 };
 
 ChoiceMoments moments_of(const PilotRow& row, const PilotBrightness& brightness)
@@ -143,7 +141,9 @@ ChoiceMoments moments_of(const PilotRow& row, const PilotBrightness& brightness)
     for (const PilotContribution& path : row.joined()) {
         if (path.shares.choice_is_known()) {
             const PathShares::SecondMoments moments = path.shares.second_moments();
-            sum.add(moments.choice, moments.connections, brightness.scale(path.cell) * path.number);
+            const double scale = brightness.scale(path.cell) * path.number;
+            add_scaled(sum.choice, moments.choice, scale);
+            add_scaled(sum.connections, moments.connections, scale);
         }
     }
     return sum;
@@ -161,7 +161,8 @@ PerCandidate<double> measure_choice(const PilotContributions& contributions,
     });
     ChoiceMoments all;
     for (const ChoiceMoments& row : rows) {
-        all.add(row.choice, row.connections, 1.0);
+        add_scaled(all.choice, row.choice, 1.0);
+        add_scaled(all.connections, row.connections, 1.0);
     }
     PerCandidate<double> result{};
     for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -297,13 +298,6 @@ VisibleLightErrors visible_light_errors(const PilotContributions& contributions,
 
 namespace {
 
-void add_scaled(PerCandidate<double>& to, const PerCandidate<double>& errors, double factor)
-{
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        to[k] += errors[k] * factor;
-    }
-}
-
 /// Errors of a part of a pilot's contributions.
 struct PartOfErrors {
     PerCandidate<ErrorsByValue> of_paths{};
@@ -386,44 +380,6 @@ PartOfErrors compute_errors(const PilotRow& row, std::size_t first_cell,
     return errors;
 }
 
-/// Returns the errors of splats, and adds those of cells to `of_cells`: what a splat says about
-/// camera paths that are rare there.
-PartOfErrors compute_errors(const PilotSplats& part, const PilotContributions& contributions,
-                            const PilotBrightness& brightness, const PerCandidate<double>& choice,
-                            std::vector<CellError>& of_cells)
-{
-    PartOfErrors errors;
-    const auto cells = static_cast<double>(contributions.grid.cells());
-    for (const PilotContribution& splat : part.contributions()) {
-        const RemainingErrors of_splat =
-            errors.add(splat.shares, brightness.scale(splat), choice, contributions.grid.pixels(),
-                       contributions.splatted_pixels());
-        CellError of_cell{.cell = splat.cell};
-        add_scaled(of_cell.camera, of_splat.camera, cells / contributions.splatted_pixels());
-        of_cells.push_back(of_cell);
-    }
-    return errors;
-}
-
-/// Returns the errors of merged paths, and adds those of cells to `of_cells`.
-PartOfErrors compute_errors(std::span<const PilotContribution* const> merged,
-                            const PilotContributions& contributions,
-                            const PilotBrightness& brightness, const PerCandidate<double>& choice,
-                            std::vector<CellError>& of_cells)
-{
-    PartOfErrors errors;
-    const auto cells = static_cast<double>(contributions.grid.cells());
-    for (const PilotContribution* path : merged) {
-        const double paths = contributions.camera_paths() / path->number;
-        const RemainingErrors of_path = errors.add(path->shares, brightness.scale(path->cell),
-                                                   choice, contributions.grid.pixels(), paths);
-        CellError of_cell{.cell = path->cell};
-        add_scaled(of_cell.camera, of_path.camera, cells / paths);
-        of_cells.push_back(of_cell);
-    }
-    return errors;
-}
-
 /// Sums in the same order for any number of threads, so that sums are bit-identical.
 PilotErrors compute_errors(const PilotContributions& contributions,
                            const PilotBrightness& brightness)
@@ -441,19 +397,31 @@ PilotErrors compute_errors(const PilotContributions& contributions,
     const std::size_t before_merged = rows + contributions.parts.size();
     std::vector<PartOfErrors> parts(before_merged + (merged.size() + group - 1) / group);
     std::vector<std::vector<CellError>> added(parts.size() - rows);  // to errors of cells
+    // What splats and merged paths say about camera paths that are rare there.
+    const auto add_rare = [&](const PilotContribution& path, double scale, double paths,
+                              std::size_t part) {
+        const RemainingErrors of_path =
+            parts[part].add(path.shares, scale, choice, grid.pixels(), paths);
+        CellError of_cell{.cell = path.cell};
+        add_scaled(of_cell.camera, of_path.camera, static_cast<double>(grid.cells()) / paths);
+        added[part - rows].push_back(of_cell);
+    };
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
         const FlushDenormals flush;
         if (i < rows) {
             parts[i] = compute_errors(contributions.rows[i], grid.index(0, static_cast<int>(i)),
                                       contributions, brightness, choice, of_cells);
         } else if (i < before_merged) {
-            parts[i] = compute_errors(contributions.parts[i - rows], contributions, brightness,
-                                      choice, added[i - rows]);
+            for (const PilotContribution& splat : contributions.parts[i - rows].contributions()) {
+                add_rare(splat, brightness.scale(splat), contributions.splatted_pixels(), i);
+            }
         } else {
             const std::size_t first = group * (i - before_merged);
-            parts[i] = compute_errors(
-                std::span(merged).subspan(first, std::min(group, merged.size() - first)),
-                contributions, brightness, choice, added[i - rows]);
+            for (const PilotContribution* path :
+                 std::span(merged).subspan(first, std::min(group, merged.size() - first))) {
+                add_rare(*path, brightness.scale(path->cell),
+                         contributions.camera_paths() / path->number, i);
+            }
         }
     });
     PartOfErrors all;

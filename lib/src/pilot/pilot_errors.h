@@ -1,6 +1,5 @@
 #pragma once
 
-#include "pilot/path_shares.h"
 #include "pilot/pilot_contributions.h"
 
 #include <array>

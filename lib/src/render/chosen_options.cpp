@@ -1,6 +1,6 @@
 #include <bdpt/render.h>
 
-#include "pilot/choice.h"
+#include "pilot/pilot.h"
 #include "render/check_options.h"
 #include "render/learned_light.h"
 #include "render/open_camera.h"

@@ -1,4 +1,4 @@
-#include "pilot/path_shares.h"
+#include "pilot/pilot_contributions.h"
 
 #include "catch.hpp"
 

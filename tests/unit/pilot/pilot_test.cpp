@@ -6,7 +6,7 @@
 #include "ground_views.h"
 #include "pilot/candidates.h"
 #include "pilot/light_pilot.h"
-#include "pilot/path_shares.h"
+#include "pilot/pilot_contributions.h"
 #include "render/open_camera.h"
 #include "scene/world.h"
 #include "scene_builder.h"

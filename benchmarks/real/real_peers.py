@@ -41,6 +41,8 @@ CAMERAS = {
     "Jungle/scene.gltf": ((374.9, 192.7, 586.3), (-2.4, -46.7, 47.5), 40),
     "GodotLivingRoom/living_room.glb": ((2, 1.4, 8.5), (-3, 0.8, -1), 60),
     "Garage/garage.gltf": ((2.67, 1.44, 1.801), (0.564, 1.081, -0.305), 60),
+    "Chess/scene.gltf": ((207.690, 107.069, 250.711), (23.601, -9.746, -12.195), 40),
+    "GodotRoom/scene.gltf": ((4, 2.5, -4), (-0.153, 1.792, 0.153), 60),
     "ShaderBall_materialx/shaderball.glb": ((2.215, 2.349, 3.206), (0.059, 0.981, 0.127), 40),
 }
 REFERENCE_SEED = 1000

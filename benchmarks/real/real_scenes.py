@@ -42,6 +42,8 @@ SCENES = (
     ("car, sunset", "Lamborghini/scene.glb", "--env {hdr}/sunset.exr"),
     ("jungle, sunset", "Jungle/scene.gltf", "--env {hdr}/sunset.exr"),
     ("jungle, default sky", "Jungle/scene.gltf", "--env default"),
+    ("chess, studio", "Chess/scene.gltf", "--env {hdr}/studio.exr"),
+    ("room of spheres, courtyard", "GodotRoom/scene.gltf", "--env {hdr}/courtyard.exr"),
     ("shader ball, interior", "ShaderBall_materialx/shaderball.glb", "--env {hdr}/interior.exr"),
     ("floor of 6 m", "floor-6.gltf", "--env {hdr}/courtyard.exr"),
     ("floor of 60 m", "floor-60.gltf", "--env {hdr}/courtyard.exr"),

@@ -34,22 +34,30 @@ template <typename... Shape>
 using FloatsLike = ArrayLike<FloatInput<Shape...>>;
 using ImageInput = FloatsLike<nb::shape<-1, -1, 3>>;
 
-/// Moves `values` into an array of that shape, without copying.
-template <typename Value>
-[[nodiscard]] FloatArray to_array(std::vector<Value> values,
-                                  std::initializer_list<std::size_t> shape)
+/// Moves `values`, each one `Number` or several, into an array of that shape, without copying.
+template <typename Number, typename Value>
+[[nodiscard]] nb::ndarray<nb::numpy, Number> to_array(
+    std::vector<Value> values, const std::vector<std::size_t>& shape,
+    const nb::dlpack::dtype& type = nb::dtype<Number>())
 {
     auto* kept = new std::vector<Value>(std::move(values));
     const nb::capsule owner(
         kept, [](void* pointer) noexcept { delete static_cast<std::vector<Value>*>(pointer); });
-    return FloatArray(kept->data(), shape, owner);
+    return {kept->data(), shape.size(), shape.data(), owner, nullptr, type};
+}
+
+/// Returns numbers as an array of that shape.
+template <typename Number>
+[[nodiscard]] nb::object to_numpy(std::vector<Number> values, const std::vector<std::size_t>& shape)
+{
+    return nb::cast(to_array<Number>(std::move(values), shape));
 }
 
 [[nodiscard]] inline FloatArray to_array(Image image)
 {
     const auto height = static_cast<std::size_t>(image.height);
     const auto width = static_cast<std::size_t>(image.width);
-    return to_array(std::move(image.pixels), {height, width, 3});
+    return to_array<float>(std::move(image.pixels), {height, width, 3});
 }
 
 [[nodiscard]] inline FloatArray to_array(Layer layer)
@@ -57,7 +65,7 @@ template <typename Value>
     const auto height = static_cast<std::size_t>(layer.height);
     const auto width = static_cast<std::size_t>(layer.width);
     const std::size_t channels = layer.channels.size();
-    return to_array(std::move(layer.values), {height, width, channels});
+    return to_array<float>(std::move(layer.values), {height, width, channels});
 }
 
 /// Copies texels to an array (height, width, channels) of uint8, uint16 or float32.
@@ -66,15 +74,11 @@ template <typename Value>
     const nb::dlpack::dtype type = texels.type == TexelType::unorm8    ? nb::dtype<std::uint8_t>()
                                    : texels.type == TexelType::unorm16 ? nb::dtype<std::uint16_t>()
                                                                        : nb::dtype<float>();
-    auto* bytes = new std::vector<std::uint8_t>(texels.bytes);
-    const nb::capsule owner(bytes, [](void* pointer) noexcept {
-        delete static_cast<std::vector<std::uint8_t>*>(pointer);
-    });
-    return nb::cast(nb::ndarray<nb::numpy>(
-        bytes->data(),
+    return nb::cast(to_array<std::uint8_t>(
+        texels.bytes,
         {static_cast<std::size_t>(texels.height), static_cast<std::size_t>(texels.width),
          static_cast<std::size_t>(texels.channels)},
-        owner, {}, type));
+        type));
 }
 
 /// Converts a number of pixels to a side of an image. Throws `Error` (usage) if it exceeds an

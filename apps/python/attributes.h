@@ -7,7 +7,6 @@
 #include <bdpt/types.h>
 #include <fmt/core.h>
 #include <nanobind/nanobind.h>
-#include <nanobind/stl/array.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/variant.h>
@@ -26,17 +25,11 @@
 #include <variant>
 #include <vector>
 
+#include "arrays.h"
 #include "options/option_list.h"
 #include "python_errors.h"
 
 namespace bdpt::python {
-
-using Three = std::array<float, 3>;
-
-inline Vec3 to_vec(const Three& values)
-{
-    return {values[0], values[1], values[2]};
-}
 
 /// A description whose fields are the attributes of an object of Python: a material or a light.
 template <typename Desc>
@@ -76,9 +69,6 @@ using ArrayLight = std::variant<std::shared_ptr<Editable<PointLightDesc>>,
 
 /// Converts an array or an image of PIL to texels. Throws `Error`.
 [[nodiscard]] TexelImage to_texels(const nanobind::object& value);
-
-/// Returns texels as an array (height, width, channels).
-[[nodiscard]] nanobind::object to_texel_array(const TexelImage& texels);
 
 /// Returns "<float32 (24, 3)>" for an array of that shape.
 [[nodiscard]] std::string array_text(std::string_view type,
@@ -173,12 +163,11 @@ template <typename Member, typename Field>
         if (!nanobind::try_cast(value, word)) {
             throw CallError(text + ": expected a text");
         }
-        for (std::size_t i = 0; i < alpha_modes.size(); ++i) {
-            if (word == alpha_modes.at(i)) {
-                return static_cast<AlphaMode>(i);
-            }
+        const auto* const mode = std::find(alpha_modes.begin(), alpha_modes.end(), word);
+        if (mode == alpha_modes.end()) {
+            throw ValueError(text + ": expected opaque, mask or blend");
         }
-        throw ValueError(text + ": expected opaque, mask or blend");
+        return static_cast<AlphaMode>(mode - alpha_modes.begin());
     } else if constexpr (is_vec<Member>) {
         std::vector<float> numbers;
         if (PyUnicode_Check(value.ptr()) != 0 || !nanobind::try_cast(value, numbers)) {
@@ -295,7 +284,7 @@ void def_attribute(nanobind::class_<Editable<Desc>>& type, const Field& field, c
         [name, access](const Editable<Desc>& part) -> nb::object {
             if constexpr (is_texture<Member>) {
                 const auto found = part.textures.find(name);
-                return found == part.textures.end() ? nb::none() : to_texel_array(found->second);
+                return found == part.textures.end() ? nb::none() : to_array(found->second);
             } else {
                 return nb::cast(to_python(access(part.desc)));
             }
@@ -339,7 +328,7 @@ void bind_editable(nanobind::module_& module, const char* name, const char* text
             nb::inst_mark_ready(self.h);
             for (const auto& [key, value] : values) {
                 const auto given = nb::cast<std::string>(key);
-                if (std::find(names.begin(), names.end(), given) == names.end()) {
+                if (!job::is_among(names, given)) {
                     fail_keyword(call, given, job::closest(given, names));
                 }
                 nb::setattr(self.h, key, value);

@@ -7,6 +7,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -230,11 +232,9 @@ CameraState get_camera_state(const PythonCamera& camera)
     if (!desc.motion.empty()) {
         throw nb::type_error("a camera that moves cannot be pickled");
     }
-    const DMat4 pose = in_file(desc.world_from_camera, camera.origin);
+    const DMat4 pose = glm::transpose(in_file(desc.world_from_camera, camera.origin));
     std::array<double, 16> rows{};
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        rows.at(i) = pose[static_cast<int>(i % 4)][static_cast<int>(i / 4)];
-    }
+    std::copy_n(glm::value_ptr(pose), rows.size(), rows.begin());
     const job::Size size = camera.size.value_or(job::Size{});
     return {rows,
             {desc.vertical_fov, desc.vertical_extent, desc.shift.x, desc.shift.y, desc.pixel_aspect,
@@ -247,10 +247,7 @@ CameraState get_camera_state(const PythonCamera& camera)
 PythonCamera load_camera_state(const CameraState& state)
 {
     const auto& [rows, lens, is_perspective, size, name] = state;
-    DMat4 pose(1.0);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        pose[static_cast<int>(i % 4)][static_cast<int>(i / 4)] = rows.at(i);
-    }
+    DMat4 pose = glm::transpose(glm::make_mat4(rows.data()));
     PythonCamera camera;
     camera.origin = DVec3(pose[3]);
     pose[3] = {0.0, 0.0, 0.0, 1.0};
@@ -335,11 +332,11 @@ std::vector<DMat4> to_matrices(nb::handle value, const std::string& name)
     std::vector<DMat4> matrices(n == 2 ? 1 : array.shape(0));
     const double* number = array.data();
     for (DMat4& matrix : matrices) {
-        for (int i = 0; i < 16; ++i, ++number) {
+        matrix = glm::transpose(glm::make_mat4(number));
+        for (const double* const end = number + 16; number != end; ++number) {
             if (!std::isfinite(*number)) {
                 throw ValueError(fmt::format("{}: {} is not a finite number", name, *number));
             }
-            matrix[i % 4][i / 4] = *number;
         }
     }
     return matrices;
@@ -347,11 +344,9 @@ std::vector<DMat4> to_matrices(nb::handle value, const std::string& name)
 
 nb::object to_numpy(const DMat4& matrix)
 {
-    std::vector<double> rows;
-    for (int i = 0; i < 16; ++i) {
-        rows.push_back(matrix[i % 4][i / 4]);
-    }
-    return to_numpy<double>(std::move(rows), {4, 4});
+    const DMat4 rows = glm::transpose(matrix);
+    const double* const first = glm::value_ptr(rows);
+    return to_numpy<double>({first, first + 16}, {4, 4});
 }
 
 DMat4 in_file(const Mat4& matrix, const DVec3& origin)

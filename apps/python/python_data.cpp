@@ -114,10 +114,7 @@ std::vector<std::size_t> find_instances(const std::vector<InstanceDesc>& instanc
         names.push_back(instances[i].name);
     }
     if (found.empty()) {
-        const auto meant = job::closest(name, names);
-        throw job::UnknownName(
-            fmt::format("no instance \"{}\"{}", name,
-                        meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
+        fail_name("instance", name, names);
     }
     return found;
 }

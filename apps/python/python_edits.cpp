@@ -61,10 +61,7 @@ std::size_t find_number(const PythonScene& scene, const std::string& name)
     const auto is_it = [&name](const MaterialDesc& material) { return material.name == name; };
     const auto found = std::find_if(materials.begin(), materials.end(), is_it);
     if (found == materials.end()) {
-        const auto meant = job::closest(name, material_names(scene));
-        throw job::UnknownName(
-            fmt::format("no material \"{}\"{}", name,
-                        meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
+        fail_name("material", name, material_names(scene));
     }
     if (std::any_of(found + 1, materials.end(), is_it)) {
         throw Error(ErrorCode::invalid_input,

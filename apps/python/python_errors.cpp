@@ -102,6 +102,14 @@ void fail_keyword(std::string_view call, std::string_view keyword,
                                 meant ? fmt::format("; did you mean '{}'?", *meant) : ""));
 }
 
+void fail_name(std::string_view kind, const std::string& name,
+               const std::vector<std::string>& known)
+{
+    const auto meant = job::closest(name, known);
+    throw job::UnknownName(fmt::format(
+        "no {} \"{}\"{}", kind, name, meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
+}
+
 void bind_errors(nb::module_& module)
 {
     // The module may be imported without the package, but pickles name the package.

@@ -65,6 +65,10 @@ auto with_missing_file(const std::vector<std::filesystem::path>& files, const Wo
 [[noreturn]] void fail_keyword(std::string_view call, std::string_view keyword,
                                const std::optional<std::string>& meant);
 
+/// Throws the `UnknownName`: "no material "gol" (did you mean "gold"?)".
+[[noreturn]] void fail_name(std::string_view kind, const std::string& name,
+                            const std::vector<std::string>& known);
+
 /// Binds `Error` and the classes derived from it, and translates C++'s `Error` to them.
 void bind_errors(nanobind::module_& module);
 

@@ -103,11 +103,6 @@ TexelImage to_texels(const nb::object& value)
             .type = type};
 }
 
-nb::object to_texel_array(const TexelImage& texels)
-{
-    return to_array(texels);
-}
-
 std::string array_text(std::string_view type, std::initializer_list<std::size_t> shape)
 {
     std::string sides;

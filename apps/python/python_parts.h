@@ -51,17 +51,6 @@ using DoubleInput = nanobind::ndarray<const double, nanobind::c_contig, nanobind
 /// that are not finite.
 [[nodiscard]] std::vector<DMat4> to_matrices(nanobind::handle value, const std::string& name);
 
-/// Returns numbers as an array of that shape.
-template <typename Number>
-[[nodiscard]] nanobind::object to_numpy(std::vector<Number> values, std::vector<std::size_t> shape)
-{
-    auto* const kept = new std::vector<Number>(std::move(values));
-    const nanobind::capsule owner(
-        kept, [](void* pointer) noexcept { delete static_cast<std::vector<Number>*>(pointer); });
-    return nanobind::cast(nanobind::ndarray<nanobind::numpy, Number>(kept->data(), shape.size(),
-                                                                     shape.data(), owner));
-}
-
 /// Returns a 4 x 4 matrix of NumPy, row-major.
 [[nodiscard]] nanobind::object to_numpy(const DMat4& matrix);
 

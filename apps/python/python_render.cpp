@@ -83,26 +83,21 @@ job::SequenceView only_view(const job::RenderArguments& arguments)
     return views.front();
 }
 
-/// Splits the options of render() into a `Camera`, if one is given, and the rest.
-std::pair<std::optional<PythonCamera>, nb::kwargs> split_camera(const nb::kwargs& options)
+nb::kwargs without(const nb::kwargs& options, const char* name)
 {
-    std::optional<PythonCamera> camera;
-    nb::dict others;
-    for (const auto& [key, value] : options) {
-        if (nb::cast<std::string>(key) == "camera" && nb::isinstance<PythonCamera>(value)) {
-            camera = nb::cast<PythonCamera>(value);
-        } else {
-            others[key] = value;
-        }
-    }
-    return {camera, nb::borrow<nb::kwargs>(others)};
+    const nb::object others = options.attr("copy")();
+    others.attr("pop")(name);
+    return nb::borrow<nb::kwargs>(others);
 }
 
 /// As `prepare`, but not yet with `MissingFile`.
 Task prepare_task(const PythonScene& scene, const nb::kwargs& options)
 {
-    const auto [given, others] = split_camera(options);
-    const Words own = to_words(others, Call::render);
+    std::optional<PythonCamera> given;
+    if (options.contains("camera") && nb::isinstance<PythonCamera>(options["camera"])) {
+        given = nb::cast<PythonCamera>(options["camera"]);
+    }
+    const Words own = to_words(given ? without(options, "camera") : options, Call::render);
     if (given && change_view(own)) {
         throw ValueError(
             "camera: a Camera has its own view and lens: no other option can change "
@@ -184,9 +179,11 @@ Render empty_render(const Task& task)
             .inputs = job::input_files(task.arguments, task.stage)};
 }
 
-RenderControl make_control(const nb::object& progress)
+RenderControl make_control(const nb::object& progress, const job::Goal& goal)
 {
     RenderControl control;
+    control.time_limit = goal.seconds;
+    control.noise_goal = goal.noise.value_or(0.0);
     control.stop = Workers::all().stop();
     control.on_progress = [&progress](const Progress& done) { tell(done, progress); };
     return control;
@@ -212,9 +209,7 @@ Render render_scene(const PythonScene& scene, const nb::object& progress, const 
     const Task task = prepare(scene, options);
     const job::RenderArguments& arguments = task.arguments;
     Render result = empty_render(task);
-    RenderControl control = make_control(progress);
-    control.time_limit = arguments.goal.seconds;
-    control.noise_goal = arguments.goal.noise.value_or(0.0);
+    const RenderControl control = make_control(progress, arguments.goal);
     {
         const Unlocked unlocked;
         result.part = bdpt::render(task.stage.scene, task.stage.camera, arguments.options, control);
@@ -250,17 +245,12 @@ Masks collect_masks(const Render& render)
         if (!render.part.aovs.aovs().contains(id_aovs[which])) {
             continue;
         }
-        auto* integers =
-            new std::vector<std::uint32_t>(render.part.ids.mask(kind, render.part.film));
-        const nb::capsule owner(integers, [](void* pointer) noexcept {
-            delete static_cast<std::vector<std::uint32_t>*>(pointer);
-        });
         const std::string name = option_text(id_aovs[which]);
         const PixelRect& region = render.part.film.region();
-        result.arrays.emplace(name, Masks::Array(integers->data(),
-                                                 {static_cast<std::size_t>(region.height()),
-                                                  static_cast<std::size_t>(region.width())},
-                                                 owner));
+        result.arrays.emplace(name,
+                              to_array<std::uint32_t>(render.part.ids.mask(kind, render.part.film),
+                                                      {static_cast<std::size_t>(region.height()),
+                                                       static_cast<std::size_t>(region.width())}));
         std::vector<std::string>& names = result.names[name];
         names.emplace_back();
         for (const NamedId& named : render.part.ids.names()[which]) {
@@ -369,32 +359,28 @@ nb::bytes to_bytes(const Render& render, const std::string& format, const SaveAr
     return read_bytes(file);
 }
 
-/// Splits the options of save() into the format and the rest.
-std::pair<std::optional<std::string>, nb::kwargs> split_format(const nb::kwargs& options)
+/// Returns the format that the options of save() name.
+std::optional<std::string> given_format(const nb::kwargs& options)
 {
     static constexpr std::array known{"exr", "hdr", "png", "jpg", "webp", "part"};
-    std::optional<std::string> format;
-    nb::dict others;
-    for (const auto& [key, value] : options) {
-        if (nb::cast<std::string>(key) != "format") {
-            others[key] = value;
-        } else if (!value.is_none()) {
-            format = nb::cast<std::string>(nb::str(value));
-            if (std::find(known.begin(), known.end(), *format) == known.end()) {
-                throw ValueError(fmt::format("format={}: expected exr, hdr, png, jpg, webp or part",
-                                             written(value)));
-            }
-        }
+    if (!options.contains("format") || options["format"].is_none()) {
+        return std::nullopt;
     }
-    return {format, nb::borrow<nb::kwargs>(others)};
+    const auto format = nb::cast<std::string>(nb::str(options["format"]));
+    if (!job::is_among(known, format)) {
+        throw ValueError(fmt::format("format={}: expected exr, hdr, png, jpg, webp or part",
+                                     written(options["format"])));
+    }
+    return format;
 }
 
 }  // namespace
 
 void save(const Render& render, const nb::object& file, const nb::kwargs& options)
 {
-    const auto [format, others] = split_format(options);
-    const SaveArguments asked = understand_save(to_words(others, Call::save));
+    const std::optional<std::string> format = given_format(options);
+    const SaveArguments asked = understand_save(
+        to_words(options.contains("format") ? without(options, "format") : options, Call::save));
     if (!is_writable_object(file)) {
         if (format) {
             throw Error(ErrorCode::usage,

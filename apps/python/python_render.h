@@ -37,9 +37,9 @@ struct Task {
 /// Returns a render of `task` without samples.
 [[nodiscard]] Render empty_render(const Task& task);
 
-/// Returns a control that checks for Ctrl-C between passes and calls `progress`, unless that is
-/// None.
-[[nodiscard]] RenderControl make_control(const nanobind::object& progress);
+/// Returns a control that checks for Ctrl-C between passes, calls `progress`, unless that is None,
+/// and ends at the limits of `goal`.
+[[nodiscard]] RenderControl make_control(const nanobind::object& progress, const job::Goal& goal);
 
 /// Head of the declaration of save(), for `declaration`.
 inline constexpr const char* saving_head =

@@ -16,11 +16,7 @@ namespace {
 /// A `bdpt::Renderer`, and the data that a `Render` of its samples needs.
 class PythonRenderer {
 public:
-    explicit PythonRenderer(Task asked)
-        : task_(std::move(asked)),
-          result_(empty_render(task_)),
-          seconds_(task_.arguments.goal.seconds),
-          noise_(task_.arguments.goal.noise.value_or(0.0))
+    explicit PythonRenderer(Task asked) : task_(std::move(asked)), result_(empty_render(task_))
     {
         const Unlocked unlocked;
         renderer_.emplace(task_.stage.scene, task_.stage.camera, task_.arguments.options);
@@ -28,16 +24,14 @@ public:
 
     void render(std::int64_t samples, const nb::object& progress)
     {
-        const RenderControl control = make_control(progress);
+        const RenderControl control = make_control(progress, {});
         const Unlocked unlocked;
         renderer_->render(samples, control);
     }
 
     void finish(const nb::object& progress)
     {
-        RenderControl control = make_control(progress);
-        control.time_limit = seconds_;
-        control.noise_goal = noise_;
+        const RenderControl control = make_control(progress, task_.arguments.goal);
         const Unlocked unlocked;
         renderer_->finish(control);
     }
@@ -75,8 +69,6 @@ public:
 private:
     Task task_;
     Render result_;  // without samples
-    double seconds_;
-    double noise_;
     std::optional<bdpt::Renderer> renderer_;
 };
 

@@ -80,22 +80,11 @@ std::string to_keyword(const job::Option& option)
     return key == "from" ? "from_" : key;
 }
 
-/// Returns the options by keyword.
-std::map<std::string, job::Option> collect_options(Call call)
-{
-    std::map<std::string, job::Option> options;
-    visit_options(call, [&options](const job::Option& option) {
-        options.emplace(to_keyword(option), option);
-    });
-    return options;
-}
-
 std::vector<std::string> collect_keywords(Call call)
 {
     std::vector<std::string> keywords;
-    for (const auto& [keyword, option] : collect_options(call)) {
-        keywords.push_back(keyword);
-    }
+    visit_options(
+        call, [&keywords](const job::Option& option) { keywords.push_back(to_keyword(option)); });
     return keywords;
 }
 
@@ -132,6 +121,19 @@ std::string to_text(const job::Option& option, nb::handle value)
     return text;
 }
 
+/// Returns the texts of an option that may repeat, or of one that does not.
+std::vector<std::string> to_texts(const job::Option& option, nb::handle value)
+{
+    if (!option.repeats || !has_items(value)) {
+        return {to_text(option, value)};
+    }
+    std::vector<std::string> texts;
+    for (const nb::handle item : nb::iter(value)) {
+        texts.push_back(to_text(item));
+    }
+    return texts;
+}
+
 /// Returns a number of Python or NumPy; else the text of `value`.
 JobValue to_number(nb::handle value)
 {
@@ -150,11 +152,8 @@ JobValue to_number(nb::handle value)
 JobValue to_value(const job::Option& option, nb::handle value)
 {
     if (option.repeats && has_items(value)) {
-        std::vector<JobValue> values;
-        for (const nb::handle item : nb::iter(value)) {
-            values.emplace_back(to_text(item));
-        }
-        return values;
+        const std::vector<std::string> texts = to_texts(option, value);
+        return std::vector<JobValue>(texts.begin(), texts.end());
     }
     if (value.ptr() == Py_True || value.ptr() == Py_False) {
         return value.ptr() == Py_True;
@@ -219,7 +218,7 @@ const char* format_call(Call call)
 [[noreturn]] void fail_unknown(const std::string& keyword, Call call)
 {
     for (const Call other : {Call::load, Call::render, Call::save, Call::run}) {
-        if (collect_options(other).contains(keyword)) {
+        if (job::is_among(collect_keywords(other), keyword)) {
             throw CallError(
                 fmt::format("{} got an unexpected keyword argument '{}': it is an option of {}",
                             format_call(call), keyword, format_call(other)));
@@ -249,59 +248,58 @@ bool can_be_option(const job::Option& option, nb::handle value)
            nb::hasattr(value, "__fspath__");
 }
 
-/// Throws unless the values are as their options expect. Paths and combinations are checked later.
-void check_values(const nb::kwargs& values, Call call)
+/// Throws unless the value is as its option expects. Paths and combinations are checked later.
+void check_value(const job::Option& option, nb::handle value, Call call)
 {
-    SaveRequest save;
-    job::RenderOptionList render;
-    for (job::Option& option : (call == Call::save ? save.options : render.list).all()) {
-        const std::string keyword = to_keyword(option);
-        const char* const given =
-            keyword == "from_" && values.contains("from") ? "from" : keyword.c_str();
-        if (!belongs(option, call) || !values.contains(given) || values[given].is_none()) {
-            continue;
-        }
-        const nb::object value = values[given];
-        const auto expect = [&](const std::string& meant) {
-            return fmt::format("{}={}: expected {}{}", keyword, written(value), option.expected,
-                               meant);
-        };
-        if (!can_be_option(option, value)) {
-            throw CallError(expect(""));
-        }
-        if (PyBool_Check(value.ptr()) != 0) {
-            continue;
-        }
-        std::vector<std::string> texts;
-        if (option.repeats && has_items(value)) {
-            for (const nb::handle item : nb::iter(value)) {
-                texts.push_back(to_text(item));
-            }
-        } else {
-            texts.push_back(to_text(option, value));
-        }
-        for (const std::string& text : texts) {
-            if (!option.store(option.spelled(text))) {
-                const auto meant = option.meant(text);
-                throw Error(call == Call::run ? ErrorCode::invalid_input : ErrorCode::usage,
-                            expect(meant ? fmt::format(" (did you mean '{}'?)", *meant) : ""));
-            }
+    const auto expect = [&](const std::string& meant) {
+        return fmt::format("{}={}: expected {}{}", to_keyword(option), written(value),
+                           option.expected, meant);
+    };
+    if (!can_be_option(option, value)) {
+        throw CallError(expect(""));
+    }
+    if (PyBool_Check(value.ptr()) != 0) {
+        return;
+    }
+    for (const std::string& text : to_texts(option, value)) {
+        if (!option.store(option.spelled(text))) {
+            const auto meant = option.meant(text);
+            throw Error(call == Call::run ? ErrorCode::invalid_input : ErrorCode::usage,
+                        expect(meant ? fmt::format(" (did you mean '{}'?)", *meant) : ""));
         }
     }
 }
 
-/// Throws unless all keywords are options of `call`. Returns those options.
-std::map<std::string, job::Option> find_options(const nb::kwargs& values, Call call)
+/// Calls `visit(option, value)` for each of `values` that is not None, in their order. Throws
+/// before that unless all keywords are options of `call` and all values are as these expect.
+template <typename Visitor>
+void visit_given(const nb::kwargs& values, Call call, const Visitor& visit)
 {
-    std::map<std::string, job::Option> known = collect_options(call);
-    for (const auto& [key, value] : values) {
-        const auto keyword = nb::cast<std::string>(key);
-        if (!known.contains(keyword == "from" ? "from_" : keyword)) {
-            fail_unknown(keyword, call);
+    const SaveRequest save;
+    const job::RenderOptionList render;
+    std::map<std::string, const job::Option*> known;
+    for (const job::Option& option : (call == Call::save ? save.options : render.list).all()) {
+        if (belongs(option, call)) {
+            known.emplace(to_keyword(option), &option);
         }
     }
-    check_values(values, call);
-    return known;
+    std::vector<std::pair<const job::Option*, nb::handle>> given;
+    for (const auto& [key, value] : values) {
+        const auto keyword = nb::cast<std::string>(key);
+        const auto found = known.find(keyword == "from" ? "from_" : keyword);
+        if (found == known.end()) {
+            fail_unknown(keyword, call);
+        }
+        if (!value.is_none()) {
+            given.emplace_back(found->second, value);
+        }
+    }
+    for (const auto& [option, value] : given) {
+        check_value(*option, value, call);
+    }
+    for (const auto& [option, value] : given) {
+        visit(*option, value);
+    }
 }
 
 /// Wraps `text` to lines of at most 100 columns, each behind `indent` spaces.
@@ -360,7 +358,7 @@ std::optional<std::string> find_unsafe(const Words& words)
         }
     });
     const auto found = std::find_if(words.begin(), words.end(), [&safe](const std::string& word) {
-        return std::find(safe.begin(), safe.end(), parse_name(word)) == safe.end();
+        return !job::is_among(safe, parse_name(word));
     });
     return found != words.end() ? std::optional(*found) : std::nullopt;
 }
@@ -383,42 +381,27 @@ Words combined(const Words& of_load, const Words& of_render)
 
 Words to_words(const nb::kwargs& options, Call call)
 {
-    const std::map<std::string, job::Option> known = find_options(options, call);
     Words words;
-    for (const auto& [key, value] : options) {
-        const auto keyword = nb::cast<std::string>(key);
-        const job::Option& option = known.at(keyword == "from" ? "from_" : keyword);
-        const bool is_off = option.is_flag() && value.ptr() == Py_False;
-        if (value.is_none() || (is_off && !option.default_is_chosen)) {
-            continue;
-        }
-        if (option.repeats && has_items(value)) {
-            for (const nb::handle item : nb::iter(value)) {
-                words.push_back(fmt::format("{}={}", option.name(), to_text(item)));
+    visit_given(options, call, [&words](const job::Option& option, nb::handle value) {
+        if (value.ptr() == Py_True) {
+            words.push_back(option.name());
+        } else if (value.ptr() != Py_False) {
+            for (const std::string& text : to_texts(option, value)) {
+                words.push_back(fmt::format("{}={}", option.name(), text));
             }
-            continue;
+        } else if (option.default_is_chosen) {
+            words.push_back(option.name() + "=false");
         }
-        const bool is_on = option.is_flag() && value.ptr() == Py_True;
-        words.push_back(
-            is_on ? option.name()
-                  : fmt::format("{}={}", option.name(), is_off ? "false" : to_text(option, value)));
-    }
+    });
     return words;
 }
 
 void set_options(RenderJob& job, const nb::kwargs& options)
 {
-    const std::map<std::string, job::Option> known = find_options(options, Call::run);
-    for (const auto& [key, value] : options) {
-        const auto keyword = nb::cast<std::string>(key);
-        const job::Option& option = known.at(keyword == "from" ? "from_" : keyword);
-        if (value.is_none()) {
-            continue;
-        }
-        const bool is_off =
-            option.is_flag() && value.ptr() == Py_False && !option.default_is_chosen;
+    visit_given(options, Call::run, [&job](const job::Option& option, nb::handle value) {
+        const bool is_off = value.ptr() == Py_False && !option.default_is_chosen;
         job.set(to_key(option), is_off ? JobValue(nullptr) : to_value(option, value));
-    }
+    });
 }
 
 std::vector<std::filesystem::path> given_paths(const nb::kwargs& options, Call call)
@@ -431,8 +414,7 @@ std::vector<std::filesystem::path> given_paths(const nb::kwargs& options, Call c
             return;
         }
         const std::string text = to_text(options[keyword.c_str()]);
-        if (std::find(option.info.words.begin(), option.info.words.end(), text) ==
-            option.info.words.end()) {
+        if (!job::is_among(option.info.words, text)) {
             paths.emplace_back(text);
         }
     });

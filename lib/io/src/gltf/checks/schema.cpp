@@ -109,13 +109,16 @@ void walk(const JsonPlace& place, std::string_view path, const SchemaRule& rule,
     const std::string_view rest =
         slash == std::string_view::npos ? std::string_view{} : path.substr(slash + 1);
     if (head == "*") {
+        require(place, place.value().is_array(), "an array");
         for (std::size_t i = 0; i < place.size(); ++i) {
             walk(place.element(i), rest, rule, target_size);
         }
-        if (place.value().is_object()) {
-            for (const auto& item : place.value().items()) {
-                walk(place.member(item.key()), rest, rule, target_size);
-            }
+        return;
+    }
+    require(place, place.value().is_object(), "an object");
+    if (head == "{}") {
+        for (const auto& item : place.value().items()) {
+            walk(place.member(item.key()), rest, rule, target_size);
         }
         return;
     }
@@ -166,12 +169,9 @@ void check_texture_references(const JsonPlace& place, std::vector<bool>& used)
             check_texture_references(member, used);
             continue;
         }
-        check_value(member, {"", object}, 0);
         walk(member, "index!", {"", index, "textures"}, used.size());
         used[member.value()["index"].get<std::size_t>()] = true;
         walk(member, "texCoord", {"", code}, 0);
-        walk(member, "extensions", {"", object}, 0);
-        walk(member, "extensions/KHR_texture_transform", {"", object}, 0);
         for (const SchemaRule& rule : transform_rules) {
             walk(member, fmt::format("extensions/KHR_texture_transform/{}", rule.path), rule, 0);
         }

@@ -19,12 +19,9 @@
 
 namespace bdpt::io {
 
-/// Returns the `name` of each element of `array`; empty if it has none. An array that is null or
-/// missing has no elements.
-[[nodiscard]] std::vector<std::string> names_in(const Json& array);
-
-/// Returns the array at members `path` of `document`, or null.
-[[nodiscard]] const Json& array_at(const Json& document, const Json::json_pointer& path);
+/// Returns the `name` of each element of the array at `pointer`, if there is one; empty if it has
+/// none.
+[[nodiscard]] std::vector<std::string> names_in(const Json& document, const std::string& pointer);
 
 /// Returns the index of the element named `wanted`, or else `wanted` as an index. Throws `Error`
 /// (not_found) that lists the available `what` ("scene").

@@ -28,10 +28,12 @@ std::string text_or_empty(const Json& object, const char* key)
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-std::size_t section_size(const Json& document, const char* section)
+/// Returns the array at `pointer`, or an empty one.
+const Json& array_at(const Json& document, const std::string& pointer)
 {
-    const auto found = document.find(section);
-    return found != document.end() && found->is_array() ? found->size() : 0;
+    static const Json none = Json::array();
+    const Json::json_pointer place(pointer);
+    return document.contains(place) && document.at(place).is_array() ? document.at(place) : none;
 }
 
 /// Returns the packet that the asset refers to; empty if anything about it is invalid.
@@ -40,9 +42,8 @@ std::string find_xmp(const Json& document)
     constexpr std::size_t longest = std::size_t{1} << 20;
     for (const std::string extension : {"KHR_xmp_json_ld", "KHR_xmp"}) {
         const Json::json_pointer reference("/asset/extensions/" + extension + "/packet");
-        const Json::json_pointer place("/extensions/" + extension + "/packets");
-        const Json& packets = array_at(document, place);
-        if (!document.contains(reference) || !packets.is_array()) {
+        const Json& packets = array_at(document, "/extensions/" + extension + "/packets");
+        if (!document.contains(reference)) {
             continue;
         }
         const Json& index = document.at(reference);
@@ -62,16 +63,15 @@ std::string find_xmp(const Json& document)
 double find_end(const Json& document, const Json& animation)
 {
     double end = 0.0;
-    const Json& accessors = array_at(document, Json::json_pointer("/accessors"));
-    for (const Json& sampler : array_at(animation, Json::json_pointer("/samplers"))) {
-        const auto input = sampler.is_object() ? sampler.find("input") : sampler.end();
-        if (input == sampler.end() || !input->is_number_unsigned() || !accessors.is_array() ||
+    const Json& accessors = array_at(document, "/accessors");
+    for (const Json& sampler : array_at(animation, "/samplers")) {
+        const auto input = sampler.find("input");
+        if (input == sampler.end() || !input->is_number_unsigned() ||
             input->get<std::uint64_t>() >= accessors.size()) {
             continue;
         }
-        const Json& greatest =
-            array_at(accessors[input->get<std::size_t>()], Json::json_pointer("/max"));
-        if (greatest.is_array() && !greatest.empty() && greatest[0].is_number()) {
+        const Json& greatest = array_at(accessors[input->get<std::size_t>()], "/max");
+        if (!greatest.empty() && greatest[0].is_number()) {
             end = std::max(end, greatest[0].get<double>());
         }
     }
@@ -88,50 +88,40 @@ GltfFacts collect_facts(const CheckedGltf& checked)
     facts.version = text_or_empty(asset, "version");
     facts.generator = text_or_empty(asset, "generator");
     facts.copyright = text_or_empty(asset, "copyright");
-    facts.nodes = section_size(document, "nodes");
-    facts.meshes = section_size(document, "meshes");
-    facts.materials = section_size(document, "materials");
-    facts.textures = section_size(document, "textures");
-    facts.images = section_size(document, "images");
-    facts.cameras = section_size(document, "cameras");
-    facts.skins = section_size(document, "skins");
-    facts.animations = section_size(document, "animations");
+    const auto count = [&document](const char* place) { return array_at(document, place).size(); };
+    facts.nodes = count("/nodes");
+    facts.meshes = count("/meshes");
+    facts.materials = count("/materials");
+    facts.textures = count("/textures");
+    facts.images = count("/images");
+    facts.cameras = count("/cameras");
+    facts.skins = count("/skins");
+    facts.animations = count("/animations");
+    facts.lights = count("/extensions/KHR_lights_punctual/lights");
     facts.extensions = checked.extensions;
     facts.xmp = find_xmp(document);
-    if (section_size(document, "meshes") > 0) {
-        for (const Json& mesh : document["meshes"]) {
-            facts.primitives += section_size(mesh, "primitives");
-        }
+    for (const Json& mesh : array_at(document, "/meshes")) {
+        facts.primitives += array_at(mesh, "/primitives").size();
     }
-    const auto names = [&document](const char* place) {
-        return names_in(array_at(document, Json::json_pointer(place)));
-    };
-    facts.scene_names = names("/scenes");
-    facts.variant_names = names("/extensions/KHR_materials_variants/variants");
-    facts.animation_names = names("/animations");
-    for (const Json& animation : array_at(document, Json::json_pointer("/animations"))) {
+    facts.scene_names = names_in(document, "/scenes");
+    facts.variant_names = names_in(document, "/extensions/KHR_materials_variants/variants");
+    facts.animation_names = names_in(document, "/animations");
+    for (const Json& animation : array_at(document, "/animations")) {
         facts.animation_ends.push_back(find_end(document, animation));
-    }
-    const auto extensions = document.find("extensions");
-    if (extensions != document.end() && extensions->contains("KHR_lights_punctual")) {
-        facts.lights = section_size((*extensions)["KHR_lights_punctual"], "lights");
     }
     return facts;
 }
 
 namespace {
 
-/// Reads the JSON of a file.
-Json read_document(const std::filesystem::path& file, const ReadLimits& limits)
+/// Parses the JSON of a .gltf or .glb file.
+Json parse_document(ByteView file, LoadContext& context)
 {
-    const Bytes bytes = read_file(file, limits.file_bytes);
-    ByteView text = bytes;
-    if (is_glb(bytes)) {
-        LoadContext context{.folders = {.own = file.parent_path()}, .limits = limits};
-        const GlbChunks::Range json = find_glb_chunks(bytes, context).json;
-        text = text.subspan(json.offset, json.size);
+    if (is_glb(file)) {
+        const GlbChunks::Range json = find_glb_chunks(file, context).json;
+        file = file.subspan(json.offset, json.size);
     }
-    return parse_json(text, limits);
+    return parse_json(file, context.limits);
 }
 
 }  // namespace
@@ -139,8 +129,9 @@ Json read_document(const std::filesystem::path& file, const ReadLimits& limits)
 GltfFacts read_gltf_facts(const std::filesystem::path& file, const ReadLimits& limits)
 {
     return with_named_errors(file, [&] {
+        LoadContext context{.folders = {.own = file.parent_path()}, .limits = limits};
         CheckedGltf unchecked;
-        unchecked.document = read_document(file, limits);
+        unchecked.document = parse_document(read_file(file, limits.file_bytes), context);
         const JsonPlace root(unchecked.document);
         if (!root.has("asset") || !root.member("asset").value().is_object()) {
             root.fail("not a glTF document: it has no object \"asset\"");
@@ -157,7 +148,7 @@ std::vector<std::filesystem::path> read_gltf_files(
     return with_named_errors(file, [&] {
         LoadContext context{.folders = {.own = file.parent_path(), .allowed = allowed},
                             .limits = limits};
-        const Json document = read_document(file, limits);
+        const Json document = parse_document(read_file(file, limits.file_bytes), context);
         return checked_uris(JsonPlace(document), context);
     });
 }
@@ -195,24 +186,13 @@ std::optional<std::size_t> to_index(std::string_view text)
 
 }  // namespace
 
-std::vector<std::string> names_in(const Json& array)
+std::vector<std::string> names_in(const Json& document, const std::string& pointer)
 {
     std::vector<std::string> names;
-    if (!array.is_array()) {
-        return names;
-    }
-    for (const Json& element : array) {
-        const auto name = element.find("name");
-        names.push_back(name != element.end() && name->is_string() ? name->get<std::string>()
-                                                                   : std::string());
+    for (const Json& element : array_at(document, pointer)) {
+        names.push_back(text_or_empty(element, "name"));
     }
     return names;
-}
-
-const Json& array_at(const Json& document, const Json::json_pointer& path)
-{
-    static const Json none;
-    return document.contains(path) ? document.at(path) : none;
 }
 
 std::size_t select(std::string_view what, const std::vector<std::string>& names,
@@ -247,35 +227,16 @@ ContentHash hash_by_blocks(const std::filesystem::path& file, std::uint64_t limi
     return hasher.hash();
 }
 
-/// Adds the files named by the elements of the list at `pointer`.
-void add_uris(std::set<std::string>& uris, const Json& document, const char* pointer)
+std::set<std::string> read_uris(const Json& document)
 {
-    const Json::json_pointer place(pointer);
-    if (!document.contains(place) || !document[place].is_array()) {
-        return;
-    }
-    for (const Json& element : document[place]) {
-        if (!element.is_object() || !element.contains("uri") || !element["uri"].is_string()) {
-            continue;
-        }
-        const auto& uri = element["uri"].get_ref<const std::string&>();
-        if (!is_data_uri(uri)) {
-            uris.insert(uri);
-        }
-    }
-}
-
-std::set<std::string> read_uris(ByteView file, LoadContext& context)
-{
-    ByteView text = file;
-    if (is_glb(file)) {
-        const GlbChunks::Range json = find_glb_chunks(file, context).json;
-        text = text.subspan(json.offset, json.size);
-    }
-    const Json document = parse_json(text, context.limits);
     std::set<std::string> uris;
     for (const char* list : {"/buffers", "/images", "/extensions/EXT_lights_ies/lights"}) {
-        add_uris(uris, document, list);
+        for (const Json& element : array_at(document, list)) {
+            const std::string uri = text_or_empty(element, "uri");
+            if (!uri.empty() && !is_data_uri(uri)) {
+                uris.insert(uri);
+            }
+        }
     }
     return uris;
 }
@@ -310,7 +271,7 @@ std::vector<FileContent> gltf_file_contents(const std::filesystem::path& file,
         const Bytes bytes = read_named(file, limits.file_bytes);
         std::vector<FileContent> result{
             {.name = file.filename().string(), .hash = hash_bytes(bytes)}};
-        for (const std::string& uri : read_uris(bytes, context)) {
+        for (const std::string& uri : read_uris(parse_document(bytes, context))) {
             result.push_back({.name = uri, .hash = hash_if_readable(uri, context)});
         }
         return result;

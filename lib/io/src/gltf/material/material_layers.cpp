@@ -6,163 +6,141 @@ namespace bdpt::io {
 
 namespace {
 
-ClearcoatDesc read_clearcoat(const MaterialExtension& from)
+/// Reads the factor of a layer and its texture; returns false if the factor is 0, when all of the
+/// layer is off.
+template <typename Desc>
+bool read_factor(const MaterialExtension& from, const std::string& layer, Desc& desc)
 {
-    ClearcoatDesc coat;
-    coat.factor = from.number("clearcoatFactor", 0.0, 0.0, 1.0);
-    if (coat.factor == 0.0f) {
-        return coat;
+    desc.factor = from.number(layer + "Factor", 0.0, 0.0, 1.0);
+    if (desc.factor > 0.0f) {
+        desc.texture = from.texture(layer + "Texture");
     }
-    coat.texture = from.texture("clearcoatTexture");
-    coat.roughness = from.number("clearcoatRoughnessFactor", 0.0, 0.0, 1.0);
-    if (coat.roughness > 0.0f) {
-        coat.roughness_texture = from.texture("clearcoatRoughnessTexture");
-    }
-    coat.normal_texture = from.texture("clearcoatNormalTexture");
-    if (coat.normal_texture) {
-        coat.normal_scale =
-            static_cast<float>(number_or(from.object.Get("clearcoatNormalTexture"), "scale", 1.0));
-    }
-    return coat;
+    return desc.factor > 0.0f;
 }
 
-CoatDesc read_coat(const MaterialExtension& from)
+template <typename Desc>
+void read_roughness(const MaterialExtension& from, const std::string& layer, double fallback,
+                    Desc& desc)
 {
-    CoatDesc coat;
-    coat.factor = from.number("coatFactor", 0.0, 0.0, 1.0);
-    if (coat.factor == 0.0f) {
-        return coat;  // all of it is off, also what the draft multiplies the base by
+    desc.roughness = from.number(layer + "RoughnessFactor", fallback, 0.0, 1.0);
+    if (desc.roughness > 0.0f) {
+        desc.roughness_texture = from.texture(layer + "RoughnessTexture");
     }
-    coat.texture = from.texture("coatTexture");
-    coat.roughness = from.number("coatRoughnessFactor", 0.0, 0.0, 1.0);
-    if (coat.roughness > 0.0f) {
-        coat.roughness_texture = from.texture("coatRoughnessTexture");
+}
+
+/// Reads a colour and its texture; returns false if it is black.
+template <typename Desc>
+bool read_color(const MaterialExtension& from, const std::string& layer, Rgb fallback, Desc& desc)
+{
+    desc.color = from.color(layer + "ColorFactor", 1.0, fallback);
+    if (desc.color != Rgb(0.0f)) {
+        desc.color_texture = from.texture(layer + "ColorTexture");
     }
+    return desc.color != Rgb(0.0f);
+}
+
+template <typename Desc>
+void read_normal(const MaterialExtension& from, const std::string& layer, Desc& desc)
+{
+    const std::string key = layer + "NormalTexture";
+    desc.normal_texture = from.texture(key);
+    if (desc.normal_texture) {
+        desc.normal_scale = static_cast<float>(number_or(from.object.Get(key), "scale", 1.0));
+    }
+}
+
+void read_clearcoat(const MaterialExtension& from, ClearcoatDesc& coat)
+{
+    if (read_factor(from, "clearcoat", coat)) {
+        read_roughness(from, "clearcoat", 0.0, coat);
+        read_normal(from, "clearcoat", coat);
+    }
+}
+
+void read_coat(const MaterialExtension& from, CoatDesc& coat)
+{
+    if (!read_factor(from, "coat", coat)) {
+        return;  // also what the draft multiplies the base by
+    }
+    read_roughness(from, "coat", 0.0, coat);
     // 0 stands for a Fresnel term of one, as in KHR_materials_ior.
     coat.ior = number_or(from.object, "coatIor", 1.5) == 0.0
                    ? static_cast<float>(no_limit)
                    : from.number("coatIor", 1.5, 1.0, no_limit);
-    coat.color = from.color("coatColorFactor", 1.0);
-    if (coat.color != Rgb(0.0f)) {
-        coat.color_texture = from.texture("coatColorTexture");
-    }
+    read_color(from, "coat", Rgb(1.0f), coat);
     coat.darkening = from.number("coatDarkeningFactor", 1.0, 0.0, 1.0);
     coat.anisotropy_strength = from.number("coatAnisotropyStrength", 0.0, 0.0, 1.0);
     if (coat.anisotropy_strength > 0.0f) {
         coat.anisotropy_rotation = from.number("coatAnisotropyRotation", 0.0, -no_limit, no_limit);
         coat.anisotropy_texture = from.texture("coatAnisotropyTexture");
     }
-    coat.normal_texture = from.texture("coatNormalTexture");
-    if (coat.normal_texture) {
-        coat.normal_scale =
-            static_cast<float>(number_or(from.object.Get("coatNormalTexture"), "scale", 1.0));
-    }
-    return coat;
+    read_normal(from, "coat", coat);
 }
 
-SheenDesc read_sheen(const MaterialExtension& from)
+void read_sheen(const MaterialExtension& from, SheenDesc& sheen)
 {
-    SheenDesc sheen;
-    sheen.color = from.color("sheenColorFactor", 1.0, Rgb(0.0f));
-    if (sheen.color == Rgb(0.0f)) {
-        return sheen;
+    if (read_color(from, "sheen", Rgb(0.0f), sheen)) {
+        read_roughness(from, "sheen", 0.0, sheen);
     }
-    sheen.color_texture = from.texture("sheenColorTexture");
-    sheen.roughness = from.number("sheenRoughnessFactor", 0.0, 0.0, 1.0);
-    if (sheen.roughness > 0.0f) {
-        sheen.roughness_texture = from.texture("sheenRoughnessTexture");
-    }
-    return sheen;
 }
 
 /// The draft's text and schema differ in the default of the roughness: it is that of the text and
 /// of OpenPBR, as in other readers.
-FuzzDesc read_fuzz(const MaterialExtension& from)
+void read_fuzz(const MaterialExtension& from, FuzzDesc& fuzz)
 {
-    FuzzDesc fuzz;
-    fuzz.factor = from.number("fuzzFactor", 0.0, 0.0, 1.0);
-    if (fuzz.factor == 0.0f) {
-        return fuzz;
+    if (read_factor(from, "fuzz", fuzz)) {
+        read_color(from, "fuzz", Rgb(1.0f), fuzz);
+        read_roughness(from, "fuzz", 0.5, fuzz);
     }
-    fuzz.texture = from.texture("fuzzTexture");
-    fuzz.color = from.color("fuzzColorFactor", 1.0);
-    if (fuzz.color != Rgb(0.0f)) {
-        fuzz.color_texture = from.texture("fuzzColorTexture");
-    }
-    fuzz.roughness = from.number("fuzzRoughnessFactor", 0.5, 0.0, 1.0);
-    if (fuzz.roughness > 0.0f) {
-        fuzz.roughness_texture = from.texture("fuzzRoughnessTexture");
-    }
-    return fuzz;
 }
 
-AnisotropyDesc read_anisotropy(const MaterialExtension& from)
+void read_anisotropy(const MaterialExtension& from, AnisotropyDesc& anisotropy)
 {
-    AnisotropyDesc anisotropy;
     anisotropy.strength = from.number("anisotropyStrength", 0.0, 0.0, 1.0);
-    if (anisotropy.strength == 0.0f) {
-        return anisotropy;
+    if (anisotropy.strength > 0.0f) {
+        anisotropy.rotation = from.number("anisotropyRotation", 0.0, -no_limit, no_limit);
+        anisotropy.texture = from.texture("anisotropyTexture");
     }
-    anisotropy.rotation = from.number("anisotropyRotation", 0.0, -no_limit, no_limit);
-    anisotropy.texture = from.texture("anisotropyTexture");
-    return anisotropy;
 }
 
-IridescenceDesc read_iridescence(const MaterialExtension& from)
+void read_iridescence(const MaterialExtension& from, IridescenceDesc& film)
 {
-    IridescenceDesc film;
-    film.factor = from.number("iridescenceFactor", 0.0, 0.0, 1.0);
-    if (film.factor == 0.0f) {
-        return film;
+    if (!read_factor(from, "iridescence", film)) {
+        return;
     }
     film.ior = from.number("iridescenceIor", 1.3, 1.0, no_limit);
     film.thickness_minimum = from.number("iridescenceThicknessMinimum", 100.0, 0.0, no_limit);
     film.thickness_maximum = from.number("iridescenceThicknessMaximum", 400.0, 0.0, no_limit);
-    film.texture = from.texture("iridescenceTexture");
     if (film.thickness_minimum != film.thickness_maximum) {
         film.thickness_texture = from.texture("iridescenceThicknessTexture");
     }
-    return film;
 }
 
-DiffuseTransmissionDesc read_diffuse_transmission(const MaterialExtension& from)
+void read_diffuse_transmission(const MaterialExtension& from, DiffuseTransmissionDesc& through)
 {
-    DiffuseTransmissionDesc through;
-    through.factor = from.number("diffuseTransmissionFactor", 0.0, 0.0, 1.0);
-    if (through.factor == 0.0f) {
-        return through;
+    if (read_factor(from, "diffuseTransmission", through)) {
+        read_color(from, "diffuseTransmission", Rgb(1.0f), through);
     }
-    through.texture = from.texture("diffuseTransmissionTexture");
-    through.color = from.color("diffuseTransmissionColorFactor", 1.0);
-    if (through.color != Rgb(0.0f)) {
-        through.color_texture = from.texture("diffuseTransmissionColorTexture");
-    }
-    return through;
 }
 
 /// Drafts differ in the default: it is that of OpenPBR, as in other readers.
-DiffuseRoughnessDesc read_diffuse_roughness(const MaterialExtension& from)
+void read_diffuse_roughness(const MaterialExtension& from, DiffuseRoughnessDesc& rough)
 {
-    DiffuseRoughnessDesc rough;
-    rough.factor = from.number("diffuseRoughnessFactor", 0.0, 0.0, 1.0);
-    if (rough.factor > 0.0f) {
-        rough.texture = from.texture("diffuseRoughnessTexture");
-    }
-    return rough;
+    read_factor(from, "diffuseRoughness", rough);
 }
 
-float read_dispersion(const MaterialExtension& from)
+void read_dispersion(const MaterialExtension& from, float& dispersion)
 {
-    return from.number("dispersion", 0.0, 0.0, no_limit);
+    dispersion = from.number("dispersion", 0.0, 0.0, no_limit);
 }
 
-/// Returns the value that `read` makes of an extension, if the material has it.
+/// Reads an extension, if the material has it.
 template <typename Desc>
 void read_extension(const MaterialValues& values, const std::string& name,
-                    Desc (*read)(const MaterialExtension&), Desc& desc)
+                    void (*read)(const MaterialExtension&, Desc&), Desc& desc)
 {
     if (const auto from = values.extension(name)) {
-        desc = read(*from);
+        read(*from, desc);
     }
 }
 

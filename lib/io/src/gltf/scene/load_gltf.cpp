@@ -328,8 +328,7 @@ LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice,
 std::optional<std::size_t> select_scene(const Json& document,
                                         const std::optional<std::string>& wanted)
 {
-    const std::vector<std::string> names =
-        names_in(array_at(document, Json::json_pointer("/scenes")));
+    const std::vector<std::string> names = names_in(document, "/scenes");
     if (wanted) {
         return select("scene", names, *wanted);
     }

@@ -92,14 +92,14 @@ std::optional<std::string> percent_decoded(std::string_view text)
 Access::Access(std::string token, std::string ticket, std::string host)
     : token_(std::move(token)),
       ticket_(std::move(ticket)),
-      host_(lower_case(host)),
+      host_(job::lower_case(host)),
       listens_everywhere_(host_ == "0.0.0.0" || host_ == "::")
 {}
 
 bool Access::is_ours(std::string_view host) const
 {
     // Ports differ behind tunnels.
-    const std::string name = lower_case(without_port(host));
+    const std::string name = job::lower_case(without_port(host));
     return !name.empty() &&
            (name == "localhost" || name == "127.0.0.1" || name == "[::1]" || name == host_ ||
             name == "[" + host_ + "]" || (listens_everywhere_ && is_numeric(name)));
@@ -111,7 +111,7 @@ std::optional<Refusal> Access::refusal_of_sender(const RequestHead& head) const
     if (!is_ours(head.host)) {
         return Refusal{403, "this server is not known by that name"};
     }
-    if (head.origin && lower_case(*head.origin) != "http://" + lower_case(head.host)) {
+    if (head.origin && job::lower_case(*head.origin) != "http://" + job::lower_case(head.host)) {
         return Refusal{403, "pages of others may not ask this server"};
     }
     const bool gives_file = head.method == "PUT" && parse_path(head.target) == environment_path;

@@ -219,11 +219,16 @@ void Connection::save(const std::string& name)
         refuse(404, "there is no such slot");
         return;
     }
+    server_.session->save(name, *slot, answer_later());
+}
+
+std::function<void(Download)> Connection::answer_later()
+{
     stream_.expires_never();
-    server_.session->save(name, *slot, [self = shared_from_this()](Download file) {
+    return [self = shared_from_this()](Download file) {
         asio::post(self->stream_.get_executor(),
                    [self, file = std::move(file)]() mutable { self->answer(std::move(file)); });
-    });
+    };
 }
 
 void Connection::answer(Download file)
@@ -300,13 +305,8 @@ void Connection::read_environment()
 void Connection::give_environment()
 {
     upload_->parser.get().body().close();
-    stream_.expires_never();
     const std::unique_ptr<Upload> upload = std::move(upload_);
-    server_.session->take_environment(
-        upload->name, upload->folder, [self = shared_from_this()](Download file) {
-            asio::post(self->stream_.get_executor(),
-                       [self, file = std::move(file)]() mutable { self->answer(std::move(file)); });
-        });
+    server_.session->take_environment(upload->name, upload->folder, answer_later());
 }
 
 void Connection::open_window()

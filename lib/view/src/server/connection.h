@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
@@ -22,6 +23,7 @@
 #include <string>
 
 #include "server/server.h"
+#include "session/session.h"
 
 namespace bdpt::view {
 
@@ -72,6 +74,8 @@ private:
     void give_environment();
     /// Tells how a file was saved or taken.
     void answer(Download file);
+    /// Returns what the session calls for that, on its thread.
+    [[nodiscard]] std::function<void(Download)> answer_later();
     void open_window();
     void refuse(int status, const std::string& line);
     void send(Response response);

@@ -1,6 +1,9 @@
 #include "server/server.h"
 
 #include <bdpt/error.h>
+#include <bdpt/eval/page.h>
+#include <bdpt/version.h>
+#include <bdpt/view.h>
 #include <fmt/core.h>
 #include <signal.h>
 #include <unistd.h>
@@ -10,10 +13,13 @@
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
 
 #include "server/connection.h"
+#include "session/session.h"
+#include "state/view_state.h"
 
 namespace bdpt::view {
 
@@ -31,9 +37,13 @@ std::string host_text(const std::string& host)
     return host.find(':') != std::string::npos ? "[" + host + "]" : host;
 }
 
-class ListeningServer final : public Server {
+/// The server of `bdpt view`: the page, a web socket for each window, files. It runs on one thread
+/// and never waits for a slow reader: each window has one picture in flight, and newer ones replace
+/// the waiting one. What an audience does is thread-safe.
+class Server final : public Audience {
 public:
-    explicit ListeningServer(const NetworkAddress& address)
+    /// Starts to listen. Throws `Error` (output) if that fails.
+    explicit Server(const NetworkAddress& address)
         : signals_(context_),
           acceptor_(context_),
           pause_(context_),
@@ -60,16 +70,18 @@ public:
                             acceptor_.local_endpoint().port());
     }
 
-    ~ListeningServer() override { stop(); }
-    ListeningServer(const ListeningServer&) = delete;
-    ListeningServer& operator=(const ListeningServer&) = delete;
+    ~Server() override { stop(); }
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
 
-    [[nodiscard]] PageAddress page_address() const override
+    [[nodiscard]] PageAddress page_address() const
     {
         return {.url = site_ + token_ + "/", .url_once = site_ + ticket_};
     }
 
-    void start(Session& session) override
+    /// Serves what `session` renders, on a thread of its own, until `stop()`. SIGINT, SIGTERM and
+    /// SIGHUP stop the session; a second one ends the process.
+    void start(Session& session)
     {
         state_.session = &session;
         for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
@@ -84,7 +96,7 @@ public:
         thread_ = std::thread([this] { context_.run(); });
     }
 
-    void stop() override
+    void stop()
     {
         asio::post(context_, [this] {
             state_.is_closing = true;
@@ -197,9 +209,27 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Server> make_server(const NetworkAddress& address)
+std::string view_page()
 {
-    return std::make_unique<ListeningServer>(address);
+    const nlohmann::ordered_json data{{"heat", eval::heat_text()}, {"version", BDPT_VERSION}};
+    const std::string text = eval::script_safe(data.dump());
+    return eval::fill_page(page_template(),
+                           {{"style", page_style()}, {"data", text}, {"script", page_script()}});
+}
+
+void serve(const OptionList& options, const NetworkAddress& address, Console& console,
+           const std::function<void(const PageAddress&)>& on_listening)
+{
+    Server server(address);
+    Session session(ViewWords(options), server, console);
+    // Stops the server before the session is destroyed, whose tasks it holds.
+    const struct Serving {
+        Server& server;
+        ~Serving() { server.stop(); }
+    } until_the_end{server};
+    server.start(session);
+    on_listening(server.page_address());
+    session.run();
 }
 
 }  // namespace bdpt::view

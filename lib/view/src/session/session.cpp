@@ -216,8 +216,7 @@ void Session::check(const ViewSettings& settings) const
         throw Error(ErrorCode::usage, "\"layer\": rates of samples need --adaptive or --rates");
     }
     const std::vector<Strategy> there = known_strategies();
-    if (settings.strategy &&
-        std::find(there.begin(), there.end(), *settings.strategy) == there.end()) {
+    if (settings.strategy && !is_among(there, *settings.strategy)) {
         throw Error(ErrorCode::usage,
                     fmt::format("\"strategy\": there is no image of s = {}, t = {}",
                                 settings.strategy->s, settings.strategy->t));

@@ -165,7 +165,7 @@ void Session::begin_strategies()
     }
     strategies_.emplace(std::move(arguments), scene_.stage());
     const std::vector<Strategy>& there = strategies_->renderer().result().strategies.strategies();
-    if (std::find(there.begin(), there.end(), strategy_) == there.end() && !there.empty()) {
+    if (!is_among(there, strategy_) && !there.empty()) {
         strategy_ = there.front();
     }
 }
@@ -177,8 +177,7 @@ void Session::show(std::size_t slot)
             return;
         }
         const RenderResult& part = strategies_->renderer().result();
-        const std::vector<Strategy>& there = part.strategies.strategies();
-        if (std::find(there.begin(), there.end(), strategy_) != there.end()) {
+        if (is_among(part.strategies.strategies(), strategy_)) {
             const PixelRect& region = part.film.region();
             send(0, part.strategies.weighted(strategy_), {},
                  {.width = region.width(), .height = region.height()}, region,

@@ -26,8 +26,7 @@ std::string point_text(Vec3 point, const DVec3& origin)
 void check_name(const char* what, const std::string& text, const std::vector<std::string>& names)
 {
     const std::optional<std::size_t> index = parse_index(text);
-    if (!text.empty() && std::find(names.begin(), names.end(), text) == names.end() &&
-        !(index && *index < names.size())) {
+    if (!text.empty() && !is_among(names, text) && !(index && *index < names.size())) {
         throw Error(ErrorCode::usage, fmt::format("\"{}\": there is none \"{}\"", what, text));
     }
 }

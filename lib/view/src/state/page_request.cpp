@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array layers{ViewLayer::picture, ViewLayer::noise, ViewLayer::rates,
-                            ViewLayer::strategy};
+/// In the order of `ViewLayer`.
+constexpr std::array<std::string_view, 4> layer_names{"picture", "noise", "rates", "strategy"};
 
 [[noreturn]] void fail(std::string_view key, std::string_view expected)
 {
@@ -115,12 +115,12 @@ Move parse_move(const Json& value)
 
 ViewLayer parse_layer(const Json& value)
 {
-    for (const ViewLayer layer : layers) {
-        if (value.is_string() && value.get_ref<const std::string&>() == layer_name(layer)) {
-            return layer;
-        }
+    const std::string name = value.is_string() ? value.get<std::string>() : std::string();
+    const auto* const found = std::find(layer_names.begin(), layer_names.end(), name);
+    if (found == layer_names.end()) {
+        fail("layer", "picture, noise, rates or strategy");
     }
-    fail("layer", "picture, noise, rates or strategy");
+    return static_cast<ViewLayer>(found - layer_names.begin());
 }
 
 /// Parses EV as in --exposure.
@@ -195,17 +195,7 @@ ViewSettings parse_settings(const Json& value)
 
 std::string_view layer_name(ViewLayer layer)
 {
-    switch (layer) {
-        case ViewLayer::picture:
-            return "picture";
-        case ViewLayer::noise:
-            return "noise";
-        case ViewLayer::rates:
-            return "rates";
-        case ViewLayer::strategy:
-            return "strategy";
-    }
-    return "";
+    return layer_names.at(static_cast<std::size_t>(layer));
 }
 
 bool PageRequest::changes_picture() const

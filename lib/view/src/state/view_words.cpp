@@ -142,11 +142,9 @@ std::string ViewWords::final_job() const
             continue;
         }
         for (std::string& text : found->second) {
-            const bool is_word = std::find(option.info.words.begin(), option.info.words.end(),
-                                           text) != option.info.words.end();
             if (const auto own = given_.find(text); own != given_.end()) {
                 text = own->second;
-            } else if (!is_word) {
+            } else if (!is_among(option.info.words, text)) {
                 text = std::filesystem::absolute(text).lexically_normal().string();
             }
         }

@@ -9,11 +9,9 @@
 #include <bdpt/options/integrators.h>
 #include <bdpt/options/option_fields.h>
 #include <bdpt/render.h>
-#include <bdpt/version.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <utility>
 
@@ -45,15 +43,10 @@ constexpr double min_errors = 3.0;
 /// Returns the mean of (a - r) (b - r) / (r^2 + e).
 double product(const Image& a, const Image& b, const Image& reference, double epsilon)
 {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
-        for (int c = 0; c < 3; ++c) {
-            const double r = static_cast<double>(reference.pixels[i][c]);
-            sum += (static_cast<double>(a.pixels[i][c]) - r) *
-                   (static_cast<double>(b.pixels[i][c]) - r) / (r * r + epsilon);
-        }
-    }
-    return sum / (3.0 * static_cast<double>(reference.pixels.size()));
+    return relative_mean(reference, epsilon, [&](std::size_t i, int c, double r) {
+        return (static_cast<double>(a.pixels[i][c]) - r) *
+               (static_cast<double>(b.pixels[i][c]) - r);
+    });
 }
 
 }  // namespace
@@ -112,14 +105,10 @@ void keep(const Trial& trial, const BenchFiles& files, const BenchScene& scene,
           const BenchGoals& goals)
 {
     io::ExrOptions exr;
-    exr.metadata.version = BDPT_VERSION;
-    exr.metadata.scene = scene.file;
+    exr.metadata = make_metadata(scene);
     exr.metadata.integrator = to_name(goals.integrator);
     exr.metadata.seed = trial.run.seed;
     exr.metadata.samples_per_pixel = goals.equal_time;
-    exr.metadata.camera = scene.camera;
-    exr.metadata.origin = scene.scene.description().origin;
-    exr.metadata.created = std::chrono::system_clock::now();
     io::write_exr(files.image(goals.integrator, trial.run.seed), trial.image, exr);
     // Written last: a run without its numbers does not count.
     write_json(files.run(goals.integrator, trial.run.seed), run_json(trial.run));

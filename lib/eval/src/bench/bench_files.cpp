@@ -5,7 +5,9 @@
 #include <bdpt/options/option_fields.h>
 #include <bdpt/part/content_hash.h>
 #include <bdpt/part/identity.h>
+#include <bdpt/version.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -142,6 +144,17 @@ void write_json(const fs::path& file, const ordered_json& json)
     io::OutputFile output(file);
     output.write(text);
     output.commit();
+}
+
+io::ImageMetadata make_metadata(const BenchScene& scene)
+{
+    io::ImageMetadata metadata;
+    metadata.version = BDPT_VERSION;
+    metadata.scene = scene.file;
+    metadata.camera = scene.camera;
+    metadata.origin = scene.scene.description().origin;
+    metadata.created = std::chrono::system_clock::now();
+    return metadata;
 }
 
 void check_size(const Image& image, int width, int height, const fs::path& file)

@@ -2,11 +2,12 @@
 
 #include <bdpt/eval/bench.h>
 #include <bdpt/film/film.h>
+#include <bdpt/io/write_image.h>
 #include <bdpt/render.h>
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -50,6 +51,24 @@ private:
 [[nodiscard]] std::optional<nlohmann::ordered_json> read_json(const std::filesystem::path& file);
 /// Writes a JSON file atomically. Throws `Error` (output).
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
+
+/// Returns the metadata of an image of the scene, as it is rendered now.
+[[nodiscard]] io::ImageMetadata make_metadata(const BenchScene& scene);
+
+/// Returns the mean over pixels and channels of term(pixel, channel, r) / (r^2 + epsilon), where r
+/// is the value of `reference`.
+template <typename Term>
+[[nodiscard]] double relative_mean(const Image& reference, double epsilon, const Term& term)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const double r = static_cast<double>(reference.pixels[i][c]);
+            sum += term(i, c, r) / (r * r + epsilon);
+        }
+    }
+    return sum / (3.0 * static_cast<double>(reference.pixels.size()));
+}
 
 /// Throws `Error` (invalid_input) for an image of another size.
 void check_size(const Image& image, int width, int height, const std::filesystem::path& file);

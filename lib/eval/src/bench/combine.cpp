@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include <bdpt/eval/metric.h>
+#include "bench/bench_parts.h"
 
 namespace bdpt::eval {
 namespace {
@@ -14,16 +14,10 @@ constexpr double max_disagreement = 2.0;
 /// Returns the mean of (a - b)^2 / (r^2 + e), where r is `base`.
 double relative_difference(const Image& a, const Image& b, const Image& base, double epsilon)
 {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < base.pixels.size(); ++i) {
-        for (int c = 0; c < 3; ++c) {
-            const double r = static_cast<double>(base.pixels[i][c]);
-            const double d =
-                static_cast<double>(a.pixels[i][c]) - static_cast<double>(b.pixels[i][c]);
-            sum += d * d / (r * r + epsilon);
-        }
-    }
-    return sum / (3.0 * static_cast<double>(base.pixels.size()));
+    return relative_mean(base, epsilon, [&](std::size_t i, int c, double /*r*/) {
+        const double d = static_cast<double>(a.pixels[i][c]) - static_cast<double>(b.pixels[i][c]);
+        return d * d;
+    });
 }
 
 Image mix(const Image& a, const Image& b, double share)

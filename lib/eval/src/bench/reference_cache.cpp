@@ -4,9 +4,7 @@
 #include <bdpt/io/read_image.h>
 #include <bdpt/io/write_image.h>
 #include <bdpt/options/option_fields.h>
-#include <bdpt/version.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -31,14 +29,9 @@ double noise_by_layer(const fs::path& file, const Image& image)
         return 0.0;
     }
     const double epsilon = bench_scale(image).squared_epsilon;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        for (int c = 0; c < 3; ++c) {
-            const double r = static_cast<double>(image.pixels[i][c]);
-            sum += static_cast<double>(variance.image.pixels[i][c]) / (r * r + epsilon);
-        }
-    }
-    const double noise = sum / (3.0 * static_cast<double>(image.pixels.size()));
+    const double noise = relative_mean(image, epsilon, [&](std::size_t i, int c, double /*r*/) {
+        return static_cast<double>(variance.image.pixels[i][c]);
+    });
     return std::isfinite(noise) && noise >= 0.0 ? noise : 0.0;
 }
 
@@ -98,13 +91,7 @@ std::string describe_origin(const CombinedReference& combined, const HalvedRende
 void keep(const KeyedReference& keyed, const BenchFiles& files, const BenchScene& scene,
           const BenchOptions& options)
 {
-    io::ExrOptions exr;
-    exr.metadata.version = BDPT_VERSION;
-    exr.metadata.scene = scene.file;
-    exr.metadata.camera = scene.camera;
-    exr.metadata.origin = scene.scene.description().origin;
-    exr.metadata.created = std::chrono::system_clock::now();
-    io::write_exr(keyed.file, keyed.reference.image, exr);
+    io::write_exr(keyed.file, keyed.reference.image, {.metadata = make_metadata(scene)});
     // Written last: a reference without its facts does not count.
     write_json(files.reference_facts(keyed.key),
                {{"origin", keyed.reference.origin},

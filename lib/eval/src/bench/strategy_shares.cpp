@@ -48,16 +48,11 @@ public:
     /// Returns the variance of one render over r^2 + e; mean over pixels and channels.
     [[nodiscard]] double relative_variance(const Image& reference, double epsilon) const
     {
-        double result = 0.0;
-        for (std::size_t i = 0; i < sums_.size(); ++i) {
-            for (int c = 0; c < 3; ++c) {
-                const double variance =
-                    (squares_[i][c] - sums_[i][c] * sums_[i][c] / batches) / (batches - 1);
-                const double r = static_cast<double>(reference.pixels[i][c]);
-                result += std::max(variance, 0.0) / (r * r + epsilon);
-            }
-        }
-        return result / (3.0 * static_cast<double>(sums_.size()));
+        return relative_mean(reference, epsilon, [this](std::size_t i, int c, double /*r*/) {
+            const double variance =
+                (squares_[i][c] - sums_[i][c] * sums_[i][c] / batches) / (batches - 1);
+            return std::max(variance, 0.0);
+        });
     }
     /// Returns the mean square over pixels and channels.
     [[nodiscard]] double energy() const

@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "metrics/metric_parts.h"
+
 namespace bdpt::eval {
 
 namespace {
@@ -118,19 +120,6 @@ private:
     std::vector<std::string> warnings_;
 };
 
-void check_same_size(const NamedImage& input, const NamedImage& reference)
-{
-    const auto size = [](const Image& image) {
-        return std::to_string(image.width) + " x " + std::to_string(image.height);
-    };
-    if (input.image.width != reference.image.width ||
-        input.image.height != reference.image.height) {
-        throw Error(ErrorCode::invalid_input, input.name + ": has " + size(input.image) +
-                                                  " pixels, but the reference " + reference.name +
-                                                  " has " + size(reference.image));
-    }
-}
-
 PixelRect common_region(const NamedImage& input, const NamedImage& reference)
 {
     const PixelRect region = intersection(input.filled, reference.filled);
@@ -149,8 +138,13 @@ FileComparison compare_files(std::span<const fs::path> files, const fs::path& re
 {
     Reader reader(layer);
     const NamedImage truth = reader.read(reference);
-    NamedImage input = reader.read(files[0]);
-    check_same_size(input, truth);
+    const auto read_same_size = [&](const fs::path& file) {
+        NamedImage read = reader.read(file);
+        check_same_size({.name = read.name, .image = read.image},
+                        {.name = "the reference " + truth.name, .image = truth.image});
+        return read;
+    };
+    NamedImage input = read_same_size(files[0]);
     const PixelRect region = common_region(input, truth);
     if (region.width() < truth.image.width || region.height() < truth.image.height) {
         reader.warn(input.name + ": compared within " + to_text(region) +
@@ -162,8 +156,7 @@ FileComparison compare_files(std::span<const fs::path> files, const fs::path& re
     Comparison comparison(truth.name, crop(truth.image, region), std::move(placed));
     comparison.add(input.name, crop(input.image, region));
     for (const fs::path& file : files.subspan(1)) {
-        input = reader.read(file);
-        check_same_size(input, truth);
+        input = read_same_size(file);
         if (!(intersection(input.filled, region) == region)) {
             throw Error(ErrorCode::invalid_input, input.name + ": has data within " +
                                                       to_text(input.filled) + ", but " +

@@ -46,7 +46,7 @@ void check_image(const NamedInput& input)
     }
 }
 
-void check_image(const NamedInput& input, const NamedInput& reference)
+void check_same_size(const NamedInput& input, const NamedInput& reference)
 {
     if (input.image.width != reference.image.width ||
         input.image.height != reference.image.height) {
@@ -54,6 +54,11 @@ void check_image(const NamedInput& input, const NamedInput& reference)
                                                   " pixels, but " + reference.name + " has " +
                                                   size_text(reference.image));
     }
+}
+
+void check_image(const NamedInput& input, const NamedInput& reference)
+{
+    check_same_size(input, reference);
     check_image(input);
 }
 
@@ -193,27 +198,9 @@ Image on_screen(const Image& image, float exposure)
 
 std::string_view to_string(Metric metric)
 {
-    switch (metric) {
-        case Metric::relmse:
-            return "relmse";
-        case Metric::relmse_scales:
-            return "relmse_scales";
-        case Metric::mse:
-            return "mse";
-        case Metric::rmse:
-            return "rmse";
-        case Metric::mape:
-            return "mape";
-        case Metric::smape:
-            return "smape";
-        case Metric::psnr:
-            return "psnr";
-        case Metric::flip:
-            return "flip";
-        case Metric::flip_ldr:
-            return "flip_ldr";
-    }
-    return "";
+    constexpr std::array<std::string_view, all_metrics.size()> names{
+        "relmse", "relmse_scales", "mse", "rmse", "mape", "smape", "psnr", "flip", "flip_ldr"};
+    return names[static_cast<std::size_t>(metric)];
 }
 
 std::optional<Metric> parse_metric(std::string_view name)

@@ -25,7 +25,10 @@ struct NamedInput {
 /// naming the pixel.
 void check_image(const NamedInput& input);
 
-/// Throws as the other overload does, and for an image whose size differs from its reference's.
+/// Throws `Error` (invalid_input) for an image whose size differs from its reference's.
+void check_same_size(const NamedInput& input, const NamedInput& reference);
+
+/// Throws as both of these do.
 void check_image(const NamedInput& input, const NamedInput& reference);
 
 /// Converts linear sRGB [IEC 61966-2-1] to the opponent space YCxCz [Flohr et al. 1993, Kolpatzik

@@ -89,20 +89,18 @@ VerifyReport describe(const Evidence& evidence, int max_depth)
 template <typename Visit>
 void for_each_whole(VerifyReport& report, const Visit& visit)
 {
-    for (std::size_t i = 0; i < report.strategies.size(); ++i) {
-        visit(
-            report.strategies[i].whole, [i](VerifyReport & r) -> auto& { return r.strategies[i]; });
-    }
-    for (std::size_t i = 0; i < report.integrators.size(); ++i) {
-        visit(
-            report.integrators[i].whole, [i](VerifyReport & r) -> auto& {
-                return r.integrators[i];
-            });
-    }
-    for (std::size_t i = 0; i < report.merges.size(); ++i) {
-        visit(
-            report.merges[i].whole, [i](VerifyReport & r) -> auto& { return r.merges[i]; });
-    }
+    const auto visit_each = [&](auto findings) {
+        for (std::size_t i = 0; i < (report.*findings).size(); ++i) {
+            const auto same = [ findings, i ](VerifyReport & of) -> auto&
+            {
+                return (of.*findings)[i];
+            };
+            visit((report.*findings)[i].whole, same);
+        }
+    };
+    visit_each(&VerifyReport::strategies);
+    visit_each(&VerifyReport::integrators);
+    visit_each(&VerifyReport::merges);
 }
 
 std::vector<MeanComparison*> tests_of_images(VerifyReport& report,
@@ -149,14 +147,12 @@ void correct(const std::vector<MeanComparison*>& tests)
 bool has_failed(const VerifyReport& report)
 {
     const auto fail = [&report](const MeanComparison& test) { return fails(test, report); };
-    const auto any = [&](const auto& finding) {
+    const auto of_image = [&](const auto& finding) {
         return fail(finding.whole) ||
-               std::any_of(finding.tiles.begin(), finding.tiles.end(), fail) ||
                std::any_of(finding.channels.begin(), finding.channels.end(), fail);
     };
-    const auto merging_fails = [&](const MergeFinding& finding) {
-        return fail(finding.whole) ||
-               std::any_of(finding.channels.begin(), finding.channels.end(), fail);
+    const auto any = [&](const auto& finding) {
+        return of_image(finding) || std::any_of(finding.tiles.begin(), finding.tiles.end(), fail);
     };
     return report.weights.wrong > 0 ||
            std::any_of(report.images.begin(), report.images.end(),
@@ -166,7 +162,7 @@ bool has_failed(const VerifyReport& report)
                        }) ||
            std::any_of(report.strategies.begin(), report.strategies.end(), any) ||
            std::any_of(report.integrators.begin(), report.integrators.end(), any) ||
-           std::any_of(report.merges.begin(), report.merges.end(), merging_fails);
+           std::any_of(report.merges.begin(), report.merges.end(), of_image);
 }
 
 /// Returns the weighted paths that only one strategy, and no integrator from the camera, can

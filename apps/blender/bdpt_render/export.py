@@ -6,7 +6,7 @@ import pathlib
 import mathutils
 import numpy as np
 
-from . import camera, instances, lamps, meshes, world
+from . import camera, lamps, meshes, world
 
 # Rotates Blender's z-up coordinates to the y-up coordinates of glTF.
 Y_UP = mathutils.Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
@@ -26,7 +26,7 @@ class Export:
         self._glb, of_instances = made.glb, made.of_instances()
         self._nodes, self._moments = {}, []
         self._y_up = of_instances.keys()  # the exporter has already rotated their vertices
-        for instance, shown in instances.list_instances(depsgraph):
+        for instance, shown in meshes.list_instances(depsgraph):
             if shown.type == "LIGHT":
                 holds, lost = lamps.add_lamp(self._glb, shown.data, instance.name, instance.matrix.to_scale())
                 self.warnings += lost
@@ -38,17 +38,17 @@ class Export:
         index = self._glb.add("cameras", camera.gltf_camera(scene, thing.data, thing.matrix_world))
         self._nodes[None] = {"name": scene.camera.name, "camera": index}
         self._environment, lost = world.environment_words(scene.world, folder)
-        self.warnings += [*lost, *camera.find_warnings(scene, thing.data), *instances.find_warnings(depsgraph)]
+        self.warnings += [*lost, *camera.find_warnings(scene, thing.data), *meshes.find_warnings(depsgraph)]
         self.film = camera.make_film(scene, thing.data)
-        self._shapes = instances.hash_shapes(depsgraph) if scene.render.use_motion_blur else {}
+        self._shapes = meshes.hash_shapes(depsgraph) if scene.render.use_motion_blur else {}
         self.place(depsgraph)
 
     def place(self, depsgraph):
         """Records the transforms at one more moment. Shapes stay those of the first moment."""
-        self._moments.append(instances.collect_matrices(depsgraph))
+        self._moments.append(meshes.collect_matrices(depsgraph))
         if len(self._moments) == 1:
             return
-        for key, shape in instances.hash_shapes(depsgraph).items():
+        for key, shape in meshes.hash_shapes(depsgraph).items():
             if key in self._nodes and self._shapes.get(key) != shape:
                 self.warnings.append(f'object "{key[0]}": its motion is blurred, its deformation is not')
 

@@ -1,7 +1,17 @@
-"""Defines the user settings of the add-on, of scenes and of view layers."""
+"""Defines the user settings of the add-on, of scenes and of view layers, their panels, and which panels of Blender the
+engine shares."""
 
 import bpy
 
+ENGINE = "BDPT"
+# Panels of EEVEE that apply to any engine.
+SHARED = ("EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface", "DATA_PT_EEVEE_light",
+          "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture",
+          *(("EEVEE_NEXT_MATERIAL_PT_settings", "EEVEE_NEXT_MATERIAL_PT_settings_surface")
+            if (4, 2, 0) <= bpy.app.version < (5, 0, 0) else ("EEVEE_MATERIAL_PT_settings", "EEVEE_MATERIAL_PT_settings_surface")))
+# Generic panels that show settings that bdpt lacks, or that repeat the panels above.
+EXCLUDED = ("DATA_PT_light", "DATA_PT_area", "DATA_PT_preview", "TEXTURE_PT_preview", "DATA_PT_camera_stereoscopy",
+            "RENDER_PT_stereoscopy", "RENDER_PT_output_views")
 INTEGRATORS = [("auto", "Automatic", "A short test render chooses the integrator that has less noise"),
                ("bdpt", "Bidirectional", "Bidirectional path tracing"),
                ("mis", "Path Tracing", "Unidirectional path tracing with next-event estimation"),
@@ -45,7 +55,84 @@ class BDPT_LayerSettings(bpy.types.PropertyGroup):
         description="Passes of albedo and normal for denoising in the compositor, and of the noisy image")
 
 
-CLASSES = (BDPT_Preferences, BDPT_SceneSettings, BDPT_LayerSettings)
+class Panel(bpy.types.Panel):
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "render"
+    COMPAT_ENGINES = {ENGINE}
+
+    @classmethod
+    def poll(cls, context):
+        return context.engine in cls.COMPAT_ENGINES
+
+    def column(self):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        return self.layout.column()
+
+    def draw(self, context):
+        column = self.column()
+        for name in self.settings:
+            column.prop(context.scene.bdpt, name)
+
+
+class BDPT_PT_sampling(Panel):
+    bl_label = "Sampling"
+    settings = ("samples", "time", "noise", "denoise")
+
+
+class BDPT_PT_light_paths(Panel):
+    bl_label = "Light Paths"
+    settings = ("integrator", "max_depth", "options")
+
+
+class BDPT_PT_film(Panel):
+    bl_label = "Film"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        self.column().prop(context.scene.render, "film_transparent", text="Transparent")
+
+
+class BDPT_PT_motion_blur(Panel):
+    bl_label = "Motion Blur"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context):
+        self.layout.prop(context.scene.render, "use_motion_blur", text="")
+
+    def draw(self, context):
+        column, render = self.column(), context.scene.render
+        column.active = render.use_motion_blur
+        if hasattr(render, "motion_blur_position"):
+            column.prop(render, "motion_blur_position", text="Position")
+        column.prop(render, "motion_blur_shutter")
+
+
+class BDPT_PT_passes(Panel):
+    bl_label = "Passes"
+    bl_context = "view_layer"
+
+    def draw(self, context):
+        column, layer = self.column(), context.view_layer
+        for name in ("use_pass_z", "use_pass_position", "use_pass_normal"):
+            column.prop(layer, name)
+        column.prop(layer.bdpt, "use_pass_denoising_data")
+        column.prop(layer, "use_pass_cryptomatte_object", text="Cryptomatte Object")
+        column.prop(layer, "use_pass_cryptomatte_material", text="Cryptomatte Material")
+
+
+CLASSES = (BDPT_Preferences, BDPT_SceneSettings, BDPT_LayerSettings, BDPT_PT_sampling,
+           BDPT_PT_light_paths, BDPT_PT_film, BDPT_PT_motion_blur, BDPT_PT_passes)
+
+
+def shared_panels():
+    """Returns Blender's panels that work for this engine."""
+    for panel in bpy.types.Panel.__subclasses__():
+        name, engines = panel.__name__, getattr(panel, "COMPAT_ENGINES", ())
+        of_any = "BLENDER_RENDER" in engines and name not in EXCLUDED and "freestyle" not in name
+        if isinstance(engines, set) and (of_any or name in SHARED):
+            yield panel
 
 
 def register():
@@ -53,9 +140,13 @@ def register():
         bpy.utils.register_class(cls)
     bpy.types.Scene.bdpt = bpy.props.PointerProperty(type=BDPT_SceneSettings)
     bpy.types.ViewLayer.bdpt = bpy.props.PointerProperty(type=BDPT_LayerSettings)
+    for panel in shared_panels():
+        panel.COMPAT_ENGINES.add(ENGINE)
 
 
 def unregister():
+    for panel in shared_panels():
+        panel.COMPAT_ENGINES.discard(ENGINE)
     del bpy.types.ViewLayer.bdpt
     del bpy.types.Scene.bdpt
     for cls in reversed(CLASSES):

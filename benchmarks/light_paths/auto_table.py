@@ -11,7 +11,6 @@ machine affects all. Needs numpy."""
 
 import argparse
 import json
-import math
 import pathlib
 import resource
 import statistics
@@ -113,7 +112,7 @@ def main():
         share = times["choose"] / (times["choose"] + times["render"])
         print(f"{scene.stem:26} {format_settings(told['settings']):18} {100 * share:5.1f}% {format_ratios(row)} {best:>5} "
               f"{estimate_noise(seconds, images, best):6.2f}", flush=True)
-    means = [math.exp(statistics.fmean(math.log(value) for value in column)) for column in zip(*ratios)]
+    means = [statistics.geometric_mean(column) for column in zip(*ratios)]
     print(f"{'geometric mean':26} {'':18} {'':6} {format_ratios(means)}")
     return 0
 

@@ -9,7 +9,6 @@ pilot. Errors are those of auto_table.py. Needs numpy."""
 
 import argparse
 import json
-import math
 import pathlib
 import re
 import statistics
@@ -109,7 +108,7 @@ def compare_scenes(scenes, arguments):
     """Prints a table of named scenes."""
     print(f"{'scene':26} {'auto chose':16} {'best by hand':16} {'over it':>8} {'no dots':>8} {'noise':>6}", flush=True)
     ratios = [compare_choices(name, scene, arguments) for name, scene in scenes]
-    print(f"{'geometric mean':26} {'':16} {'':16} {math.exp(statistics.fmean(map(math.log, ratios))):8.2f}")
+    print(f"{'geometric mean':26} {'':16} {'':16} {statistics.geometric_mean(ratios):8.2f}")
 
 
 def make_parser(description, size, spp):

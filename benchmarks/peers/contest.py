@@ -10,9 +10,8 @@ import subprocess
 
 import gltf_reader
 import gltf_writer
-import vdb_reader
 from peers import RENDER_GRACE, Unavailable
-from scene import Medium, to_json
+from scene import Medium, read_volume, to_json
 
 REFERENCE_SEED = 100000  # differs from the seeds of all runs
 BLAMELESS = 4.0  # standard errors that a channel's mean may deviate
@@ -79,7 +78,7 @@ class Stage:
     def __init__(self, options, file, folder):
         folder.mkdir(parents=True, exist_ok=True)
         self.options, self.folder, self.name = options, folder, file.stem
-        volume = options.volume and vdb_reader.read(options.volume, options.volume_extinction, folder.resolve())
+        volume = options.volume and read_volume(options.volume, options.volume_extinction, folder.resolve())
         self.scene = dataclasses.replace(gltf_reader.read(file), fog=options.fog, volume=volume)
         self.description, self.gltf = folder / "scene.json", folder / f"{file.stem}.gltf"
         self.description.write_text(to_json(self.scene), encoding="utf-8")

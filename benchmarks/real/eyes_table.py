@@ -8,7 +8,6 @@ time. Denoising does not count as time. The reference is a long render of the fi
 the first twelve, or those of --only: of scenes/, and those of MODELS (see real_scenes.py) that are present. Ways take
 turns. Needs numpy; denoised columns need Open Image Denoise."""
 
-import argparse
 import json
 import math
 import pathlib
@@ -84,16 +83,10 @@ def measure(scene, arguments):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = real_scenes.make_parser(__doc__, 2, 1024)
     parser.add_argument("bdpt", type=pathlib.Path, metavar="BDPT")
     parser.add_argument("models", type=pathlib.Path, nargs="?", default=pathlib.Path(), metavar="MODELS")
     parser.add_argument("--way", action="append", required=True, metavar="[PROGRAM:]OPTIONS")
-    parser.add_argument("--only", default="", help="scenes whose names this regular expression matches")
-    parser.add_argument("--size", default="240x135")
-    parser.add_argument("--spp", type=int, default=16)
-    parser.add_argument("--seeds", type=int, default=2)
-    parser.add_argument("--max-depth", type=int, default=8)
-    parser.add_argument("--reference", type=int, default=1024, metavar="SPP")
     parser.add_argument("--denoise", action="store_true", help="also compares denoised images")
     arguments = parser.parse_intermixed_args()
     scenes = [(name, real_scenes.ROOT / f"scenes/{name}.gltf", []) for name in OWN if re.search(arguments.only, name)]
@@ -109,10 +102,10 @@ def main():
             over = [a / b for a, b in zip(found, flips[0])]
             row += f"{over[0]:8.2f}" + (f"{over[1]:10.2f}" if arguments.denoise else "")
             for kind, ratio in enumerate(over):
-                ratios[way][kind].append(math.log(ratio))
+                ratios[way][kind].append(ratio)
         print(f"{name:26}{row}", flush=True)
-    means = "".join(f"{math.exp(statistics.fmean(logs)):{10 if kind else 8}.2f}"
-                    for way in ratios for kind, logs in enumerate(way))
+    means = "".join(f"{statistics.geometric_mean(column):{10 if kind else 8}.2f}"
+                    for way in ratios for kind, column in enumerate(way))
     print(f"{'geometric mean':26}{'':{18 if arguments.denoise else 8}}{means}")
     return 0
 

@@ -14,7 +14,6 @@ are divided by the reference, whose own noise makes those of dark pixels larger.
 without a render of one pixel, for the others that of 63 samples beyond the first. Materials are not equal in all, so
 means may differ: look at --pictures."""
 
-import argparse
 import contextlib
 import json
 import os
@@ -232,19 +231,13 @@ def make_job(file, options, folder, arguments):
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = real_scenes.make_parser(__doc__, 3, 256)
     parser.add_argument("models", type=pathlib.Path, metavar="MODELS")
     parser.add_argument("--bdpt", type=pathlib.Path, default=real_scenes.ROOT / "build/release/apps/bdpt")
     parser.add_argument("--way", action="append", metavar="OPTIONS",
                         help="of `bdpt render`, or PROGRAM: OPTIONS; default: --integrator auto")
     parser.add_argument("--peers", default="cycles,mitsuba")
     parser.add_argument("--mitsuba-sampler", default="independent", help="its plugin, for example multijitter")
-    parser.add_argument("--only", default="", help="scenes whose names this regular expression matches")
-    parser.add_argument("--size", default="240x135")
-    parser.add_argument("--spp", type=int, default=16)
-    parser.add_argument("--seeds", type=int, default=3)
-    parser.add_argument("--max-depth", type=int, default=8)
-    parser.add_argument("--reference", type=int, default=256, metavar="SPP")
     parser.add_argument("--pictures", type=pathlib.Path, metavar="DIR")
     arguments = parser.parse_args()
     if arguments.spp < 2:

@@ -119,17 +119,23 @@ def compute_trimmed_error(images, reference):
     return errors[: math.ceil(0.999 * errors.size)].mean()
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("models", type=pathlib.Path, metavar="MODELS")
-    parser.add_argument("--bdpt", type=pathlib.Path, default=ROOT / "build/release/apps/bdpt")
-    parser.add_argument("--way", action="append", required=True, metavar="[PROGRAM:]OPTIONS")
+def make_parser(description, seeds, reference):
+    """Returns a parser with the options of measurements in real models."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="", help="scenes whose names this regular expression matches")
     parser.add_argument("--size", default="240x135")
     parser.add_argument("--spp", type=int, default=16)
-    parser.add_argument("--seeds", type=int, default=4)
+    parser.add_argument("--seeds", type=int, default=seeds)
     parser.add_argument("--max-depth", type=int, default=8)
-    parser.add_argument("--reference", type=int, default=256, metavar="SPP")
+    parser.add_argument("--reference", type=int, default=reference, metavar="SPP")
+    return parser
+
+
+def main():
+    parser = make_parser(__doc__, 4, 256)
+    parser.add_argument("models", type=pathlib.Path, metavar="MODELS")
+    parser.add_argument("--bdpt", type=pathlib.Path, default=ROOT / "build/release/apps/bdpt")
+    parser.add_argument("--way", action="append", required=True, metavar="[PROGRAM:]OPTIONS")
     arguments = parser.parse_args()
     print(f"{'scene':26}" + "".join(f"{'error':>8}{'time':>7}{'product':>9}" for _ in arguments.way[1:]) + "   mean")
     products = [[] for _ in arguments.way[1:]]
@@ -137,7 +143,7 @@ def main():
         mixed_light_scenes.write(made)
         measure_all(arguments, pathlib.Path(made), products)
     print(f"{'geometric mean':26}" + "".join(
-        f"{'':15}{math.exp(statistics.fmean(math.log(p) for p in each)):9.3f}" for each in products if each))
+        f"{'':15}{statistics.geometric_mean(each):9.3f}" for each in products if each))
     return 0
 
 

@@ -1,30 +1,22 @@
 #include "manual.h"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
+
+#include "options/value_types.h"
 
 namespace bdpt::manual {
 namespace {
-
-std::vector<std::string> split(const std::string& text, char at)
-{
-    std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, at);) {
-        parts.push_back(part);
-    }
-    return parts;
-}
 
 /// Blocks of lines between empty lines.
 std::vector<std::string> paragraphs(const std::string& text)
 {
     std::vector<std::string> result;
     std::string paragraph;
-    for (const std::string& line : split(text + "\n\n", '\n')) {
+    const std::string lines = text + "\n";
+    for (const std::string_view line : job::split(lines, '\n')) {
         if (!line.empty()) {
-            paragraph += paragraph.empty() ? line : "\n" + line;
+            paragraph += (paragraph.empty() ? "" : "\n") + std::string(line);
         } else if (!paragraph.empty()) {
             result.push_back(std::move(paragraph));
             paragraph.clear();
@@ -34,7 +26,7 @@ std::vector<std::string> paragraphs(const std::string& text)
 }
 
 /// Placeholders are in capitals: "FILE|none" may be the word "none".
-bool is_word(const std::string& choice)
+bool is_word(std::string_view choice)
 {
     return !choice.empty() && std::all_of(choice.begin(), choice.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
@@ -55,7 +47,8 @@ job::Option make_flag(std::string names, std::string help)
 
 std::vector<std::string> list_names(const job::Option& option)
 {
-    return split(option.names, ',');
+    const std::vector<std::string_view> names = job::split(option.names, ',');
+    return {names.begin(), names.end()};
 }
 
 std::vector<std::string> list_choices(const job::Option& option)
@@ -63,15 +56,15 @@ std::vector<std::string> list_choices(const job::Option& option)
     if (!option.info.words.empty() && option.value == command_value) {
         return option.info.words;
     }
-    std::vector<std::string> choices = split(option.value, '|');
-    std::erase_if(choices, [](const std::string& choice) { return !is_word(choice); });
-    return choices;
+    std::vector<std::string_view> choices = job::split(option.value, '|');
+    std::erase_if(choices, [](std::string_view choice) { return !is_word(choice); });
+    return {choices.begin(), choices.end()};
 }
 
 Paths find_paths(const job::Option& option)
 {
     Paths paths = Paths::none;
-    for (const std::string& choice : split(option.value, '|')) {
+    for (const std::string_view choice : job::split(option.value, '|')) {
         if (choice == "FILE" || choice == "PART") {
             paths = Paths::files;
         } else if ((choice == "DIR" || choice == "FOLDER") && paths == Paths::none) {

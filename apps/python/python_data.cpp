@@ -270,35 +270,29 @@ RayHits raycast(const PythonScene& scene, const nb::object& origins, const nb::o
 
 void bind_ray_hits(nb::module_& module)
 {
-    struct Member {
-        const char* name;
-        nb::object RayHits::*member;
-        const char* number;
-        const char* text;
-    };
-    static constexpr std::array members{
-        Member{"distance", &RayHits::distance, "float32", "[m]; infinite where nothing is hit."},
-        Member{"position", &RayHits::position, "float64", "(..., 3) [m], in the file."},
-        Member{"normal", &RayHits::normal, "float32",
-               "(..., 3): unit normal of the front side, interpolated and normal-mapped."},
-        Member{"geometric_normal", &RayHits::geometric_normal, "float32",
-               "(..., 3): unit normal of the front side of the triangle."},
-        Member{"instance", &RayHits::instance, "int64",
-               "Index into Scene.instances; -1: nothing, or the sphere of a light."},
-        Member{"triangle", &RayHits::triangle, "int64", "Index into the triangles of the mesh."},
-        Member{"barycentrics", &RayHits::barycentrics, "float32",
-               "(..., 3): weights of the vertices of the triangle."},
-        Member{"uv", &RayHits::uv, "float32", "(..., 2): TEXCOORD_0; 0 if the mesh has none."}};
     nb::class_<RayHits> hits(module, "RayHits",
                              "What rays hit first: arrays, one item per ray. Where nothing is hit, "
                              "distance is infinite, indices are -1, and all else is not a number.");
-    for (const Member& member : members) {
-        const std::string signature = fmt::format("def {}(self) -> numpy.typing.NDArray[numpy.{}]",
-                                                  member.name, member.number);
+    const auto def_array = [&hits](const char* name, nb::object RayHits::*member,
+                                   const char* number, const char* text) {
+        const std::string signature =
+            fmt::format("def {}(self) -> numpy.typing.NDArray[numpy.{}]", name, number);
         hits.def_prop_ro(
-            member.name, [which = member.member](const RayHits& self) { return self.*which; },
-            nb::sig(signature.c_str()), member.text);
-    }
+            name, [member](const RayHits& self) { return self.*member; },
+            nb::sig(signature.c_str()), text);
+    };
+    def_array("distance", &RayHits::distance, "float32", "[m]; infinite where nothing is hit.");
+    def_array("position", &RayHits::position, "float64", "(..., 3) [m], in the file.");
+    def_array("normal", &RayHits::normal, "float32",
+              "(..., 3): unit normal of the front side, interpolated and normal-mapped.");
+    def_array("geometric_normal", &RayHits::geometric_normal, "float32",
+              "(..., 3): unit normal of the front side of the triangle.");
+    def_array("instance", &RayHits::instance, "int64",
+              "Index into Scene.instances; -1: nothing, or the sphere of a light.");
+    def_array("triangle", &RayHits::triangle, "int64", "Index into the triangles of the mesh.");
+    def_array("barycentrics", &RayHits::barycentrics, "float32",
+              "(..., 3): weights of the vertices of the triangle.");
+    def_array("uv", &RayHits::uv, "float32", "(..., 2): TEXCOORD_0; 0 if the mesh has none.");
     hits.def("__repr__", [](const RayHits& self) {
         return fmt::format("<bdpt.RayHits of {} rays>",
                            nb::cast<std::size_t>(self.distance.attr("size")));

@@ -8,7 +8,6 @@
 #include <array>
 #include <cerrno>
 #include <cstddef>
-#include <cstdint>
 #include <exception>
 
 #include "options/option_list.h"
@@ -19,53 +18,42 @@ namespace {
 
 namespace nb = nanobind;
 
-/// The classes of errors, in the order of `subclasses`, after `Error` itself.
-enum class ErrorKind : std::uint8_t { other, value, call, missing, output, memory };
-
+/// A class of errors derived from `Error`, in Python and of those that it is for in C++.
 struct Subclass {
     const char* name;
     PyObject* base;  ///< exception of Python
     const char* text;
+    bool (*is_for)(const Error& error);
 };
 
+template <ErrorCode... codes>
+bool has_code(const Error& error)
+{
+    return ((error.code() == codes) || ...);
+}
+
+/// The first that is for an error is its class.
 std::array<Subclass, 5> subclasses()
 {
     return {
-        {{"InvalidValueError", PyExc_ValueError, "A value, or a file, that is not valid."},
-         {"InvalidCallError", PyExc_TypeError, "A value of a wrong type, or an unknown keyword."},
+        {{"InvalidCallError", PyExc_TypeError, "A value of a wrong type, or an unknown keyword.",
+          [](const Error& error) { return dynamic_cast<const CallError*>(&error) != nullptr; }},
+         {"InvalidValueError", PyExc_ValueError, "A value, or a file, that is not valid.",
+          [](const Error& error) {
+              return dynamic_cast<const job::UnknownName*>(&error) != nullptr ||
+                     has_code<ErrorCode::usage, ErrorCode::invalid_input>(error);
+          }},
          {"MissingFileError", PyExc_FileNotFoundError,
-          "A file that does not exist or cannot be read. `filename` is None if it is not known."},
-         {"OutputError", PyExc_OSError, "A file that cannot be written."},
-         {"OutOfMemoryError", PyExc_MemoryError, "Memory that is not there, or not allowed."}}};
+          "A file that does not exist or cannot be read. `filename` is None if it is not known.",
+          has_code<ErrorCode::not_found>},
+         {"OutputError", PyExc_OSError, "A file that cannot be written.",
+          has_code<ErrorCode::output>},
+         {"OutOfMemoryError", PyExc_MemoryError, "Memory that is not there, or not allowed.",
+          has_code<ErrorCode::out_of_memory>}}};
 }
 
-/// Lives as long as the module.
+/// The classes, and `Error` last. Lives as long as the module.
 std::array<nb::object*, 6> error_types{};
-
-ErrorKind kind_of(const Error& error)
-{
-    if (dynamic_cast<const CallError*>(&error) != nullptr) {
-        return ErrorKind::call;
-    }
-    if (dynamic_cast<const job::UnknownName*>(&error) != nullptr) {
-        return ErrorKind::value;
-    }
-    switch (error.code()) {
-        case ErrorCode::usage:
-        case ErrorCode::invalid_input:
-            return ErrorKind::value;
-        case ErrorCode::not_found:
-            return ErrorKind::missing;
-        case ErrorCode::output:
-            return ErrorKind::output;
-        case ErrorCode::out_of_memory:
-            return ErrorKind::memory;
-        case ErrorCode::internal:
-        case ErrorCode::unsupported:
-            break;
-    }
-    return ErrorKind::other;
-}
 
 /// Translates bdpt::Error to bdpt.Error, whose `code` is the exit code of the command.
 void translate(const std::exception_ptr& exception, void* /*payload*/)
@@ -73,7 +61,11 @@ void translate(const std::exception_ptr& exception, void* /*payload*/)
     try {
         std::rethrow_exception(exception);
     } catch (const Error& error) {
-        const nb::object& type = *error_types.at(static_cast<std::size_t>(kind_of(error)));
+        const auto classes = subclasses();
+        const auto* const found =
+            std::find_if(classes.begin(), classes.end(),
+                         [&error](const Subclass& kind) { return kind.is_for(error); });
+        const nb::object& type = *error_types.at(static_cast<std::size_t>(found - classes.begin()));
         nb::object raised = type(in_keywords(error.what()));
         raised.attr("code") = static_cast<int>(error.code());
         if (const auto* const missing = dynamic_cast<const MissingFile*>(&error)) {
@@ -118,8 +110,8 @@ void bind_errors(nb::module_& module)
         "Invalid input, or a failure of a library; `code` is the exit code of the command.",
         PyExc_RuntimeError, nullptr));
     module.attr("Error") = error;
-    error_types[0] = new nb::object(error);
-    std::size_t number = 1;
+    error_types.back() = new nb::object(error);
+    std::size_t number = 0;
     for (const Subclass& kind : subclasses()) {
         nb::dict members;
         if (kind.base == PyExc_FileNotFoundError) {

@@ -4,8 +4,10 @@
 #include <bdpt/eval/bench.h>
 #include <bdpt/eval/bench_report.h>
 #include <bdpt/io/output_file.h>
+#include <fmt/chrono.h>
 #include <fmt/core.h>
 
+#include <array>
 #include <chrono>
 #include <ctime>
 #include <exception>
@@ -178,17 +180,10 @@ BenchArguments checked(const BenchRequest& request, const OptionList& options)
     return result;
 }
 
-/// Files at the top of the folder.
-struct Outputs {
-    fs::path json;
-    fs::path csv;
-    fs::path page;
-};
-
-Outputs outputs_in(const fs::path& folder)
+/// Returns the files at the top of the folder: JSON, CSV and the page.
+std::array<fs::path, 3> outputs_in(const fs::path& folder)
 {
-    return {
-        .json = folder / "bench.json", .csv = folder / "bench.csv", .page = folder / "report.html"};
+    return {folder / "bench.json", folder / "bench.csv", folder / "report.html"};
 }
 
 void make_folder(const fs::path& folder)
@@ -202,8 +197,8 @@ void make_folder(const fs::path& folder)
 
 std::vector<fs::path> all_files(const BenchArguments& arguments)
 {
-    const Outputs outputs = outputs_in(arguments.folder);
-    std::vector<fs::path> files{outputs.json, outputs.csv, outputs.page};
+    const auto outputs = outputs_in(arguments.folder);
+    std::vector<fs::path> files(outputs.begin(), outputs.end());
     for (const BenchSubject& subject : arguments.subjects) {
         const auto more = eval::scene_files(arguments.folder, subject.name, arguments.options);
         files.insert(files.end(), more.begin(), more.end());
@@ -213,19 +208,15 @@ std::vector<fs::path> all_files(const BenchArguments& arguments)
 
 void write_all(const eval::BenchRecord& record, const fs::path& folder)
 {
-    const Outputs outputs = outputs_in(folder);
-    write_text(outputs.json, eval::bench_json(record));
-    write_text(outputs.csv, eval::bench_csv(record));
-    write_text(outputs.page, eval::bench_page(record, folder));
+    const auto [json, csv, page] = outputs_in(folder);
+    write_text(json, eval::bench_json(record));
+    write_text(csv, eval::bench_csv(record));
+    write_text(page, eval::bench_page(record, folder));
 }
 
 std::string time_now()
 {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm utc{};
-    ::gmtime_r(&now, &utc);
-    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", utc.tm_year + 1900, utc.tm_mon + 1,
-                       utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec);
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
 
 /// Converts planned CPU time to remaining wall-clock time.
@@ -310,7 +301,7 @@ int run_bench(const BenchRequest& request, const OptionList& options,
     const BenchArguments arguments = checked(request, options);
     make_folder(arguments.folder);
     const std::vector<fs::path> files = all_files(arguments);
-    for (const fs::path& file : std::span(files).first(3)) {
+    for (const fs::path& file : outputs_in(arguments.folder)) {
         io::check_writable(file);
     }
     for (const BenchSubject& subject : arguments.subjects) {
@@ -362,13 +353,11 @@ int run_bench(const BenchRequest& request, const OptionList& options,
         std::rethrow_exception(failure);
     }
     write_all(record, arguments.folder);
-    const Outputs outputs = outputs_in(arguments.folder);
-    console.note(fmt::format("wrote {}, {} and {}", outputs.page.string(), outputs.json.string(),
-                             outputs.csv.string()));
+    const auto [json, csv, page] = outputs_in(arguments.folder);
+    console.note(fmt::format("wrote {}, {} and {}", page.string(), json.string(), csv.string()));
     const std::optional<int> signal = interrupt.signal();
-    console.event(
-        "done", {{"outputs", {outputs.page.string(), outputs.json.string(), outputs.csv.string()}},
-                 {"scenes", record.scenes.size()}});
+    console.event("done", {{"outputs", {page.string(), json.string(), csv.string()}},
+                           {"scenes", record.scenes.size()}});
     return signal ? 128 + *signal : 0;
 }
 

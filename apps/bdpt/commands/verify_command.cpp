@@ -184,15 +184,7 @@ int run_verify(const VerifyArguments& arguments)
 
 int exit_code(eval::Verdict verdict)
 {
-    switch (verdict) {
-        case eval::Verdict::pass:
-            return 0;
-        case eval::Verdict::fail:
-            return 10;
-        case eval::Verdict::inconclusive:
-            return 11;
-    }
-    return 10;
+    return verdict == eval::Verdict::pass ? 0 : verdict == eval::Verdict::fail ? 10 : 11;
 }
 
 void add_verify_command(Program& program)

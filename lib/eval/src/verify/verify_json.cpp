@@ -72,15 +72,8 @@ ordered_json to_json(const ImageFinding& image)
 
 std::string_view to_string(Verdict verdict)
 {
-    switch (verdict) {
-        case Verdict::pass:
-            return "pass";
-        case Verdict::fail:
-            return "fail";
-        case Verdict::inconclusive:
-            return "inconclusive";
-    }
-    return "";
+    constexpr std::array<std::string_view, 3> names{"pass", "fail", "inconclusive"};
+    return names[static_cast<std::size_t>(verdict)];
 }
 
 std::string verify_json(const VerifyReport& report, std::string_view scene)

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -158,17 +159,8 @@ std::vector<ExtensionUse> check_extensions(const JsonPlace& root, LoadContext& c
 
 std::string_view to_string(ExtensionStatus status)
 {
-    switch (status) {
-        case supported:
-            return "supported";
-        case draft:
-            return "draft";
-        case ignored:
-            return "ignored";
-        case unknown:
-            break;
-    }
-    return "unknown";
+    constexpr std::array<std::string_view, 4> names{"supported", "draft", "ignored", "unknown"};
+    return names[static_cast<std::size_t>(status)];
 }
 
 }  // namespace bdpt::io

@@ -61,8 +61,8 @@ class Bdpt:
         self.name, self.arguments = f"bdpt {way}", arguments
         self.file = pathlib.Path(job["folder"]) / "bdpt.exr"
         numbers = [",".join(map(str, job[key])) for key in ("from", "look_at")]
-        self.scene = (job["model"], f"--env '{job['environment']}' --from={numbers[0]} --look-at={numbers[1]} "
-                                    f"--fov {job['fov']}")
+        self.scene = (job["model"], "--env", job["environment"], f"--from={numbers[0]}", f"--look-at={numbers[1]}",
+                      "--fov", str(job["fov"]))
         self.way = way if ": " in way else f"{arguments.bdpt}: {way}"
         self.version = "bdpt"
         self.started = None

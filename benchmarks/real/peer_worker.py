@@ -126,7 +126,7 @@ class Mitsuba:
         return {"type": "bitmap", "bitmap": self.mi.Bitmap(values), "raw": True}
 
     def bsdf(self, index):
-        """Returns `principled` by base colour, roughness, metalness and alpha. All else is left out."""
+        """Returns `principled` by base colour, roughness, metalness, normal map and alpha. All else is left out."""
         material = self.model.material(index)
         pbr, extensions = material.get("pbrMetallicRoughness", {}), material.get("extensions", {})
         color = np.array(pbr.get("baseColorFactor", (1, 1, 1, 1)))
@@ -141,13 +141,17 @@ class Mitsuba:
             roughness, metallic = roughness * texels[..., 1], metallic * texels[..., 2]
         surface = {"type": "principled", "base_color": self.texture(color[..., :3]), "eta": self.index(extensions),
                    "roughness": self.texture(roughness), "metallic": self.texture(metallic)}
+        if "normalTexture" in material:
+            scale = material["normalTexture"].get("scale", 1.0) * np.float32([1, 1, 0]) + np.float32([0, 0, 1])
+            normal = self.model.image(material["normalTexture"]["index"])[..., :3] / np.float32(255)
+            surface = {"type": "normalmap", "normalmap": self.texture((normal - 0.5) * scale + 0.5), "bsdf": surface}
         surface = {"type": "twosided", "surface": surface}
         mode, alpha = material.get("alphaMode", "OPAQUE"), color[..., 3]
         if mode != "OPAQUE":
             alpha = alpha >= material.get("alphaCutoff", 0.5) if mode == "MASK" else alpha
             surface = {"type": "mask", "opacity": self.texture(alpha * 1.0), "surface": surface}
         self.remarks.update(f"without {name}" for name in {*extensions, *material} & {
-            "normalTexture", "emissiveTexture", "KHR_materials_clearcoat", "KHR_materials_transmission"})
+            "emissiveTexture", "KHR_materials_clearcoat", "KHR_materials_transmission"})
         return surface
 
     def index(self, extensions):

@@ -119,7 +119,7 @@ BREAKAGES = (
              "room-environment.gltf", SKY),
     Breakage("hits take the light of suns for uniform over the disk", LIGHT_SET,
              "window != nullptr ? window->pdf(p, -to_light)", "false ? window->pdf(p, -to_light)", "room-sun.gltf"),
-    Breakage("light of suns that enters as learned is worth that of the disk", "lib/src/light/directional_light.cpp",
+    Breakage("light of suns that enters as learned is worth that of the disk", "lib/src/light/delta_lights.cpp",
              ".weight = illuminance_ / entry.pdf.value", ".weight = illuminance_ / bounds_.pdf_disk().value", "room-sun.gltf"),
     Breakage("numbers within learned windows are not stretched", "lib/src/light/learned/entries.cpp",
              "cells_->sample({rest, u.y}).point", "cells_->sample({u.x, u.y}).point", "room-sun.gltf"),

@@ -1,9 +1,7 @@
 #include "geometry/embree_scene.h"
 
-#include "geometry/coordinate_limit.h"
 #include "geometry/embree.h"
-#include "geometry/embree_device.h"
-#include "geometry/embree_spheres.h"
+#include "geometry/placed_mesh.h"
 
 #include <bdpt/error.h>
 

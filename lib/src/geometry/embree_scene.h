@@ -1,6 +1,5 @@
 #pragma once
 
-#include "geometry/any_hit_filter.h"
 #include "geometry/placed_mesh.h"
 #include "geometry/ray.h"
 #include "geometry/ray_passage.h"

@@ -2,18 +2,78 @@
 
 #include "geometry/motion.h"
 #include "geometry/ray.h"
-#include "geometry/still_triangle.h"
 #include "math/frame.h"
 
 #include <bdpt/scene_desc.h>
+#include <bdpt/types.h>
+
+#include <glm/geometric.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace bdpt {
+
+/// Returns the length of a vector, correct even if its square exceeds the range of floats: area
+/// normals of triangles with edges of more than 4e9 m, or less than 1e-9 m, are that long or short.
+[[nodiscard]] inline float compute_length(Vec3 v)
+{
+    const float squared = dot(v, v);
+    if (squared >= std::numeric_limits<float>::min() &&
+        squared <= std::numeric_limits<float>::max()) [[likely]] {
+        return std::sqrt(squared);
+    }
+    const glm::dvec3 wide(v);
+    return static_cast<float>(std::sqrt(dot(wide, wide)));
+}
+
+/// Precomputed data of a static triangle for each hit, in one cache line.
+struct alignas(64) StillTriangle {
+    Vec3 corner{0.0f};        ///< first vertex, in world space
+    float error = 0.0f;       ///< as in `BoundedPoint`, for points given by barycentrics
+    Vec3 to_b{0.0f};          ///< edge from the first to the second vertex
+    Vec3 to_c{0.0f};          ///< edge from the first to the third vertex
+    Vec3 ng{0.0f};            ///< unit, on the front; zero without an area
+    float twice_area = 0.0f;  ///< negative if the front has clockwise vertices
+
+    /// `front_sign` as in `PlacedMesh`.
+    StillTriangle(const std::array<Vec3, 3>& corners, float front_sign, float error_of_points)
+        : corner(corners[0]),
+          error(error_of_points),
+          to_b(corners[1] - corners[0]),
+          to_c(corners[2] - corners[0])
+    {
+        const Vec3 normal = front_sign * cross(to_b, to_c);
+        const float length = compute_length(normal);
+        if (length > 0.0f) {
+            ng = normal / length;
+            twice_area = front_sign * length;
+        }
+    }
+
+    [[nodiscard, gnu::always_inline]] inline BoundedPoint point(Vec2 barycentrics) const
+    {
+        return {corner + (barycentrics.x * to_b + barycentrics.y * to_c), error};
+    }
+    /// Intersects the line of the ray with the plane [Moeller and Trumbore 1997, "Fast, Minimum
+    /// Storage Ray/Triangle Intersection"].
+    [[gnu::always_inline]] inline void hit(const Ray& ray, TriangleHit& at) const
+    {
+        const float determinant = twice_area * dot(ng, ray.direction);
+        const Vec3 moment = cross(ray.origin - corner, ray.direction);
+        const float scale = determinant == 0.0f ? 0.0f : 1.0f / determinant;  // edge-on
+        at.barycentrics = {-dot(moment, to_c) * scale, dot(moment, to_b) * scale};
+        at.ng = ng;
+        at.point = point(at.barycentrics);
+    }
+};
+
+static_assert(sizeof(StillTriangle) == 64);
 
 /// A transform of points, vectors and normals.
 struct Placement {
@@ -164,5 +224,22 @@ private:
     Mat4 transform_;   // at shutter open
     std::span<const Mat4> motion_;
 };
+
+/// Maximum distance from the origin in each coordinate [m]: products of four such numbers overflow,
+/// but products of two stay finite.
+inline constexpr float max_coordinate = 1e15f;
+
+/// Returns the maximum distance of surfaces and lights of a scene from the origin [m]. At most
+/// `max_coordinate`, and less if a mesh that several instances share, or one that moves, is scaled
+/// down very much: Embree transforms rays to the space of such a mesh, and terminates the process
+/// if a coordinate exceeds 1.8e18 there.
+[[nodiscard]] float compute_coordinate_limit(std::span<const InstanceDesc> instances,
+                                             std::size_t mesh_count);
+
+/// Returns the largest coordinate of the corners of a mesh's bounds, in all of its poses.
+[[nodiscard]] Vec3 compute_extent(const MeshDesc& mesh);
+
+/// Returns the largest coordinate that a mesh of this extent can have in the world [m].
+[[nodiscard]] float placed_extent(Vec3 extent, const Mat4& world_from_object);
 
 }  // namespace bdpt

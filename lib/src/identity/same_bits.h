@@ -1,6 +1,6 @@
 #pragma once
 
-#include "identity/desc_hasher.h"
+#include "identity/scene_identity.h"
 
 #include <cstddef>
 #include <cstring>

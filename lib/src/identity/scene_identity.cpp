@@ -1,7 +1,5 @@
 #include "identity/scene_identity.h"
 
-#include "identity/desc_hasher.h"
-
 #include <bdpt/part/content_hash.h>
 
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "light/light_models.h"
 #include "light/light_samples.h"
-#include "light/tree/light_bounds.h"
+#include "light/light_tree.h"
 
 #include <optional>
 #include <utility>

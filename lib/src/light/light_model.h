@@ -1,7 +1,7 @@
 #pragma once
 
 #include "light/light_samples.h"
-#include "light/tree/light_bounds.h"
+#include "light/light_tree.h"
 
 #include <bdpt/render_options.h>
 

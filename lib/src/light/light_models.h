@@ -1,12 +1,10 @@
 #pragma once
 
-#include "light/directional_light.h"
+#include "light/delta_lights.h"
 #include "light/environment_light.h"
 #include "light/intensity_profile.h"
 #include "light/light_model.h"
 #include "light/light_samples.h"
-#include "light/profile_light.h"
-#include "light/punctual_light.h"
 #include "light/sphere_light.h"
 #include "light/triangle_light.h"
 

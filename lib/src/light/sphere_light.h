@@ -3,8 +3,8 @@
 #include "geometry/sphere.h"
 #include "light/light_model.h"
 #include "light/light_samples.h"
+#include "light/light_tree.h"
 #include "light/point_emission.h"
-#include "light/tree/light_bounds.h"
 
 #include <bdpt/scene_desc.h>
 

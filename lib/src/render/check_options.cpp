@@ -1,6 +1,6 @@
 #include "render/check_options.h"
 
-#include "geometry/coordinate_limit.h"
+#include "geometry/placed_mesh.h"
 #include "integrator/bidirectional/light_path_cache.h"
 #include "math/elementary.h"
 #include "scene/checks/value_checks.h"

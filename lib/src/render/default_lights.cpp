@@ -1,8 +1,5 @@
 #include <bdpt/default_lights.h>
-
 #include <bdpt/light/light_meter.h>
-
-#include "light/painted/painted_environment.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -17,63 +14,6 @@
 
 namespace bdpt {
 namespace {
-
-/// A light as wide as a part of the sky: so soft that it causes hardly any noise, and does not look
-/// like a lamp in mirrors.
-struct SoftLight {
-    glm::dvec3 towards;  ///< the middle of the light; any length
-    double radiance;     ///< there; before normalisation to a mean of 1 nit, like all of these
-    int power;           ///< of the cosine that dims it
-};
-
-/// A sky, and a ground that continues from its horizon without an edge, so that it is a backdrop in
-/// views from above. The key light is on the left of an observer in front of the objects, the rim
-/// light behind them on the right.
-struct PaintedSky {
-    double horizon;  ///< radiance
-    double zenith;   ///< radiance
-    double ground;   ///< radiance below 42 degrees under the horizon
-    SoftLight key;
-    SoftLight rim;
-};
-
-constexpr PaintedSky even_sky{.horizon = 0.7,
-                              .zenith = 1.2,
-                              .ground = 0.5,
-                              .key = {{-0.5, 1.0, 0.87}, 5.0, 6},
-                              .rim = {{0.5, 0.36, -0.87}, 1.0, 6}};
-
-// Narrow lights shape objects. The sky is darker than white paint, so that white objects stand out.
-constexpr PaintedSky dark_sky{.horizon = 0.45,
-                              .zenith = 0.25,
-                              .ground = 0.32,
-                              .key = {{-0.8, 0.9, 0.8}, 14.0, 18},
-                              .rim = {{0.4, 0.6, -1.0}, 3.0, 12}};
-
-double radiance(const SoftLight& light, const glm::dvec3& direction)
-{
-    const double cosine = std::max(glm::dot(direction, glm::normalize(light.towards)), 0.0);
-    double result = light.radiance;
-    for (int i = 0; i < light.power; ++i) {
-        result *= cosine;
-    }
-    return result;
-}
-
-double radiance(const PaintedSky& sky, const glm::dvec3& direction)
-{
-    const double sine = direction.y;
-    const double even = sine > 0.0
-                            ? sky.horizon + (sky.zenith - sky.horizon) * sine
-                            : sky.horizon + (sky.ground - sky.horizon) * smooth_step(-1.5 * sine);
-    return even + radiance(sky.key, direction) + radiance(sky.rim, direction);
-}
-
-EnvironmentLightDesc paint(const PaintedSky& sky)
-{
-    return painted_environment(
-        painted_32_rows, [&sky](const glm::dvec3& direction) { return radiance(sky, direction); });
-}
 
 double mean(const std::vector<double>& cards)
 {
@@ -147,16 +87,6 @@ bool has_surface(const SceneDesc& desc)
     };
     return std::any_of(desc.instances.begin(), desc.instances.end(), has_triangles) ||
            std::any_of(desc.lights.begin(), desc.lights.end(), is_sphere);
-}
-
-EnvironmentLightDesc default_environment()
-{
-    return paint(even_sky);
-}
-
-EnvironmentLightDesc object_environment()
-{
-    return paint(dark_sky);
 }
 
 PointLightDesc default_lamp(const FramedView& view)

@@ -1,6 +1,6 @@
 #include <bdpt/part/identity.h>
 
-#include "identity/desc_hasher.h"
+#include "identity/scene_identity.h"
 #include "render/identity_inputs.h"
 #include "scene/scene_names.h"
 #include "scene/world.h"

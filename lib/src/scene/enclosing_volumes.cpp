@@ -1,6 +1,6 @@
 #include "scene/enclosing_volumes.h"
 
-#include "geometry/length.h"
+#include "geometry/placed_mesh.h"
 #include "geometry/ray.h"
 
 #include <bdpt/error.h>

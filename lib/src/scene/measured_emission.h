@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/placed_mesh.h"
-#include "light/triangle_emission.h"
+#include "light/triangle_light.h"
 #include "material/material.h"
 
 #include <bdpt/scene_desc.h>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "light/learned/group_shares.h"
+#include "light/learned/learned_light.h"
 #include "light/light.h"
-#include "light/tree/light_tree.h"
+#include "light/light_tree.h"
 #include "math/distributions.h"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "geometry/embree_device.h"
+#include "geometry/embree.h"
 
 #include <bdpt/error.h>
 

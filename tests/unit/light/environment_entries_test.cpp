@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "chi_square.h"
-#include "light/directional_light.h"
+#include "light/delta_lights.h"
 #include "light/environment_light.h"
 #include "math/frame.h"
 #include "statistics.h"

@@ -2,7 +2,7 @@
 #include <bdpt/scene.h>
 
 #include "catch.hpp"
-#include "identity/desc_hasher.h"
+#include "identity/scene_identity.h"
 #include "light/environment_light.h"
 #include "statistics.h"
 

@@ -1,4 +1,4 @@
-#include "light/learned/group_shares.h"
+#include "light/learned/learned_light.h"
 
 #include "catch.hpp"
 #include "statistics.h"

@@ -1,4 +1,4 @@
-#include "light/tree/light_tree.h"
+#include "light/light_tree.h"
 
 #include "catch.hpp"
 #include "statistics.h"

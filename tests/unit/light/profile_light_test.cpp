@@ -1,8 +1,7 @@
-#include "light/profile_light.h"
 
 #include "catch.hpp"
 #include "even_bins.h"
-#include "light/punctual_light.h"
+#include "light/delta_lights.h"
 #include "math/elementary.h"
 #include "scene_builder.h"
 #include "statistics.h"

@@ -6,7 +6,6 @@
 #include <bdpt/scene.h>
 
 #include "catch.hpp"
-#include "identity/desc_hasher.h"
 #include "identity/scene_identity.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "scene/checks/validate.h"
 
-#include "geometry/coordinate_limit.h"
 #include "geometry/motion.h"
+#include "geometry/placed_mesh.h"
 #include "scene/checks/value_checks.h"
 
 #include <bdpt/motion.h>

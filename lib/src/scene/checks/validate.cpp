@@ -1,6 +1,6 @@
 #include "scene/checks/validate.h"
 
-#include "geometry/coordinate_limit.h"
+#include "geometry/placed_mesh.h"
 #include "math/rgb.h"
 #include "scene/checks/value_checks.h"
 
@@ -131,8 +131,8 @@ void check(const VolumeDesc& volume, const std::string& item)
     const double depth =
         densest * static_cast<double>(max_component(volume.extinction)) * glm::length(diagonal);
     if (!(depth <= max_depth)) {
-        fail(item, ": its maximum extinction along its diagonal gives an optical depth of ",
-             depth, ", but must be at most ", max_depth);
+        fail(item, ": its maximum extinction along its diagonal gives an optical depth of ", depth,
+             ", but must be at most ", max_depth);
     }
 }
 

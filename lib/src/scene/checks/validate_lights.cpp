@@ -1,6 +1,6 @@
 #include "scene/checks/validate.h"
 
-#include "geometry/coordinate_limit.h"
+#include "geometry/placed_mesh.h"
 #include "math/elementary.h"
 #include "scene/checks/value_checks.h"
 

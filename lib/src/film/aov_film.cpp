@@ -2,8 +2,6 @@
 #include <bdpt/film/aov_film.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <span>
 
 namespace bdpt {

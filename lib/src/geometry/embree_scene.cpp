@@ -5,12 +5,8 @@
 
 #include <bdpt/error.h>
 
-#include <glm/geometric.hpp>
-
-#include <array>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <string>
 #include <type_traits>
 #include <vector>

@@ -16,7 +16,6 @@ namespace bdpt {
 struct LearnedLight;
 class MovingCamera;
 class World;
-struct TimeSheet;
 
 /// Half-open rectangle of pixels.
 struct Tile {

@@ -5,7 +5,6 @@
 #include "light/light_tree.h"
 
 #include <optional>
-#include <utility>
 
 namespace bdpt {
 

@@ -8,8 +8,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace bdpt {

@@ -2,8 +2,6 @@
 
 #include "camera/camera.h"
 
-#include <cmath>
-
 namespace bdpt {
 namespace {
 

@@ -2,7 +2,6 @@
 
 #include <bdpt/part/sample_rates.h>
 
-#include <cstdint>
 #include <vector>
 
 namespace bdpt {

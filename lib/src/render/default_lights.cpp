@@ -1,4 +1,5 @@
 #include <bdpt/default_lights.h>
+
 #include <bdpt/light/light_meter.h>
 
 #include <glm/geometric.hpp>
@@ -8,7 +9,6 @@
 #include <cstddef>
 #include <numbers>
 #include <numeric>
-#include <utility>
 #include <variant>
 #include <vector>
 

@@ -5,7 +5,6 @@
 
 #include <bdpt/volume_desc.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>

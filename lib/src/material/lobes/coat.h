@@ -11,8 +11,6 @@
 
 #include <bdpt/types.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace bdpt {

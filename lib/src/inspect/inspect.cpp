@@ -1,3 +1,5 @@
+#include <bdpt/inspect.h>
+
 #include "camera/camera.h"
 #include "film/pixel_filter.h"
 #include "integrator/sample_schedule.h"
@@ -7,11 +9,9 @@
 #include "path/random_walk.h"
 #include "path/sample_context.h"
 #include "path/strategy_set.h"
-#include "render/learned_light.h"
-#include "render/open_camera.h"
+#include "render/view.h"
 
 #include <bdpt/error.h>
-#include <bdpt/inspect.h>
 #include <bdpt/options/integrators.h>
 #include <bdpt/render.h>
 

@@ -20,9 +20,14 @@
 namespace bdpt {
 namespace {
 
+float greater(float a, float b)
+{
+    return a > b ? a : b;
+}
+
 float sine(float cosine)
 {
-    return std::sqrt(std::max(0.0f, (1.0f - cosine) * (1.0f + cosine)));
+    return std::sqrt(greater((1.0f - cosine) * (1.0f + cosine), 0.0f));
 }
 
 /// Tests whether `narrow` is within `wide`; `cos_between` is the cosine between their axes.
@@ -110,14 +115,9 @@ struct Angle {
     float sin;
 };
 
-float greater(float a, float b)
-{
-    return a > b ? a : b;
-}
-
 Angle to_angle(float cosine)
 {
-    return {cosine, std::sqrt(greater((1.0f - cosine) * (1.0f + cosine), 0.0f))};
+    return {cosine, sine(cosine)};
 }
 
 /// Returns the angle in [0, pi / 2] with that sine.
@@ -334,7 +334,7 @@ void LightTreeBuilder::put(const Group& group, std::size_t slot)
     quad.axis_y[i] = axis.y;
     quad.axis_z[i] = axis.z;
     quad.cos_spread[i] = cos_spread;
-    quad.sin_spread[i] = std::sqrt(std::max(0.0f, (1.0f - cos_spread) * (1.0f + cos_spread)));
+    quad.sin_spread[i] = sine(cos_spread);
     quad.cos_falloff[i] = bounds.cos_falloff;
     quad.intensity[i] = static_cast<float>(bounds.intensity * inverse_total_);
     quad.both_sides[i] = bounds.sides == EmittingSides::both ? 1.0f : 0.0f;

@@ -110,7 +110,6 @@ private:
     friend class LightTreeBuilder;
 
     static constexpr std::size_t max_children = 32;
-    static constexpr std::size_t max_quads = max_children / LightQuad::width;
     static constexpr std::uint32_t no_slot = 0xffffffffU;
 
     struct Node {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "material/models/scattering_model.h"
+
 #include <bdpt/scene_desc.h>
 
 namespace bdpt {
@@ -35,5 +37,33 @@ struct Medium {
 /// in [0, 1], where it is dense and lit from outside [Kulla and Conty 2017, "Revisiting Physically
 /// Based Shading at Imageworks", slide 44]. `anisotropy` is g of its phase function, in (-1, 1).
 [[nodiscard]] Rgb single_scatter_albedo(Rgb multiscatter_color, float anisotropy);
+
+/// Phase function of a medium. Local directions are around +z = wo, so that unscattered light
+/// continues along -z; there is no surface, and no cosine in `f_cos` [Henyey and Greenstein 1941,
+/// "Diffuse Radiation in the Galaxy"].
+class HenyeyGreenstein {
+public:
+    /// `scattering` [1/m] is not black; `anisotropy` is in (-1, 1), > 0 forwards.
+    HenyeyGreenstein(Rgb scattering, float anisotropy)
+        : scattering_(scattering), anisotropy_(anisotropy)
+    {}
+
+    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept;
+    [[nodiscard]] bool has_smooth_lobe() const noexcept { return true; }
+    [[nodiscard]] bool transmits() const noexcept { return true; }
+    [[nodiscard]] Rgb base_color() const noexcept { return Rgb(1.0f); }
+
+private:
+    /// Returns the phase function [1/sr], given one minus the cosine between wi and the peak
+    /// direction.
+    [[nodiscard]] float phase(float from_peak) const noexcept;
+
+    Rgb scattering_;
+    float anisotropy_;
+};
+
+static_assert(ScatteringModel<HenyeyGreenstein>);
 
 }  // namespace bdpt

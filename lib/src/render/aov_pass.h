@@ -1,18 +1,32 @@
 #pragma once
 
+#include "camera/camera.h"
 #include "film/pixel_filter.h"
 #include "integrator/integrator.h"
 #include "render/ground/ground_shadow.h"
-#include "render/scene_outline.h"
 #include "scene/scene_names.h"
 
 #include <bdpt/film/aov_film.h>
 #include <bdpt/film/id_film.h>
+#include <bdpt/scene.h>
 
 #include <optional>
 #include <vector>
 
 namespace bdpt {
+
+/// The part of the film where a camera sees the scene: a rectangle around its bounds.
+class SceneOutline {
+public:
+    SceneOutline(const MovingCamera& camera, const Bounds& bounds);
+
+    /// Tests whether all camera rays through `area` miss every surface. False if that is unknown:
+    /// for a camera that moves, has a finite lens, or has a corner of the bounds behind it.
+    [[nodiscard]] bool is_beside(const RasterBounds& area) const noexcept;
+
+private:
+    std::optional<RasterBounds> outline_;  // nullopt if unknown
+};
 
 /// Traces the camera rays of a render once more, at their own times, up to the first surface or the
 /// ground: the same for every integrator.

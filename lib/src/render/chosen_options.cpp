@@ -2,8 +2,7 @@
 
 #include "pilot/pilot.h"
 #include "render/check_options.h"
-#include "render/learned_light.h"
-#include "render/open_camera.h"
+#include "render/view.h"
 #include "threads/threads.h"
 
 #include <bdpt/tools/intrinsics.h>

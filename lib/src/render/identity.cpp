@@ -1,26 +1,18 @@
 #include <bdpt/part/identity.h>
 
 #include "identity/scene_identity.h"
-#include "render/identity_inputs.h"
+#include "render/view.h"
 #include "scene/scene_names.h"
 #include "scene/world.h"
 
-#include <bdpt/options/option_fields.h>
-#include <bdpt/options/option_text.h>
 #include <bdpt/render.h>
 #include <bdpt/scene.h>
 #include <bdpt/version.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <charconv>
 #include <cstddef>
-#include <cstdint>
 #include <map>
-#include <memory>
 #include <string_view>
-#include <type_traits>
 
 namespace bdpt {
 namespace {
@@ -69,39 +61,6 @@ std::string values_text(std::string_view there, std::string_view here)
 }
 
 }  // namespace
-
-void add_options(std::vector<IdentityComponent>& result, const RenderOptions& options)
-{
-    for_each_option(options, [&result](const auto& option, const auto& value) {
-        using T = std::remove_cvref_t<decltype(value)>;
-        if (option.info.role != OptionRole::image) {
-            return;
-        }
-        const std::string name = "option: " + std::string(option.name);
-        if constexpr (std::is_same_v<T, std::shared_ptr<const SampleRates>>) {
-            if (value) {
-                result.push_back({.name = name, .value = hash_text(value->exponents())});
-            }
-        } else {
-            result.push_back({.name = name, .value = option_text(value)});
-        }
-    });
-}
-
-void add_camera(std::vector<IdentityComponent>& result, const CameraDesc& camera)
-{
-    for_each_field(camera, [&result](const auto& field, const auto& value) {
-        using T = std::remove_cvref_t<decltype(value)>;
-        const std::string name = "camera: " + std::string(field.name);
-        if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<float>>) {
-            return;  // its name, and the shape of image that its author had in mind
-        } else if constexpr (std::is_arithmetic_v<T>) {
-            result.push_back({.name = name, .value = option_text(value)});
-        } else {
-            result.push_back({.name = name, .value = hash_text(value)});
-        }
-    });
-}
 
 Identity identity(const Scene& scene, const CameraDesc& camera, const RenderOptions& options)
 {

@@ -5,7 +5,7 @@
 #include "math/rgb.h"
 #include "pilot/pilot_contributions.h"
 #include "render/check_options.h"
-#include "render/open_camera.h"
+#include "render/view.h"
 #include "threads/threads.h"
 
 #include <tbb/parallel_for.h>

@@ -7,7 +7,7 @@
 #include "math/frame.h"
 #include "math/rgb.h"
 #include "render/check_options.h"
-#include "render/open_camera.h"
+#include "render/view.h"
 #include "threads/threads.h"
 
 #include <tbb/parallel_for.h>
@@ -17,7 +17,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 
 namespace bdpt {

@@ -1,9 +1,8 @@
 #include "render/pass.h"
 
-#include "film/pixel_filter.h"
 #include "geometry/flush_denormals.h"
 #include "integrator/sample_schedule.h"
-#include "render/open_camera.h"
+#include "render/view.h"
 
 #include <bdpt/options/integrators.h>
 
@@ -13,7 +12,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace bdpt {

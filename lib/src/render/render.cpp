@@ -1,29 +1,33 @@
-#include <bdpt/error.h>
-#include <bdpt/noise.h>
-#include <bdpt/options/integrators.h>
-#include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
-#include <bdpt/renderer.h>
 
 #include "camera/camera.h"
 #include "integrator/integrator.h"
+#include "path/strategy_set.h"
 #include "render/aov_pass.h"
 #include "render/check_options.h"
-#include "render/learned_light.h"
 #include "render/noise_watch.h"
-#include "render/open_camera.h"
 #include "render/pass.h"
-#include "render/strategy_images.h"
+#include "render/view.h"
 #include "scene/world.h"
 #include "threads/threads.h"
 
+#include <bdpt/error.h>
+#include <bdpt/noise.h>
+#include <bdpt/part/render_result.h>
+#include <bdpt/part/sample_rates.h>
+#include <bdpt/render_options.h>
+#include <bdpt/renderer.h>
+#include <bdpt/scene_desc.h>
+
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <ctime>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace bdpt {
 namespace {
@@ -90,6 +94,52 @@ PixelCounts pixel_counts(const RenderOptions& options)
     return options.sampling.rates ? PixelCounts::own : PixelCounts::equal;
 }
 
+/// Tests whether the camera supports a strategy: only a finite lens can be hit, and s = t = 1 needs
+/// a perspective camera.
+bool camera_allows(const CameraDesc& camera, Strategy strategy)
+{
+    const bool perspective = camera.projection == Projection::perspective;
+    if (strategy.t == 0) {
+        return perspective && camera.lens_radius > 0.0f;
+    }
+    return perspective || strategy != Strategy{.s = 1, .t = 1};
+}
+
+/// Returns the strategies of a render that get images, shortest paths first, then by s: those that
+/// are used and that the camera supports, up to `strategy_depth`. `options` and `camera` have been
+/// checked.
+std::vector<Strategy> strategies_with_images(const RenderOptions& options, const CameraDesc& camera)
+{
+    std::vector<Strategy> result;
+    if (options.bidirectional.strategy_depth == 0) {
+        return result;
+    }
+    const StrategySet used(options);
+    const int longest = std::min(options.bidirectional.strategy_depth, options.transport.max_depth);
+    for (int edges = 1; edges <= longest; ++edges) {
+        for (int s = 0; s <= edges + 1; ++s) {
+            const Strategy strategy{.s = s, .t = edges + 1 - s};
+            if (used.uses(s, strategy.t) && camera_allows(camera, strategy)) {
+                result.push_back(strategy);
+            }
+        }
+    }
+    return result;
+}
+
+/// Throws `Error` (usage) if the images would take more than `strategy_memory`.
+void check_strategy_memory(const RenderOptions& options, const CameraDesc& camera)
+{
+    const std::uint64_t bytes = strategy_image_bytes(options, camera);
+    if (bytes > options.bidirectional.strategy_memory) {
+        throw Error(ErrorCode::usage, "images of strategies up to " +
+                                          std::to_string(options.bidirectional.strategy_depth) +
+                                          " edges (strategy_depth) take " + megabytes(bytes) +
+                                          ", more than the limit (strategy_memory) of " +
+                                          megabytes(options.bidirectional.strategy_memory));
+    }
+}
+
 /// Returns a part of the render without any samples.
 RenderResult empty_part(Identity identity, const RenderOptions& options, const CameraDesc& camera,
                         const AovPass& aov_pass)
@@ -119,6 +169,15 @@ void check_part(const RenderResult& part, const Identity& identity, const Render
 }
 
 }  // namespace
+
+std::uint64_t strategy_image_bytes(const RenderOptions& options, const CameraDesc& camera)
+{
+    check_options(options);
+    const PixelRect region = options.film.crop.value_or(whole_image(options));
+    return StrategyFilm::bytes_per_pixel * static_cast<std::uint64_t>(region.width()) *
+           static_cast<std::uint64_t>(region.height()) *
+           strategies_with_images(options, camera).size();
+}
 
 RenderResult render(const Scene& scene, const CameraDesc& camera, const RenderOptions& options,
                     const RenderControl& control)
@@ -331,6 +390,24 @@ RenderResult Renderer::take()
     RenderResult taken = impl_->take();
     impl_->begin();
     return taken;
+}
+
+void merge(RenderResult& result, const RenderResult& other)
+{
+    if (const auto what = difference(result.identity, other.identity)) {
+        throw Error(ErrorCode::invalid_input, "parts of different renders: " + *what);
+    }
+    if (const SampleSet both = result.samples.overlap(other.samples); !both.empty()) {
+        throw Error(ErrorCode::invalid_input, "parts that both have the samples " + both.text());
+    }
+    result.film.merge(other.film);
+    result.aovs.merge(other.aovs);
+    result.ids.merge(other.ids);
+    result.strategies.merge(other.strategies);
+    result.samples.add(other.samples);
+    result.stats += other.stats;
+    result.seconds += other.seconds;
+    result.cpu_seconds += other.cpu_seconds;
 }
 
 }  // namespace bdpt

@@ -4,9 +4,8 @@
 #include "math/rgb.h"
 #include "rates/rate_map.h"
 #include "render/check_options.h"
-#include "render/learned_light.h"
-#include "render/open_camera.h"
 #include "render/pass.h"
+#include "render/view.h"
 #include "threads/threads.h"
 
 #include <bdpt/render.h>

@@ -3,7 +3,7 @@
 #include "geometry/embree_scene.h"
 #include "geometry/placed_mesh.h"
 #include "geometry/sphere.h"
-#include "scene/contacts/bonds.h"
+#include "scene/contacts/contact_faces.h"
 
 #include <bdpt/scene.h>
 

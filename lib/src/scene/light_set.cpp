@@ -1,14 +1,65 @@
 #include "scene/light_set.h"
 
 #include "math/rgb.h"
-#include "scene/measured_emission.h"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace bdpt {
 namespace {
+
+/// Emission of the emissive triangles of a scene. It depends on textures and vertex colours, not on
+/// transforms, so a mesh with many instances is measured once for each of its materials.
+class MeasuredEmission {
+public:
+    MeasuredEmission(std::span<const MaterialId> material_ids, std::span<const PlacedMesh> placed,
+                     std::span<const Material> materials);
+
+    /// Returns the emission of a triangle of an emissive instance.
+    [[nodiscard]] const TriangleEmission& of(std::size_t instance, std::uint32_t triangle) const
+    {
+        return (*of_instance_[instance])[triangle];
+    }
+
+private:
+    using Key = std::pair<const MeshDesc*, MaterialId>;
+
+    std::map<Key, std::vector<TriangleEmission>> measured_;
+    std::vector<const std::vector<TriangleEmission>*>
+        of_instance_;  // one per instance; null: not emissive
+};
+
+MeasuredEmission::MeasuredEmission(std::span<const MaterialId> material_ids,
+                                   std::span<const PlacedMesh> placed,
+                                   std::span<const Material> materials)
+    : of_instance_(material_ids.size(), nullptr)
+{
+    const int max_samples = max_emission_samples(material_ids, placed, materials);
+    for (std::size_t i = 0; i < material_ids.size(); ++i) {
+        const Material& material = materials[static_cast<std::size_t>(material_ids[i])];
+        if (is_black(material.mean_emission())) {
+            continue;
+        }
+        const auto [entry, is_new] = measured_.try_emplace({&placed[i].mesh(), material_ids[i]});
+        std::vector<TriangleEmission>& all = entry->second;
+        of_instance_[i] = &all;
+        if (is_new) {
+            const PlacedMesh& mesh = placed[i];
+            all.resize(mesh.triangle_count());
+            tbb::parallel_for(std::uint32_t{0}, mesh.triangle_count(), [&](std::uint32_t t) {
+                all[t] = measure_emission(mesh, material, t, max_samples);
+            });
+        }
+    }
+}
 
 /// Number of lights from which a tree is worth its time; docs/decisions/0033 has the figures.
 constexpr std::size_t many_lights = 4;
@@ -51,6 +102,22 @@ AliasTable powers(const std::vector<Light>& lights)
 }
 
 }  // namespace
+
+int max_emission_samples(std::span<const MaterialId> material_ids,
+                         std::span<const PlacedMesh> placed, std::span<const Material> materials)
+{
+    constexpr double budget = 0x1p18;
+    std::set<std::pair<const MeshDesc*, MaterialId>> counted;
+    std::size_t textured = 0;
+    for (std::size_t i = 0; i < material_ids.size(); ++i) {
+        const bool counts =
+            materials[static_cast<std::size_t>(material_ids[i])].emission_needs_texture() &&
+            counted.insert({&placed[i].mesh(), material_ids[i]}).second;
+        textured += counts ? placed[i].triangle_count() : 0U;
+    }
+    const double each = budget / static_cast<double>(std::max<std::size_t>(textured, 1));
+    return static_cast<int>(std::clamp(std::sqrt(each), 8.0, 1024.0));
+}
 
 std::vector<Sphere> light_spheres(std::span<const LightDesc> lights)
 {

@@ -8,11 +8,19 @@
 
 #include <bdpt/scene_desc.h>
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace bdpt {
+
+/// Returns the maximum number of samples of its emission texture that a triangle may take along
+/// each side, so that the total time stays around a second. `placed[i]` has material
+/// `material_ids[i]`.
+[[nodiscard]] int max_emission_samples(std::span<const MaterialId> material_ids,
+                                       std::span<const PlacedMesh> placed,
+                                       std::span<const Material> materials);
 
 /// Returns the spheres of the point and spot lights that have a radius, in order; `lights` must
 /// outlive them.

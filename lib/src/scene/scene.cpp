@@ -4,6 +4,8 @@
 #include "scene/checks/value_checks.h"
 #include "scene/world.h"
 
+#include <bdpt/shared_scene_desc.h>
+
 #include <algorithm>
 #include <utility>
 #include <variant>
@@ -33,6 +35,38 @@ SharedList<T> replaced(const SharedList<T>& list, std::size_t number, T item)
 }
 
 }  // namespace
+
+static_assert(std::tuple_size_v<decltype(SharedSceneDesc().members())> ==
+              std::tuple_size_v<std::remove_cv_t<decltype(fields<SceneDesc>)>>);
+
+SharedSceneDesc::SharedSceneDesc(SceneDesc desc)
+    : images(std::move(desc.images)),
+      materials(std::move(desc.materials)),
+      meshes(std::move(desc.meshes)),
+      instances(std::move(desc.instances)),
+      profiles(std::move(desc.profiles)),
+      lights(std::move(desc.lights)),
+      texture_filter(desc.texture_filter),
+      contacts(desc.contacts),
+      fog(desc.fog),
+      volumes(std::move(desc.volumes)),
+      origin(desc.origin)
+{}
+
+SceneDesc SharedSceneDesc::copy() const
+{
+    return {.images = images,
+            .materials = materials,
+            .meshes = meshes,
+            .instances = instances,
+            .profiles = profiles,
+            .lights = lights,
+            .texture_filter = texture_filter,
+            .contacts = contacts,
+            .fog = fog,
+            .volumes = volumes,
+            .origin = origin};
+}
 
 // Hidden, or the shared library would export the type of its shared pointer.
 struct [[gnu::visibility("hidden")]] Scene::State

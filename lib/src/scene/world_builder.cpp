@@ -4,13 +4,11 @@
 #include "material/specular_albedo.h"
 #include "math/rgb.h"
 #include "scene/checks/validate.h"
-#include "scene/measured_emission.h"
-#include "scene/precision.h"
+#include "scene/light_set.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <utility>
 #include <variant>
 
 namespace bdpt {

@@ -1,4 +1,3 @@
-#include "material/models/henyey_greenstein.h"
 
 #include "catch.hpp"
 #include "chi_square.h"

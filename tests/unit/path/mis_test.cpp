@@ -1,4 +1,4 @@
-#include "path/mis.h"
+#include "path/path_weigher.h"
 
 #include "catch.hpp"
 

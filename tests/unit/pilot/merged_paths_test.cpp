@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "pilot/pilot.h"
-#include "render/open_camera.h"
+#include "render/view.h"
 #include "scene_builder.h"
 
 #include <bdpt/render.h>

@@ -7,7 +7,7 @@
 #include "pilot/candidates.h"
 #include "pilot/light_pilot.h"
 #include "pilot/pilot_contributions.h"
-#include "render/open_camera.h"
+#include "render/view.h"
 #include "scene/world.h"
 #include "scene_builder.h"
 

@@ -1,13 +1,12 @@
 // What the ground knows of its light before any ray: which directions the scene may block, what the
 // sky brings from all others, and how often lamps are worth a sample.
 
+#include "render/ground/ground_light.h"
 #include "catch.hpp"
 #include "ground_views.h"
 #include "math/rgb.h"
 #include "moving_scenes.h"
-#include "render/ground/ground_lamps.h"
 #include "render/ground/ground_occluders.h"
-#include "render/ground/ground_sky.h"
 #include "scene/world.h"
 #include "scene_builder.h"
 #include "statistics.h"

@@ -1,7 +1,7 @@
 #include "scene/contacts/contacts.h"
 
 #include "catch.hpp"
-#include "scene/precision.h"
+#include "scene/checks/validate.h"
 #include "scene/scene_geometry.h"
 #include "scene_builder.h"
 

@@ -1,4 +1,4 @@
-#include "scene/precision.h"
+#include "scene/checks/validate.h"
 
 #include <bdpt/error.h>
 #include <bdpt/options/option_fields.h>

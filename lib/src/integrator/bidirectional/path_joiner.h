@@ -2,7 +2,7 @@
 
 #include "integrator/bidirectional/connection_chooser.h"
 #include "integrator/bidirectional/light_path_cache.h"
-#include "integrator/bidirectional/sparse_pixels.h"
+#include "integrator/bidirectional/pixel_groups.h"
 #include "integrator/contribution_sink.h"
 #include "path/subpath.h"
 

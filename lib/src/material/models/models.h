@@ -1,6 +1,6 @@
 #pragma once
 
-#include "material/models/henyey_greenstein.h"
+#include "material/medium.h"
 #include "material/models/layered.h"
 #include "material/models/mapped.h"
 #include "material/models/metallic_roughness.h"

@@ -4,9 +4,8 @@
 #include "integrator/sample_schedule.h"
 #include "light/light_samples.h"
 #include "math/sampler.h"
-#include "render/ground/ground_lamps.h"
+#include "render/ground/ground_light.h"
 #include "render/ground/ground_occluders.h"
-#include "render/ground/ground_sky.h"
 #include "scene/world.h"
 
 #include <bdpt/film/aov_film.h>

@@ -9,8 +9,11 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace bdpt {
+
+struct SceneGeometry;
 
 /// Throws `Error` (invalid_input) for the first invalid value in `desc`: an index out of range, a
 /// number that is not finite or outside of its range, a transform without an inverse. The message
@@ -41,5 +44,11 @@ void check_powers(const SharedSceneDesc& desc, std::span<const MaterialId> mater
 /// Throws `Error` (invalid_input) whose message begins with `item` if the image has no texels, a
 /// wrong number of bytes, or values that textures cannot have.
 void check_texels(const TexelImage& image, const std::string& item);
+
+/// Returns warnings about insufficient single precision in a valid scene, one line each: meshes
+/// that are small relative to their distance from the origin, and lights that are too near to a
+/// vast plane. `geometry` fits `desc`.
+[[nodiscard]] std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
+                                                          const SceneGeometry& geometry);
 
 }  // namespace bdpt

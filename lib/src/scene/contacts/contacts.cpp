@@ -3,9 +3,8 @@
 #include "material/medium.h"
 #include "math/rgb.h"
 #include "scene/contacts/box_tree.h"
-#include "scene/contacts/contact_face.h"
+#include "scene/contacts/contact_faces.h"
 #include "scene/contacts/mesh_topology.h"
-#include "scene/contacts/shell_neighbors.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -13,10 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <set>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/placed_mesh.h"
-#include "scene/contacts/bonds.h"
+#include "scene/contacts/contact_faces.h"
 #include "scene/contacts/mesh_topology.h"
 
 #include <bdpt/shared_scene_desc.h>

@@ -1,7 +1,8 @@
-#include "scene/precision.h"
+#include "scene/checks/validate.h"
 
 #include "geometry/placed_mesh.h"
 #include "scene/checks/value_checks.h"
+#include "scene/scene_geometry.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "path/path_weigher.h"
+#include "path/random_walk.h"
 #include "path/sample_context.h"
 #include "path/subpath.h"
 
@@ -9,7 +10,7 @@
 
 namespace bdpt {
 
-// Five techniques that complete a path; lens_crossing.h and merge.h have two more.
+// Six techniques that complete a path; merge.h has one more.
 
 /// The contribution of one strategy to one path.
 struct Contribution {
@@ -48,5 +49,17 @@ struct Contribution {
                                                            std::span<const PathVertex> light,
                                                            std::span<const PathVertex> camera,
                                                            PathWeigher& weigher);
+
+/// Records in `path` whether `step`, which ends after `free_distance` [m], crosses the lens before.
+/// `segment` is the key of the walk's segment.
+void look_for_lens(const SampleContext& sample, const WalkStep& step, float free_distance,
+                   SegmentKey segment, Subpath& path);
+
+/// Connects with t = 0: the light subpath crosses a finite aperture by chance; the aperture does
+/// not block it.
+[[nodiscard]] std::optional<Contribution> hit_lens(const SampleContext& sample,
+                                                   const Subpath& light_path,
+                                                   const LensCrossing& crossing,
+                                                   PathWeigher& weigher);
 
 }  // namespace bdpt

@@ -1,4 +1,4 @@
-#include "path/lens_crossing.h"
+#include "path/connect.h"
 
 #include "math/rgb.h"
 #include "path/densities.h"

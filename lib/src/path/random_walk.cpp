@@ -1,9 +1,9 @@
 #include "path/random_walk.h"
 
 #include "math/rgb.h"
+#include "path/connect.h"
 #include "path/densities.h"
 #include "path/direct_light.h"
-#include "path/lens_crossing.h"
 #include "path/segment_sample.h"
 
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 #include "integrator/bidirectional/path_joiner.h"
 
 #include "math/random_numbers.h"
-#include "path/lens_crossing.h"
+#include "path/connect.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "scene/framing/frame_fit.h"
+#include "scene/framing/framing.h"
 
 #include "math/elementary.h"
 

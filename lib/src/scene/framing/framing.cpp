@@ -1,8 +1,7 @@
 #include <bdpt/framing.h>
 
 #include "math/elementary.h"
-#include "scene/framing/frame_fit.h"
-#include "scene/framing/visibility_probe.h"
+#include "scene/framing/framing.h"
 #include "scene/world.h"
 
 #include <glm/common.hpp>

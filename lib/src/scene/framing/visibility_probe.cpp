@@ -1,4 +1,4 @@
-#include "scene/framing/visibility_probe.h"
+#include "scene/framing/framing.h"
 
 #include "math/elementary.h"
 #include "math/frame.h"

@@ -108,12 +108,7 @@ PixelWalk::PixelWalk(const Scene& scene, const CameraDesc& camera, const RenderO
       start_(options_, PixelFilter(options.film.filter), scene.world(), camera_, sample.x, sample.y,
              sample.index),
       timed_(camera_, start_.moment.time),
-      sample_{.world = scene.world(),
-              .camera = timed_.get(),
-              .sampler = start_.sampler,
-              .time = start_.moment.time,
-              .wavelength = start_.moment.wavelength,
-              .rays = rays_},
+      sample_(start_.context(scene.world(), timed_.get(), rays_)),
       learned_(learned_light(scene.world(), camera, options)),
       next_event_sampling_(find_sampling(options, learned_.get())),
       camera_path_(options.transport.max_depth + 1)

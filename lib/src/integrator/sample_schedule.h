@@ -3,6 +3,7 @@
 #include "camera/camera.h"
 #include "film/pixel_filter.h"
 #include "math/sampler.h"
+#include "path/sample_context.h"
 #include "scene/world.h"
 
 #include <bdpt/part/sample_rates.h>
@@ -61,6 +62,18 @@ struct SampleStart {
         sampler.start(SampleUse::film);
         raster = filter.sample_raster(x, y, sampler.next_2d());
         moment = draw_time_and_wavelength(sampler, world, camera);
+    }
+
+    /// Returns the state of the sample for its paths; `camera` is the camera at its time.
+    [[nodiscard]] SampleContext context(const World& world, const Camera& camera,
+                                        RayCounts& rays) const
+    {
+        return {.world = world,
+                .camera = camera,
+                .sampler = sampler,
+                .time = moment.time,
+                .wavelength = moment.wavelength,
+                .rays = rays};
     }
 };
 

@@ -10,6 +10,7 @@
 
 #include <bdpt/scene_desc.h>
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -33,17 +34,9 @@ struct LightContext {
 
 // Converts a description, which must outlive the light.
 
-[[nodiscard]] inline AnyLightModel make_model(const PointLightDesc& desc,
-                                              const LightContext& context)
-{
-    if (desc.radius > 0.0f) {
-        return SphereLight(desc, context.sphere);
-    }
-    return PunctualLight(desc);
-}
-
-[[nodiscard]] inline AnyLightModel make_model(const SpotLightDesc& desc,
-                                              const LightContext& context)
+template <typename PointOrSpot>
+requires std::constructible_from<PunctualLight, const PointOrSpot&>
+[[nodiscard]] AnyLightModel make_model(const PointOrSpot& desc, const LightContext& context)
 {
     if (desc.radius > 0.0f) {
         return SphereLight(desc, context.sphere);

@@ -10,6 +10,7 @@
 #include <bdpt/version.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <string_view>
@@ -24,17 +25,13 @@ void add_names(std::vector<IdentityComponent>& result, const SharedSceneDesc& sc
         return;
     }
     const SceneNames names(scene);
-    if (aovs.contains(Aov::object)) {
-        result.push_back(
-            {.name = "scene: names of objects", .value = hash_text(names.ids(IdKind::object))});
-    }
-    if (aovs.contains(Aov::material)) {
-        result.push_back(
-            {.name = "scene: names of materials", .value = hash_text(names.ids(IdKind::material))});
-    }
-    if (aovs.contains(Aov::instance)) {
-        result.push_back(
-            {.name = "scene: names of instances", .value = hash_text(names.ids(IdKind::instance))});
+    constexpr std::array components{"scene: names of objects", "scene: names of materials",
+                                    "scene: names of instances"};
+    for (std::size_t kind = 0; kind < components.size(); ++kind) {
+        if (aovs.contains(id_aovs[kind])) {
+            result.push_back(
+                {.name = components[kind], .value = hash_text(names.ids(id_kinds[kind]))});
+        }
     }
 }
 

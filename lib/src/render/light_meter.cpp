@@ -81,12 +81,7 @@ private:
         const SampleStart start(options_, filter_, world_, camera_, x, y, index);
         const TimedCamera timed(camera_, start.moment.time);
         RayCounts rays;
-        SampleContext sample{.world = world_,
-                             .camera = timed.get(),
-                             .sampler = start.sampler,
-                             .time = start.moment.time,
-                             .wavelength = start.moment.wavelength,
-                             .rays = rays};
+        SampleContext sample = start.context(world_, timed.get(), rays);
         sample.sampler.start(SampleUse::lens);
         const Vec2 u_lens = sample.camera.has_finite_lens() ? sample.sampler.next_2d() : Vec2(0.0f);
         const CameraRay ray = sample.camera.generate_ray(start.raster, u_lens);

@@ -114,14 +114,11 @@ SceneNames::SceneNames(const SharedSceneDesc& desc)
 IdNames SceneNames::names(AovSet aovs) const
 {
     IdNames result;
-    if (aovs.contains(Aov::object)) {
-        result[static_cast<std::size_t>(IdKind::object)] = named_ids(objects_);
-    }
-    if (aovs.contains(Aov::material)) {
-        result[static_cast<std::size_t>(IdKind::material)] = named_ids(materials_);
-    }
-    if (aovs.contains(Aov::instance)) {
-        result[static_cast<std::size_t>(IdKind::instance)] = named_ids(own_names_);
+    const std::array by_kind{&objects_, &materials_, &own_names_};
+    for (std::size_t kind = 0; kind < by_kind.size(); ++kind) {
+        if (aovs.contains(id_aovs[kind])) {
+            result[kind] = named_ids(*by_kind[kind]);
+        }
     }
     std::size_t text = 0;
     for (const std::vector<NamedId>& names : result) {

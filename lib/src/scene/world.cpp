@@ -49,22 +49,13 @@ struct ForRowsAtOnce {
 
 }  // namespace
 
-World::World(SharedSceneDesc desc, Isa isa)
+World::World(SharedSceneDesc desc, Isa isa, const World* like)
     : desc_(std::move(desc)),
       mip_maps_(ForRowsAtOnce{}),
       all_materials_(std::make_shared<std::vector<Material>>())
 {
     limit_threads(0);
-    WorldBuilder(*this, nullptr).build(isa);
-}
-
-World::World(SharedSceneDesc desc, const World& like)
-    : desc_(std::move(desc)),
-      mip_maps_(ForRowsAtOnce{}),
-      all_materials_(std::make_shared<std::vector<Material>>())
-{
-    limit_threads(0);
-    WorldBuilder(*this, &like).build(like.isa());
+    WorldBuilder(*this, like).build(isa);
 }
 
 void World::set_geometry(std::shared_ptr<const SceneGeometry> geometry)

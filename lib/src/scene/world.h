@@ -24,6 +24,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bdpt {
@@ -50,10 +51,12 @@ struct SurfacePoint {
 class World {
 public:
     /// Throws `Error`: invalid_input, or errors of `EmbreeScene`.
-    explicit World(SharedSceneDesc desc, Isa isa = Isa::native);
+    explicit World(SharedSceneDesc desc, Isa isa = Isa::native)
+        : World(std::move(desc), isa, nullptr)
+    {}
     /// Constructs a world equal to a new one in less time: unchanged parts are shared with `like`,
     /// which may be destroyed.
-    World(SharedSceneDesc desc, const World& like);
+    World(SharedSceneDesc desc, const World& like) : World(std::move(desc), like.isa(), &like) {}
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
@@ -149,6 +152,7 @@ public:
 private:
     friend class WorldBuilder;
 
+    World(SharedSceneDesc desc, Isa isa, const World* like);
     [[nodiscard]] const Material& find_material(std::uint32_t instance) const noexcept;
     [[nodiscard]] const Material& find_material(const RayHit& hit) const noexcept;
     /// Returns the unit normal for shading, on the side of `ng`; arguments as in `PlacedMesh`.

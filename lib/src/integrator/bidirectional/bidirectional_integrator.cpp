@@ -148,12 +148,7 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
         start.moment = cache_.moment(shared.bundle);
     }
     const TimedCamera camera(camera_, start.moment.time);
-    SampleContext sample{.world = world_,
-                         .camera = camera.get(),
-                         .sampler = start.sampler,
-                         .time = start.moment.time,
-                         .wavelength = start.moment.wavelength,
-                         .rays = scratch.stats.rays};
+    SampleContext sample = start.context(world_, camera.get(), scratch.stats.rays);
 
     trace_camera_subpath(sample, start.raster,
                          {.max_vertices = wanted ? strategies_.camera_vertices() : 1,

@@ -133,12 +133,7 @@ void PathIntegrator::add_sample(int x, int y, const ScheduledSample& scheduled,
 {
     const SampleStart start(options_, filter_, world_, camera_, x, y, scheduled.index);
     const TimedCamera camera(camera_, start.moment.time);
-    SampleContext sample{.world = world_,
-                         .camera = camera.get(),
-                         .sampler = start.sampler,
-                         .time = start.moment.time,
-                         .wavelength = start.moment.wavelength,
-                         .rays = stats.rays};
+    SampleContext sample = start.context(world_, camera.get(), stats.rays);
     sink.begin_sample(x, y, scheduled);
     trace_path(sample, start.raster, sink);
     sink.end_sample();

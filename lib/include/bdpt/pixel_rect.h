@@ -8,6 +8,8 @@
 /// const bdpt::RenderOptions options = {.film = {.width = 1280, .height = 720, .crop = face}};
 /// @endcode
 
+#include <cstddef>
+
 namespace bdpt {
 
 /// Half-open rectangle of pixels: columns [x0, x1), rows [y0, y1). Pixel (0, 0) is at the top left.
@@ -22,6 +24,17 @@ struct PixelRect {
     [[nodiscard]] bool contains(int x, int y) const
     {
         return x >= x0 && x < x1 && y >= y0 && y < y1;
+    }
+    /// Returns the number of pixels.
+    [[nodiscard]] std::size_t area() const
+    {
+        return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+    }
+    /// Returns the number of pixels before one of these, row by row.
+    [[nodiscard]] std::size_t index(int x, int y) const
+    {
+        return static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width()) +
+               static_cast<std::size_t>(x - x0);
     }
     [[nodiscard]] bool operator==(const PixelRect&) const = default;
 };

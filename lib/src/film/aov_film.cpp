@@ -32,8 +32,7 @@ void merge_counts(std::vector<std::uint64_t>& to, const std::vector<std::uint64_
 AovFilm::AovFilm(const PixelRect& region, AovSet aovs, PixelCounts counts)
     : region_(region), aovs_(aovs), pixel_counts_(counts)
 {
-    const std::size_t pixels =
-        static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
+    const std::size_t pixels = region.area();
     const auto room = [&](Aov aov) { return aovs.contains(aov) ? pixels : 0; };
     for (std::size_t k = 0; k < aov_layers.size(); ++k) {
         if (aov_layers[k].mean != AovMean::none) {
@@ -48,15 +47,9 @@ AovFilm::AovFilm(const PixelRect& region, AovSet aovs, PixelCounts counts)
     ground_hits_.resize(room(Aov::shadow));
 }
 
-std::size_t AovFilm::index(int x, int y) const
-{
-    return static_cast<std::size_t>(y - region_.y0) * static_cast<std::size_t>(region_.width()) +
-           static_cast<std::size_t>(x - region_.x0);
-}
-
 void AovFilm::add(int x, int y, const PrimaryHit& hit) noexcept
 {
-    const std::size_t i = index(x, y);
+    const std::size_t i = region_.index(x, y);
     if (!hits_.empty()) {
         ++hits_[i];
     }
@@ -74,7 +67,7 @@ void AovFilm::add(int x, int y, const PrimaryHit& hit) noexcept
 
 void AovFilm::add_ground(int x, int y, const GroundLight& light) noexcept
 {
-    const std::size_t i = index(x, y);
+    const std::size_t i = region_.index(x, y);
     ++ground_hits_[i];
     ExactSum light_sum;
     light_sum.add_alone(std::min(light.unshadowed, ExactSum::max_value));
@@ -89,7 +82,7 @@ void AovFilm::add_ground(int x, int y, const GroundLight& light) noexcept
 
 void AovFilm::add_open_ground(int x, int y, float irradiance, std::int64_t rays) noexcept
 {
-    const std::size_t i = index(x, y);
+    const std::size_t i = region_.index(x, y);
     ground_hits_[i] += static_cast<std::uint64_t>(rays);
     ExactSum light;
     for (std::int64_t ray = 0; ray < rays; ++ray) {
@@ -101,12 +94,12 @@ void AovFilm::add_open_ground(int x, int y, float irradiance, std::int64_t rays)
 
 void AovFilm::add_opacity(int x, int y, float opacity) noexcept
 {
-    opacity_[index(x, y)].add_alone(opacity);
+    opacity_[region_.index(x, y)].add_alone(opacity);
 }
 
 void AovFilm::count_samples(int x, int y, std::int64_t count) noexcept
 {
-    counts_[index(x, y)] += static_cast<std::uint64_t>(count);
+    counts_[region_.index(x, y)] += static_cast<std::uint64_t>(count);
 }
 
 void AovFilm::merge(const AovFilm& other)
@@ -170,8 +163,7 @@ std::vector<std::string> AovFilm::plane_names() const
 void AovFilm::read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const
 {
     const Plane which = planes()[plane];
-    const std::size_t first =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(region_.width());
+    const std::size_t first = region_.index(region_.x0, region_.y0 + row);
     for (std::size_t x = 0; x < words.size(); ++x) {
         words[x] = which.counts
                        ? ExactSum::Words{.low = (this->*which.counts)[first + x], .high = 0}
@@ -183,8 +175,7 @@ void AovFilm::read_row(std::size_t plane, int row, std::span<ExactSum::Words> wo
 void AovFilm::add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words)
 {
     const Plane which = planes()[plane];
-    const std::size_t first =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(region_.width());
+    const std::size_t first = region_.index(region_.x0, region_.y0 + row);
     for (std::size_t x = 0; x < words.size(); ++x) {
         if (which.counts) {
             (this->*which.counts)[first + x] += words[x].low;
@@ -263,10 +254,8 @@ std::vector<Layer> AovFilm::develop(const Film& film) const
                     .width = region_.width(),
                     .height = region_.height(),
                     .values = {}};
-        const std::size_t pixels =
-            static_cast<std::size_t>(layer.width) * static_cast<std::size_t>(layer.height);
-        layer.values.reserve(pixels * info.channels.size());
-        for (std::size_t i = 0; i < pixels; ++i) {
+        layer.values.reserve(region_.area() * info.channels.size());
+        for (std::size_t i = 0; i < region_.area(); ++i) {
             for (std::size_t c = 0; c < info.channels.size(); ++c) {
                 layer.values.push_back(static_cast<float>(value(k, i, c)));
             }

@@ -59,8 +59,7 @@ void Film::Pixel::add(const Pixel& other) noexcept
 
 Film::Film(const FilmLayout& layout) : layout_(layout)
 {
-    const std::size_t pixels =
-        static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+    const std::size_t pixels = region().area();
     const bool apart = layout.splats == SplatImage::apart;
     for (std::size_t half = 0; half < 2; ++half) {
         resize_in_huge_pages(samples_[half], pixels);
@@ -86,12 +85,6 @@ Film& Film::operator=(Film&& other) noexcept
     saturated_ = other.saturated_.exchange(0);
     first_invalid_ = other.first_invalid_.exchange(~std::uint64_t{0});
     return *this;
-}
-
-std::size_t Film::index(int x, int y) const
-{
-    return static_cast<std::size_t>(y - region().y0) * static_cast<std::size_t>(width()) +
-           static_cast<std::size_t>(x - region().x0);
 }
 
 bool Film::accept(Rgb& value, int x, int y, std::int64_t sample_index, float scale) noexcept
@@ -136,7 +129,7 @@ Rgb Film::clamp(Rgb value, int y, float scale) noexcept
 void Film::add_sample(int x, int y, std::int64_t sample_index, Rgb radiance, float scale) noexcept
 {
     if (accept(radiance, x, y, sample_index, scale)) {
-        Pixel& pixel = samples_[find_half(sample_index)][index(x, y)];
+        Pixel& pixel = samples_[find_half(sample_index)][region().index(x, y)];
         if (layout_.splats == SplatImage::present) {
             pixel.add(radiance);  // other threads may splat into it
         } else {
@@ -157,7 +150,7 @@ Film::Pixel& Film::splats_at(Vec2 raster, std::int64_t sample_index) noexcept
 {
     auto& sums = layout_.splats == SplatImage::apart ? splats_ : samples_;
     return sums[find_half(sample_index)]
-               [index(static_cast<int>(raster.x), static_cast<int>(raster.y))];
+               [region().index(static_cast<int>(raster.x), static_cast<int>(raster.y))];
 }
 
 void Film::prefetch_splat(Vec2 raster, std::int64_t sample_index) noexcept
@@ -325,7 +318,7 @@ std::vector<std::string> Film::plane_names()
 
 void Film::read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const
 {
-    const std::size_t first = index(region().x0, region().y0 + row);
+    const std::size_t first = region().index(region().x0, region().y0 + row);
     for (std::size_t x = 0; x < words.size(); ++x) {
         words[x] = sum(plane / 3, first + x, plane % 3);
     }
@@ -333,7 +326,7 @@ void Film::read_row(std::size_t plane, int row, std::span<ExactSum::Words> words
 
 void Film::add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words)
 {
-    const std::size_t first = index(region().x0, region().y0 + row);
+    const std::size_t first = region().index(region().x0, region().y0 + row);
     for (std::size_t x = 0; x < words.size(); ++x) {
         samples_[plane / 3][first + x].rgb[plane % 3].add(words[x]);
     }

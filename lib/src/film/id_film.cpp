@@ -309,10 +309,8 @@ std::vector<NameId> sorted_ids(const std::vector<NamedId>& names)
 IdFilm::IdFilm(const PixelRect& region, AovSet aovs, IdNames names)
     : region_(region), names_(std::move(names))
 {
-    const std::size_t pixels =
-        static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
     for (std::size_t kind = 0; kind < id_kinds.size(); ++kind) {
-        pixels_[kind].resize(aovs.contains(id_aovs[kind]) ? pixels : 0);
+        pixels_[kind].resize(aovs.contains(id_aovs[kind]) ? region.area() : 0);
         known_[kind] = sorted_ids(names_[kind]);
     }
 }
@@ -325,7 +323,7 @@ bool IdFilm::needs_hits() const
 
 std::size_t IdFilm::row_begin(int row) const
 {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(region_.width());
+    return region_.index(region_.x0, region_.y0 + row);
 }
 
 void IdFilm::add(int x, int y, std::span<SurfaceIds> met)
@@ -333,7 +331,7 @@ void IdFilm::add(int x, int y, std::span<SurfaceIds> met)
     if (met.empty()) {
         return;
     }
-    const std::size_t i = row_begin(y - region_.y0) + static_cast<std::size_t>(x - region_.x0);
+    const std::size_t i = region_.index(x, y);
     for (std::size_t kind = 0; kind < id_kinds.size(); ++kind) {
         if (!pixels_[kind].empty()) {
             const auto id = members[kind];

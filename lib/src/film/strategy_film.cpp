@@ -10,11 +10,6 @@ namespace {
 
 constexpr std::size_t planes_of_strategy = 6;  // three channels, weighted and unweighted
 
-std::size_t area(const PixelRect& region)
-{
-    return static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
-}
-
 void add_finite(std::array<ExactSum, 3>& sums, Rgb value) noexcept
 {
     const auto sound = [](float x) { return x >= 0.0f && x <= std::numeric_limits<float>::max(); };
@@ -66,13 +61,13 @@ StrategyFilm::StrategyFilm(const PixelRect& region, std::span<const Strategy> st
     for (const auto [s, t] : strategies_) {
         stride_ = std::max({stride_, s + 1, t + 1});
     }
-    const std::size_t size = strategies_.size() * area(region_);
+    const std::size_t size = strategies_.size() * region_.area();
     pixels_.resize(size);
     begins_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_), size);
     std::size_t begin = 0;
     for (const auto [s, t] : strategies_) {
         begins_[static_cast<std::size_t>(s * stride_ + t)] = begin;
-        begin += area(region_);
+        begin += region_.area();
     }
 }
 
@@ -92,9 +87,8 @@ void StrategyFilm::add(Strategy strategy, Vec2 raster, const StrategyShare& shar
     if (begin == pixels_.size() || !inside) {
         return;
     }
-    const auto x = static_cast<std::size_t>(static_cast<int>(raster.x) - region_.x0);
-    const auto y = static_cast<std::size_t>(static_cast<int>(raster.y) - region_.y0);
-    Pixel& pixel = pixels_[begin + y * static_cast<std::size_t>(region_.width()) + x];
+    Pixel& pixel =
+        pixels_[begin + region_.index(static_cast<int>(raster.x), static_cast<int>(raster.y))];
     add_finite(pixel.weighted, share.weighted);
     add_finite(pixel.unweighted, share.unweighted);
 }
@@ -127,10 +121,9 @@ std::vector<std::string> StrategyFilm::plane_names() const
 
 StrategyFilm::PlaneRow StrategyFilm::plane_row(std::size_t plane, int row) const
 {
-    const std::size_t image = plane / planes_of_strategy * area(region_);
+    const std::size_t image = plane / planes_of_strategy * region_.area();
     const std::size_t channel = plane % planes_of_strategy;
-    return {.first_pixel =
-                image + static_cast<std::size_t>(row) * static_cast<std::size_t>(region_.width()),
+    return {.first_pixel = image + region_.index(region_.x0, region_.y0 + row),
             .sums = channel < 3 ? &Pixel::weighted : &Pixel::unweighted,
             .channel = channel % 3};
 }
@@ -157,7 +150,7 @@ Image StrategyFilm::develop(Strategy strategy, Sum3 Pixel::*sums) const
     if (begin == pixels_.size()) {
         throw Error(ErrorCode::usage, "no images of strategy " + strategy_name(strategy));
     }
-    Image image{region_.width(), region_.height(), std::vector<Rgb>(area(region_), Rgb(0.0f))};
+    Image image{region_.width(), region_.height(), std::vector<Rgb>(region_.area(), Rgb(0.0f))};
     for (std::size_t i = 0; samples_ > 0 && i < image.pixels.size(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
             image.pixels[i][static_cast<int>(c)] = static_cast<float>(

@@ -173,9 +173,7 @@ void check_part(const RenderResult& part, const Identity& identity, const Render
 std::uint64_t strategy_image_bytes(const RenderOptions& options, const CameraDesc& camera)
 {
     check_options(options);
-    const PixelRect region = options.film.crop.value_or(whole_image(options));
-    return StrategyFilm::bytes_per_pixel * static_cast<std::uint64_t>(region.width()) *
-           static_cast<std::uint64_t>(region.height()) *
+    return StrategyFilm::bytes_per_pixel * film_layout(options).region.area() *
            strategies_with_images(options, camera).size();
 }
 

@@ -123,7 +123,6 @@ private:
     /// Returns the index of a pixel's sum in a plane of `surface_`.
     [[nodiscard]] static std::size_t element(const Plane& plane, std::size_t pixel);
     /// Returns the index of a pixel in the region.
-    [[nodiscard]] std::size_t index(int x, int y) const;
     /// Returns the opacity of the shadow in a pixel with that many samples.
     [[nodiscard]] double shadow_opacity(std::size_t pixel, double samples) const;
 

@@ -169,7 +169,6 @@ private:
     [[nodiscard]] bool takes_splat(Vec2 raster) const noexcept;
     /// Returns the sum of splats at `raster`, a place that takes them.
     [[nodiscard]] Pixel& splats_at(Vec2 raster, std::int64_t sample_index) noexcept;
-    [[nodiscard]] std::size_t index(int x, int y) const;
 
     FilmLayout layout_;
     std::array<std::int64_t, 2> counts_{};

@@ -114,8 +114,7 @@ void check_value(std::string_view name, const Range& range, const T& value)
 void check_within_limit(const std::string& item, const char* what, float value)
 {
     if (!(std::abs(value) <= max_coordinate)) {
-        throw Error(ErrorCode::invalid_input, item + ": " + what + " is " + std::to_string(value) +
-                                                  " m, beyond what rays reach");
+        fail(item, ": ", what, " is ", std::to_string(value), " m, beyond what rays reach");
     }
 }
 
@@ -125,7 +124,7 @@ void check_pose(const std::string& item, const Mat4& world_from_camera)
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
             if (!std::isfinite(world_from_camera[column][row])) {
-                throw Error(ErrorCode::invalid_input, item + ": transform is not finite");
+                fail(item, ": transform is not finite");
             }
         }
     }
@@ -134,25 +133,21 @@ void check_pose(const std::string& item, const Mat4& world_from_camera)
     }
     const Vec3 side = cross(Vec3(world_from_camera[1]), Vec3(world_from_camera[2]));
     if (!(dot(side, side) > 0.0f)) {
-        throw Error(ErrorCode::invalid_input, item + ": transform has no inverse");
+        fail(item, ": transform has no inverse");
     }
 }
 
 void check_motion(const std::string& item, const CameraDesc& camera)
 {
     if (camera.motion.size() > max_time_steps) {
-        throw Error(ErrorCode::invalid_input,
-                    item + ": motion of " + std::to_string(camera.motion.size()) + " steps, but " +
-                        std::to_string(max_time_steps) + " is the most");
+        fail(item, ": motion of ", camera.motion.size(), " steps, but ", max_time_steps,
+             " is the most");
     }
     for (std::size_t i = 0; i < camera.motion.size(); ++i) {
         const std::string step = item + ": motion, step " + std::to_string(i);
         check_pose(step, camera.motion[i]);
         if (!can_move(i == 0 ? camera.world_from_camera : camera.motion[i - 1], camera.motion[i])) {
-            throw Error(ErrorCode::invalid_input,
-                        step +
-                            ": an interpolated transform before it has no inverse; use more "
-                            "steps");
+            fail(step, ": an interpolated transform before it has no inverse; use more steps");
         }
     }
 }
@@ -206,26 +201,21 @@ void check_takes_rates(IntegratorKind integrator)
 void check_camera(const CameraDesc& camera)
 {
     const std::string item = label(camera);
-    const auto check_coordinates = [&](const char* what, float value) {
-        check_within_limit(item, what, value);
-    };
     check_pose(item, camera.world_from_camera);
     check_motion(item, camera);
     const auto check_length = [&](const char* what, float value, bool zero_is_fine) {
         if (!(value > 0.0f || (zero_is_fine && value == 0.0f)) || !std::isfinite(value)) {
-            throw Error(ErrorCode::invalid_input,
-                        item + ": " + what + " is " + std::to_string(value) + " m");
+            fail(item, ": ", what, " is ", std::to_string(value), " m");
         }
     };
     check_length("lens radius", camera.lens_radius, true);
     check_length("focus distance", camera.focus_distance, false);
     check_length("vertical extent", camera.vertical_extent, false);
-    check_coordinates("lens radius", camera.lens_radius);
-    check_coordinates("vertical extent", camera.vertical_extent);
+    check_within_limit(item, "lens radius", camera.lens_radius);
+    check_within_limit(item, "vertical extent", camera.vertical_extent);
     if (!(camera.vertical_fov > 0.0f && camera.vertical_fov < pi)) {
-        throw Error(ErrorCode::invalid_input, item + ": vertical field of view is " +
-                                                  std::to_string(camera.vertical_fov) +
-                                                  " rad, not in (0, pi)");
+        fail(item, ": vertical field of view is ", std::to_string(camera.vertical_fov),
+             " rad, not in (0, pi)");
     }
     check_own_limits(item, camera);
 }
@@ -236,11 +226,9 @@ void check_camera_distance(const CameraDesc& camera, float farthest)
         const Vec3 position = abs(Vec3(world_from_camera[3]));
         const float distance = std::max({position.x, position.y, position.z});
         if (!(distance <= farthest)) {
-            std::ostringstream text;
-            text << label(camera) << ": is " << distance << " m from the origin, but " << farthest
-                 << " m is the most in this scene, because an instanced or moving mesh is scaled "
-                    "down very much";
-            throw Error(ErrorCode::invalid_input, text.str());
+            fail(label(camera), ": is ", distance, " m from the origin, but ", farthest,
+                 " m is the most in this scene, because an instanced or moving mesh is scaled "
+                 "down very much");
         }
     };
     check(camera.world_from_camera);

@@ -1,8 +1,7 @@
 #include "scene/scene_names.h"
 
+#include "scene/checks/value_checks.h"
 #include "scene/light_set.h"
-
-#include <bdpt/error.h>
 
 #include <algorithm>
 #include <array>
@@ -127,10 +126,8 @@ IdNames SceneNames::names(AovSet aovs) const
         }
     }
     if (text > max_text_bytes) {
-        throw Error(ErrorCode::invalid_input, "the names of objects and materials have " +
-                                                  std::to_string(text) +
-                                                  " bytes, but Cryptomatte layers hold at most " +
-                                                  std::to_string(max_text_bytes));
+        fail("the names of objects and materials have ", text,
+             " bytes, but Cryptomatte layers hold at most ", max_text_bytes);
     }
     return result;
 }

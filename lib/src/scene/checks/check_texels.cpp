@@ -1,6 +1,6 @@
 #include "scene/checks/validate.h"
 
-#include <bdpt/error.h>
+#include "scene/checks/value_checks.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,27 +27,19 @@ namespace {
     return !negative && (bits & full_exponent) != full_exponent;
 }
 
-[[nodiscard]] std::string size_text(const TexelImage& image)
-{
-    return std::to_string(image.width) + " x " + std::to_string(image.height);
-}
-
 }  // namespace
 
 void check_texels(const TexelImage& image, const std::string& item)
 {
-    const auto fail = [&item](const std::string& text) {
-        throw Error(ErrorCode::invalid_input, item + ": " + text);
-    };
     if (image.channels < 1 || image.channels > 4) {
-        fail(std::to_string(image.channels) + " channels, but there must be 1 to 4");
+        fail(item, ": ", image.channels, " channels, but there must be 1 to 4");
     }
     const std::size_t value_bytes = count_value_bytes(image.type);
     const std::size_t texel_bytes = static_cast<std::size_t>(image.channels) * value_bytes;
     if (image.width < 1 || image.height < 1 ||
-        image.bytes.size() != static_cast<std::size_t>(image.width) *
-                                  static_cast<std::size_t>(image.height) * texel_bytes) {
-        fail(size_text(image) + " texels with " + std::to_string(image.bytes.size()) + " bytes");
+        image.bytes.size() != area(image.width, image.height) * texel_bytes) {
+        fail(item, ": ", image.width, " x ", image.height, " texels with ", image.bytes.size(),
+             " bytes");
     }
     if (image.type != TexelType::half && image.type != TexelType::float32) {
         return;
@@ -56,8 +48,8 @@ void check_texels(const TexelImage& image, const std::string& item)
         if (!is_usable(image.bytes.data() + i, image.type)) {
             const std::size_t texel = i / texel_bytes;
             const auto columns = static_cast<std::size_t>(image.width);
-            fail("texel (" + std::to_string(texel % columns) + ", " +
-                 std::to_string(texel / columns) + ") has a value that is negative or not finite");
+            fail(item, ": texel (", texel % columns, ", ", texel / columns,
+                 ") has a value that is negative or not finite");
         }
     }
 }

@@ -1,8 +1,7 @@
-#include "light/environment/environment_visibility.h"
+#include "light/learned/learned_light.h"
 
 #include "catch.hpp"
 #include "chi_square.h"
-#include "light/learned/learned_light.h"
 #include "math/sampler.h"
 #include "scene/world.h"
 #include "scene_builder.h"

@@ -14,7 +14,8 @@ import tempfile
 import zlib
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "scenes"))
+SCENES = pathlib.Path(__file__).resolve().parents[3] / "scenes"
+sys.path.insert(0, str(SCENES))
 from png import png_file
 
 COMMAND, SMOKE = sys.argv[1:3]
@@ -124,6 +125,8 @@ def check_estimates(folder):
         "a film": [least, "--size", "1024x1024", "--integrator", "pt"],
         "a film with splats": [least, "--size", "768x768", "--integrator", "bdpt"],
         "layers": [least, "--size", "768x768", "--integrator", "pt", "--aov", "albedo,normal,depth,position"],
+        "shared light paths": [SCENES / "cornell-box.gltf", "--size", "1024x1024", "--integrator", "bdpt", "--light-paths",
+                               "0.25", "--connections", "8", "--connection-rays", "4"],
     }
     for name, words in cases.items():
         done = Run(folder, *words)

@@ -376,7 +376,9 @@ std::optional<JobImage> render_view(const RenderArguments& given, const Prepared
                                          .choose = choosing,
                                          .render = result.seconds,
                                          .write = writing}));
-        stats["memory"] = {{"estimated_bytes", stage.memory.spent()},
+        const std::uint64_t while_rendering = light_path_bytes(arguments.options) +
+                                              strategy_image_bytes(arguments.options, stage.camera);
+        stats["memory"] = {{"estimated_bytes", stage.memory.spent() + while_rendering},
                            {"limit_bytes", stage.memory.limit().bytes},
                            {"limit", stage.memory.limit().source}};
         if (arguments.part) {

@@ -159,7 +159,7 @@ def check_refusals(folder):
                                 "the environment needs 185 MB", "of 157 MB are left (--max-memory)")
     yield "a film beyond the machine", refused([least, "--size", "65535x65535"], 7, "the film of 65535x65535 pixels",
                                                "needs 464 GB of memory, but the limit is")
-    yield "a film beyond ulimit -v", refused([least, "--size", "4000x4000"], 7, "the film of 4000x4000 pixels",
+    yield "a film beyond ulimit -v", refused([least, "--size", "6000x6000"], 7, "the film of 6000x6000 pixels",
                                              "ulimit -v", address_space=2_000_000_000)
     many = write_scene(folder, "many.gltf", instances=20_000)
     yield "instances beyond --max-memory", refused([many, *small, "--max-memory", "15M"], 4, "many.gltf: ",

@@ -12,7 +12,7 @@ namespace {
 std::int64_t batches_of(double pixels, int bundle, std::int64_t bundles)
 {
     constexpr double least_pixels = 1 << 18;
-    constexpr double least_paths = 1 << 16;
+    constexpr double least_paths = 1 << 15;
     constexpr double least_bundles = 1 << 8;
     const auto count = static_cast<double>(bundles);
     const double most =

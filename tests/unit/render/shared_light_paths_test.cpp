@@ -281,10 +281,12 @@ TEST_CASE("a batch has the light paths of its pixels, in the memory of earlier o
     counts.batches = GENERATE(1, 2, 8);
     CAPTURE(counts.bundles, counts.batches);
     LightPathCache cache(counts, o);
-    CHECK(cache.first_chunk(counts.batches) == cache.chunks());
+    std::int64_t filled = 0;
     for (std::int64_t batch = 0; batch < counts.batches; ++batch) {
-        for (std::int64_t chunk = cache.first_chunk(batch); chunk < cache.first_chunk(batch + 1);
-             ++chunk) {
+        const ChunkRange chunks = cache.begin_batch(batch);
+        CHECK(chunks.begin == filled);
+        filled = chunks.end;
+        for (std::int64_t chunk = chunks.begin; chunk < chunks.end; ++chunk) {
             cache.begin_chunk(chunk);
             const std::int64_t first = chunk * LightPathCache::chunk_bundles;
             for (std::int64_t bundle = first;
@@ -312,6 +314,7 @@ TEST_CASE("a batch has the light paths of its pixels, in the memory of earlier o
         CHECK(pixels == 256 * 256 / counts.batches);
         CHECK(wrong == 0);
     }
+    CHECK(filled == cache.chunks());
 }
 
 TEST_CASE("a large image has batches of light paths, with tiles of any size", "[light-paths]")

@@ -81,7 +81,7 @@ ChunkRange BidirectionalIntegrator::begin_batch(SampleRange samples, std::int64_
     if (!cache_.counts().kept()) {
         return {.begin = 0, .end = cache_.chunks() * (samples.end - samples.begin)};
     }
-    return {.begin = cache_.first_chunk(batch), .end = cache_.first_chunk(batch + 1)};
+    return cache_.begin_batch(batch);
 }
 
 void BidirectionalIntegrator::end_chunks()

@@ -7,10 +7,10 @@
 #include "path/strategy_set.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace bdpt {
 
@@ -75,14 +75,31 @@ LightPathCache::LightPathCache(const LightPathCounts& counts, const RenderOption
 {
     if (counts.kept()) {
         // A batch may begin and end within chunks.
-        const std::int64_t of_batch =
-            counts.batches == 1 ? chunks() : chunks() / counts.batches + 3;
-        const std::size_t size = std::bit_ceil(static_cast<std::size_t>(of_batch));
-        chunks_.reserve(size);
-        for (std::size_t chunk = 0; chunk < size; ++chunk) {
+        const std::int64_t bundles = (counts.bundles + counts.batches - 1) / counts.batches;
+        const std::int64_t size =
+            std::min(chunks(), (bundles + chunk_bundles - 1) / chunk_bundles + 1);
+        chunks_.reserve(static_cast<std::size_t>(size));
+        for (std::int64_t chunk = 0; chunk < size; ++chunk) {
             chunks_.emplace_back(*pool_);
         }
     }
+}
+
+ChunkRange LightPathCache::begin_batch(std::int64_t batch)
+{
+    const auto first_after = [this](std::int64_t batches) {
+        const std::int64_t bundle = counts_.bundles * batches / counts_.batches;
+        return std::min(chunks(), bundle / chunk_bundles + 1);
+    };
+    const std::int64_t end = first_after(batch + 1);
+    if (batch == 0) {
+        first_ = 0;
+        return {.begin = 0, .end = end};
+    }
+    const std::int64_t begin = first_after(batch);
+    std::swap(chunks_.front(), chunk_at(begin - 1));
+    first_ = begin - 1;
+    return {.begin = begin, .end = end};
 }
 
 int LightPathCache::usual_vertices(const RenderOptions& options)

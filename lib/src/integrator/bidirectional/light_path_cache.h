@@ -1,6 +1,7 @@
 #pragma once
 
 #include "integrator/bidirectional/pixel_groups.h"
+#include "integrator/integrator.h"
 #include "integrator/sample_schedule.h"
 #include "math/low_level.h"
 #include "memory/huge_page_pool.h"
@@ -81,14 +82,9 @@ public:
     {
         return (counts_.bundles + chunk_bundles - 1) / chunk_bundles;
     }
-    /// Returns the number of the first chunk to be filled for the batch; after the last batch the
-    /// number of chunks. The chunk before it may have bundles of the batch, too, and stays.
-    [[nodiscard]] std::int64_t first_chunk(std::int64_t batch) const
-    {
-        return batch == 0 ? 0
-                          : std::min(chunks(),
-                                     counts_.bundles * batch / counts_.batches / chunk_bundles + 1);
-    }
+    /// Returns the chunks to be filled for the batch, in the memory of the batch before it. The last
+    /// chunk of that one stays, as it may have bundles of both. Batches begin in order.
+    [[nodiscard]] ChunkRange begin_batch(std::int64_t batch);
     /// Returns the batch that has the light paths of the pixel.
     [[nodiscard]] std::int64_t batch(int x, int y) const
     {
@@ -195,14 +191,13 @@ private:
     {
         return chunk_at(bundle / chunk_bundles);
     }
-    /// A chunk takes the memory of one that no batch needs any more.
     [[nodiscard]] const Chunk& chunk_at(std::int64_t number) const
     {
-        return chunks_[static_cast<std::size_t>(number) & (chunks_.size() - 1)];
+        return chunks_[static_cast<std::size_t>(number - first_)];
     }
     [[nodiscard]] Chunk& chunk_at(std::int64_t number)
     {
-        return chunks_[static_cast<std::size_t>(number) & (chunks_.size() - 1)];
+        return chunks_[static_cast<std::size_t>(number - first_)];
     }
     [[nodiscard]] static std::size_t index_in_chunk(std::int64_t bundle)
     {
@@ -221,7 +216,8 @@ private:
     std::uint64_t seed_;
     std::uint32_t group_seed_;
     std::unique_ptr<HugePagePool> pool_ = std::make_unique<HugePagePool>();
-    std::vector<Chunk> chunks_;  // a power of two: those of a batch, and more
+    std::vector<Chunk> chunks_;  // as many as the largest batch has
+    std::int64_t first_ = 0;     // number of the first of them
 };
 
 }  // namespace bdpt

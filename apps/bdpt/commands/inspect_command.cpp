@@ -59,6 +59,11 @@ void add_what(OptionList& options, InspectRequest& arguments)
     pixel.required = true;
     options.add("--sample", "I", "Index of its sample. Default: 0", sample.index,
                 whole_number(0, (std::int64_t{1} << 32) - 2));
+    options.add(
+        "--spp", "N",
+        "Samples per pixel of the render that has this sample: its random numbers depend on "
+        "them. Default: 64",
+        arguments.render.spp, whole_number(1, std::int64_t{1} << 31));
     options.add("-o,--output", "FILE",
                 "Image of the directions at a vertex: .png, or .exr with the values",
                 arguments.directions,
@@ -73,7 +78,7 @@ void add_what(OptionList& options, InspectRequest& arguments)
 
 constexpr const char* inspect_footer = R"(Examples:
   bdpt inspect room.glb --pixel 640,360
-  bdpt inspect room.glb --pixel 12,30 --size 64x64 --integrator bdpt --sample 7 --json
+  bdpt inspect room.glb --pixel 12,30 --size 64x64 --spp 16 --integrator bdpt --sample 7 --json
   bdpt inspect room.glb --pixel 640,360 -o directions.png
 
 Prints one sample of a pixel: the vertices of its camera path and its light path, and the
@@ -138,6 +143,7 @@ int run_inspect(const InspectRequest& arguments, const OptionList& given, const 
     check_directions(input_files(what, stage));
     tell_findings(console, stage);
     RenderOptions options = what.options;
+    options.sampling.samples = what.samples;
     options.film.width = stage.size.width;
     options.film.height = stage.size.height;
     const bool chosen = options.integrator == IntegratorKind::automatic;

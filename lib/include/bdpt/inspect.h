@@ -29,7 +29,7 @@ namespace bdpt {
 struct PixelSample {
     int x = 0;               ///< [pixels], from the left
     int y = 0;               ///< [pixels], from the top
-    std::int64_t index = 0;  ///< as in `SampleRange`
+    std::int64_t index = 0;  ///< among the samples of the pixel
 };
 
 /// The kind of place where a vertex lies.
@@ -78,10 +78,11 @@ struct InspectedSample {
     Rgb value{0.0f};  ///< weighted sum of the contributions [nit]
 };
 
-/// Traces the sample as render() does, with the same random numbers; ignores
-/// `options.sampling.samples`. IntegratorKind::automatic is resolved as usual. Throws `Error` like
-/// render(), and usage for a pixel outside of the image or for vcm, whose merged paths belong to no
-/// strategy.
+/// Traces the sample as render() does, with the same random numbers, which depend on
+/// `options.sampling.planned_samples`. `options.sampling.samples` only decide whether the render
+/// has rates (`with_rates`); with rates, the light paths that pixels share are others.
+/// IntegratorKind::automatic is resolved as usual. Throws `Error` like render(), and usage for a
+/// pixel outside of the image or for vcm, whose merged paths belong to no strategy.
 [[nodiscard]] BDPT_EXPORT InspectedSample inspect_sample(const Scene& scene,
                                                          const CameraDesc& camera,
                                                          const RenderOptions& options,

@@ -64,7 +64,12 @@ RenderOptions inspected_options(const Scene& scene, const CameraDesc& camera, Re
         PixelRect{.x0 = sample.x, .y0 = sample.y, .x1 = sample.x + 1, .y1 = sample.y + 1};
     options.film.aovs = {};
     options.sampling.samples = {.begin = sample.index, .end = sample.index + 1};
-    options.sampling.rates = nullptr;
+    if (options.sampling.rates) {
+        // The pixel's own number of samples, which has the same random numbers without rates.
+        const int log = log_samples(options.sampling, sample.x, sample.y);
+        options.sampling.planned_samples = log == Sampler::open_ended ? 0 : std::int64_t{1} << log;
+        options.sampling.rates = nullptr;
+    }
     options.system.threads = 1;
     if (options.integrator == IntegratorKind::vcm) {
         throw Error(ErrorCode::usage,

@@ -44,6 +44,26 @@ TEST_CASE("inspect tells the paths of a sample and what strategies bring", "[ins
     CHECK(sum == Approx(report["value"][0].get<double>()));
 }
 
+TEST_CASE("inspect tells the samples of a render with as many", "[inspect]")
+{
+    const ScratchFolder folder;
+    write_cube(folder, "cube", {.cameras = two_cameras});
+    const std::string exr = (folder / "cube.exr").string();
+    const std::string samples = GENERATE("4", "16");
+    REQUIRE(run({"render", (folder / "cube.gltf").string(), "--size", "16x16", "--integrator",
+                 "mis", "--spp", samples, "-o", exr})
+                .exit_code == 0);
+    float sum = 0.0f;
+    for (int index = 0; index < std::stoi(samples); ++index) {
+        const Outcome json =
+            inspect(folder, {"--pixel", "8,8", "--integrator", "mis", "--spp", samples, "--sample",
+                             std::to_string(index), "--json"});
+        REQUIRE(json.exit_code == 0);
+        sum += nlohmann::json::parse(json.out)["value"][1].get<float>();
+    }
+    CHECK(sum / std::stof(samples) == Approx(read_exr(exr).image.at(8, 8).g).epsilon(1e-5));
+}
+
 TEST_CASE("columns of long numbers do not run together", "[inspect]")
 {
     InspectedSample sample;

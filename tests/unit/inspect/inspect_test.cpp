@@ -1,5 +1,6 @@
 #include <bdpt/error.h>
 #include <bdpt/inspect.h>
+#include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
 
 #include "catch.hpp"
@@ -7,8 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 namespace bdpt::inspect_test {
 namespace {
@@ -92,6 +96,31 @@ TEST_CASE("an inspected sample is what the film gets", "[inspect]")
         }
     }
     CHECK(lit >= 1);
+}
+
+TEST_CASE("the inspected samples of a pixel are those of a render with rates", "[inspect]")
+{
+    const Scene scene = floor_under_sky();
+    RenderOptions options = options_of(IntegratorKind::mis);
+    options.sampling.samples = {.begin = 0, .end = 8};
+    options.sampling.planned_samples = 8;
+    std::vector<std::int8_t> exponents(size * size, 0);
+    constexpr int row = 15;
+    exponents[row * size + 3] = -1;
+    exponents[row * size + 4] = 1;
+    options.sampling.rates = std::make_shared<const SampleRates>(size, size, exponents);
+    const Image image = render(scene, test::room_camera(), options).film.develop();
+    for (const auto& [x, samples] : {std::pair(3, 4), {4, 16}, {5, 8}}) {
+        float sum = 0.0f;
+        for (int index = 0; index < samples; ++index) {
+            sum += inspect_sample(scene, test::room_camera(), options,
+                                  {.x = x, .y = row, .index = index})
+                       .value.g;
+        }
+        CAPTURE(x);
+        CHECK(sum > 0.0f);
+        CHECK(sum / static_cast<float>(samples) == Approx(image.at(x, row).g).epsilon(1e-5));
+    }
 }
 
 TEST_CASE("directions of a floor under a sky are those of the closed form", "[inspect]")

@@ -107,6 +107,18 @@ def start(*words):
                             stderr=subprocess.DEVNULL)
 
 
+def wait_until_handled(process, number):
+    """Waits until the process blocks the signal or has a handler for it."""
+    def masks():
+        for line in pathlib.Path(f"/proc/{process.pid}/status").read_text().splitlines():
+            name, _, mask = line.partition(":")
+            if name in ("SigBlk", "SigCgt"):
+                yield int(mask, 16)
+
+    while process.poll() is None and not any(mask >> (number - 1) & 1 for mask in masks()):
+        time.sleep(0.01)
+
+
 def wait_until_full(pipe):
     """Waits until nothing has been written into a pipe for a while."""
     before, now = None, 0
@@ -122,6 +134,7 @@ def check_readers_that_stall(folder):
     os.mkfifo(folder / "nobody.exr")
     render = ["render", SCENE, "--size", "1200x900", "--spp", "1", "--integrator", "pt"]
     stalled = start(*render, "-o", folder / "nobody.exr")
+    wait_until_handled(stalled, signal.SIGTERM)
     time.sleep(0.5)
     yield "a named pipe that nobody reads", end_of(stalled, signal.SIGTERM, signal.SIGTERM) == code
     stalled = start(*render, "-o", "-")
